@@ -61,9 +61,17 @@ std::vector<std::string> rows_of(const Case& c) {
 TEST(ToToml, GivesBackEveryLeafOfTheSuite) {
     const Suite suite = load_suite(test_support::source_dir() + "/cases/suite");
     ASSERT_TRUE(suite.errors.empty());
+    size_t tried_leaves = 0;
     size_t written_leaves = 0;
     size_t leaves_in_clip = 0;
-    for (const Case& c : suite.cases) {
+#ifdef __SANITIZE_ADDRESS__
+    constexpr size_t kEvery = 8;  // under the sanitizers each leaf takes ten times as long
+#else
+    constexpr size_t kEvery = 1;
+#endif
+    for (size_t k = 0; k < suite.cases.size(); k += kEvery) {
+        const Case& c = suite.cases[k];
+        ++tried_leaves;
         const Expected<std::string> text = to_toml(c);
         if (!text) {
             const auto is_large = [](const Draw& d) {
@@ -88,7 +96,7 @@ TEST(ToToml, GivesBackEveryLeafOfTheSuite) {
         ++written_leaves;
         leaves_in_clip += text->find("= \"clip\"") != std::string::npos ? 1U : 0U;
     }
-    EXPECT_GT(written_leaves * 100, suite.cases.size() * 99);
+    EXPECT_GT(written_leaves * 100, tried_leaves * 99);
     EXPECT_GT(leaves_in_clip, 0U);
     EXPECT_LT(leaves_in_clip * 10, written_leaves);
 }
