@@ -3,7 +3,6 @@
 #include "cli/explain_text.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -16,6 +15,7 @@
 #include "ref/expectation/expectation.hpp"
 #include "ref/expectation/explain.hpp"
 #include "ref/reason/reason.hpp"
+#include "ref/stencil/values_text.hpp"
 #include "report/text/wrap.hpp"
 
 namespace cli {
@@ -46,24 +46,6 @@ std::string allowed_hits(const ref::HitBounds& b) {
                             range(b.front_min, b.front_max), range(b.back_min, b.back_max));
     }
     return text;
-}
-
-// "is 3", "is 3 or 4", "is one of 17 values".
-std::string stencil_text(const ref::stencil::Values& values) {
-    constexpr size_t kShown = 8;
-    if (values.all()) {
-        return "may be anything";
-    }
-    if (values.count() > kShown) {
-        return fmt::format("is one of {} values", values.count());
-    }
-    std::vector<size_t> numbers;
-    for (size_t k = 0; k < values.size(); ++k) {
-        if (values[k]) {
-            numbers.push_back(k);
-        }
-    }
-    return fmt::format("is {}", fmt::join(numbers, " or "));
 }
 
 // Fractions get long where w is not a power of two; the tail helps nobody.
@@ -292,7 +274,9 @@ std::string explain_text(const cases::Case& c, const ref::Limits& limits, cases:
     text += "\n" + conclusion(s.hits) + "\n";
     text += allowed_hits(s.hits) + "\n";
     if (s.stencils) {
-        text += "the stencil then " + stencil_text(*s.stencils) + "\n";
+        text += s.stencils->all()
+                    ? "the stencil may be anything then\n"
+                    : "the stencil then is " + ref::stencil::to_text(*s.stencils, " or ", 8) + "\n";
     }
     for (const cases::Profile looser : cases::kProfiles) {
         if (looser < profile) {

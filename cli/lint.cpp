@@ -16,6 +16,7 @@
 #include "cases/base/counted.hpp"
 #include "cases/load/loader.hpp"
 #include "cases/model/rule.hpp"
+#include "cases/model/sample.hpp"
 #include "cases/model/selector.hpp"
 #include "cli/commands.hpp"
 #include "cli/prepare/claims.hpp"
@@ -106,11 +107,15 @@ cases::Errors check_case(const cases::Case& c, const ref::Exercise& exercise) {
     for (const cases::Profile profile : cases::kProfiles) {
         if (exercise.must_samples.at(static_cast<size_t>(profile)) == 0 &&
             fails_every_depth_test(c, profile)) {
+            const bool has_bounds = cases::tests_bounds(c);
             errors.push_back(
-                {c.where, fmt::format("{}: at profile {} every fragment fails the depth test, so a "
-                                      "device that draws nothing would pass; depth is cleared to "
-                                      "{}: choose another depth_clear or compare",
-                                      c.id, cases::to_string(profile), c.target.depth_clear)});
+                {c.where,
+                 fmt::format(
+                     "{}: at profile {} every fragment fails the depth test{}, so a device "
+                     "that draws nothing would pass; depth is cleared to {}: choose another "
+                     "depth_clear{} or compare",
+                     c.id, cases::to_string(profile), has_bounds ? " or that of its bounds" : "",
+                     c.target.depth_clear, has_bounds ? ", bounds" : "")});
             return errors;
         }
         if (exercise.must_samples.at(static_cast<size_t>(profile)) == 0) {

@@ -106,7 +106,10 @@ std::optional<Finding> LastFragment::judge_older_depth(cases::SampleId id,
     Finding finding = finding_at(FindingKind::value, case_.target, id);
     finding.level = cases::Profile::vulkan;
     finding.quantity = "depth";
-    finding.expected = expected.depth_may_be_clear ? "the clear value" : "";
+    std::vector<std::string> allowed;  // each once, though two planes may have it
+    if (expected.depth_may_be_clear) {
+        allowed.emplace_back("the clear value");
+    }
     for (uint32_t k = 0; k < expected.depth_count; ++k) {
         const uint32_t t = expectation_.depth_writers[expected.depth_begin + k];
         judges_older_depth_ = true;
@@ -118,11 +121,12 @@ std::optional<Finding> LastFragment::judge_older_depth(cases::SampleId id,
         const ref::ValueMismatch& m = v.mismatches.front();
         finding.level =
             k == 0 && !expected.depth_may_be_clear ? m.level : std::max(finding.level, m.level);
-        if (finding.expected.find(m.expected) == std::string::npos) {  // of two equal planes
-            finding.expected += (finding.expected.empty() ? "" : ", or ") + m.expected;
+        if (std::ranges::find(allowed, m.expected) == allowed.end()) {
+            allowed.push_back(m.expected);
         }
         finding.ratio = m.ratio;
     }
+    finding.expected = fmt::format("{}", fmt::join(allowed, ", or "));
     finding.got = cases::number_text(device.depth);
     tell(finding, cases::stores_discarded(case_) ? ref::ReasonKind::depth_of_discarded
                   : cases::tests_bounds(case_)   ? ref::ReasonKind::depth_of_bounded

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "ref/exercise/changes.hpp"
+#include "ref/stencil/values_text.hpp"
 
 namespace diff {
 
@@ -33,17 +34,6 @@ constexpr std::array kChanges = {
 };
 
 constexpr size_t kMostTold = 8;  // values of a set
-
-std::string to_text(const ref::stencil::Values& values) {
-    std::string out;
-    size_t told = 0;
-    for (size_t value = 0; value < values.size(); ++value) {
-        if (values[value] && told++ < kMostTold) {
-            out += fmt::format("{}{}", out.empty() ? "" : ", ", value);
-        }
-    }
-    return told > kMostTold ? fmt::format("{} and {} others", out, told - kMostTold) : out;
-}
 
 }  // namespace
 
@@ -97,7 +87,8 @@ std::optional<Finding> StencilComparison::judge(size_t index, cases::SampleId id
         }
     }
     finding.quantity = "stencil";
-    finding.expected = to_text(allowed(attribution_.at(finding.level)));
+    finding.expected =
+        ref::stencil::to_text(allowed(attribution_.at(finding.level)), ", ", kMostTold);
     finding.got = fmt::format("{}", got);
     tell(finding, reason_of(index, got, finding.level));
     return finding;

@@ -121,7 +121,7 @@ std::optional<Rejection> check_target(const Capabilities& c, const cases::Case& 
     if (auto rejection = check_locations(c, t)) {
         return rejection;
     }
-    const std::vector<Attachment> attachments = attachments_of(test, instrument_layout(c, test));
+    const std::vector<Attachment> attachments = attachments_of(test, target_layout(c, test));
     if (attachments.empty()) {
         return invalid("the target has no attachments");
     }
@@ -378,7 +378,7 @@ size_t most_hits(const cases::Case& c) {
 
 // Hits and ids have to fit into the numbers that tell them.
 std::optional<Rejection> check_counting(const Capabilities& device, const cases::Case& c,
-                                        const InstrumentLayout& layout) {
+                                        const TargetLayout& layout) {
     if (!c.target.has_instruments) {
         return std::nullopt;
     }
@@ -438,7 +438,7 @@ std::optional<Rejection> check_case(const Capabilities& capabilities, const case
             "multiViewport and shaderOutputViewportIndex)",
             viewports, capabilities.max_viewports);
     }
-    const InstrumentLayout layout = instrument_layout(capabilities, c);
+    const TargetLayout layout = target_layout(capabilities, c);
     if (auto rejection = check_counting(capabilities, c, layout)) {
         return rejection;
     }

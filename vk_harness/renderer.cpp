@@ -108,7 +108,7 @@ bool BatchRenderer::plan(CasePlan& plan, Rendered& result) {
     }
     const bool is_fed = is_feeding(test.variation.door);
     plan.input_count = input_count(test);
-    const InstrumentLayout layout = instrument_layout(device_->capabilities(), test);
+    const TargetLayout layout = target_layout(device_->capabilities(), test);
     for (const cases::Draw& draw : test.draws) {
         auto pipeline = pipelines_.get(pipeline_key(test, draw, layout));
         if (!pipeline) {
@@ -387,7 +387,7 @@ std::vector<Rendered> BatchRenderer::render(std::span<const cases::Case> batch, 
         item.slot = slot;
         const VkDeviceSize size = attachment_bytes(
             item.test->target,
-            attachments_of(*item.test, instrument_layout(device_->capabilities(), *item.test)));
+            attachments_of(*item.test, target_layout(device_->capabilities(), *item.test)));
         const bool is_alone = is_drawn_alone(batch[slot]);
         const auto flush = [&] {
             run_chunk(plans, read_back, results, step, store);

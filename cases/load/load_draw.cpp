@@ -76,6 +76,7 @@ class DrawLoader {
         check_space(name, notes);
         if (!draw_.positions.empty()) {
             refuse_with_surface();
+            check_shader();
             check_written_depth();
             return std::move(draw_);
         }
@@ -87,7 +88,7 @@ class DrawLoader {
         if (const TomlValue* value = table_.find("attribute")) {
             draw_.attributes = read_attributes(context_, *value, source);
         }
-        check_discard();
+        check_shader();
         read_color();
         if (!context_.errors().empty()) {
             return std::move(draw_);
@@ -116,15 +117,26 @@ class DrawLoader {
         return value == nullptr ? 0 : context_.word(*value, key, words).value_or(0);
     }
 
-    // No shader is built that discards and has these (cmake/Shaders.cmake).
-    void check_discard() {
+    // No shader is built that discards or writes depth and has these (cmake/Shaders.cmake).
+    void check_shader() {
         const bool has_other = std::ranges::any_of(draw_.attributes, [](const Attribute& a) {
             return a.source != Source::vertex || a.probe != Probe::value;
         });
-        if (draw_.discard != Discard::none && (has_other || draw_.multisample.shader_mask)) {
-            context_.error(table_.find("discard")->where,
-                           "a shader that discards has plain values and writes no gl_SampleMask "
-                           "here; leave out discard, or every source, probe and shader_mask");
+        if (!has_other && !draw_.multisample.shader_mask) {
+            return;
+        }
+        const auto refuse = [&](const char* key, std::string_view does) {
+            context_.error(table_.find(key)->where,
+                           fmt::format("a shader that {} has plain values and writes no "
+                                       "gl_SampleMask here; leave out {}, or every source, probe "
+                                       "and shader_mask",
+                                       does, key));
+        };
+        if (draw_.discard != Discard::none) {
+            refuse("discard", "discards");
+        }
+        if (draw_.frag_depth) {
+            refuse("frag_depth", "writes depth");
         }
     }
 

@@ -317,19 +317,17 @@ constexpr std::array kRules = {
     Rule{rule::depth_written, Profile::vulkan,
          "A depth that the fragment shader writes replaces the fragment's own",
          "It is what is tested and stored, in all samples of the fragment alike: clamped if depth "
-         "is, "
-         "not biased, bit for bit with binary32 depth, either neighbour in fixed point. A layout "
-         "(depth_greater, depth_less, depth_unchanged) whose promise is kept changes nothing. With "
+         "is, not biased, bit for bit with binary32 depth, either neighbour in fixed point. A "
+         "layout (depth_greater, depth_less, depth_unchanged) whose promise is kept changes "
+         "nothing. With "
          "early tests the fragment's own depth counts.",
          "fragops-shader-depthreplacement", "17.10", "ref/value/sample_values.hpp"},
     Rule{rule::depth_bounds, Profile::vulkan,
          "A fragment is drawn only where the stored depth lies in the depth bounds",
          "minDepthBounds <= z <= maxDepthBounds, of the depth that is stored, not the fragment's. "
-         "It "
-         "is tested before the stencil: a fragment that fails leaves no trace, not even of a "
-         "stencil "
-         "operation. Exact with binary32 depth; fixed-point bounds and depths may be either "
-         "neighbour.",
+         "It is tested before the stencil: a fragment that fails leaves no trace, not even of a "
+         "stencil operation. Exact with binary32 depth; fixed-point bounds and depths may be "
+         "either neighbour.",
          "fragops-dbt", "", "ref/stencil/courses.cpp"},
     Rule{rule::depth_clamp, Profile::vulkan, "Depth clamp limits depth to the viewport's range",
          "With depthClampEnable z is clamped to [min, max] of the viewport's depths, whichever is "

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The samples of a target: their numbers, locations and masks.
+// The samples of a target: their numbers, locations and masks; and what a draw's fragments do to
+// them, pixel by pixel: those that the shader discards, depths that it writes, depth bounds.
 #pragma once
 
 #include <algorithm>

@@ -304,14 +304,14 @@ constexpr Statement kStatements[] = {
     {120, "discarded fragments", exact, exact,
      "What the fragment shader discards leaves no trace; with early tests its depth and stencil are stored.",
      {"discard.fragment", "discard.early-tests"}, ""},
-    {122, "depths that the fragment shader writes", exact, exact,
-     "They are tested and stored as they are, clamped if depth is, not biased, the same in all samples of a fragment; on "
-     "D16 and D24 as either neighbour.",
-     {"depth.written", "depth.clamp"}, ""},
     {121, "depth bounds", exact, exact,
      "The bounds belong to what lies in them; what fails changes neither depth nor stencil. On D16 and D24 a stored "
      "depth within a step of a bound is open.",
      {"depth.bounds"}, ""},
+    {122, "depths that the fragment shader writes", exact, exact,
+     "They are tested and stored as they are, clamped if depth is, not biased, the same in all samples of a fragment; on "
+     "D16 and D24 as either neighbour.",
+     {"depth.written", "depth.clamp"}, ""},
     {94, "what names the vertices of a draw: indices of any type, none, the largest one without restart", exact, not_spoken,
      "The picture has the bits of the plain one; where restart is switched on for nothing, from practice on.",
      {"door.index", "door.restart"}, ""},

@@ -320,9 +320,6 @@ SampleExplanation Explainer::explain(cases::SampleId sample, Detail detail) {
             continue;
         }
         TriangleExplanation& t = out.triangles[explained[m]];
-        if (t.fate && !t.fate->is_tested()) {
-            continue;  // it does not get to the depth test
-        }
         t.depth = reasons.depth.outcomes[m];
         t.depth_reason = reasons.depth.reasons[m];
         if (detail == Detail::all) {

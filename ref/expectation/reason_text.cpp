@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "ref/position/clip.hpp"
+#include "ref/stencil/values_text.hpp"
 
 namespace ref {
 
@@ -117,19 +118,10 @@ std::string triangles_text(const std::vector<uint32_t>& members,
 constexpr std::array<std::string_view, 6> kDiscarded = {
     "nothing", "odd columns", "odd rows", "pixels whose x + y is odd", "front faces", "back faces"};
 
-// Some numbers, as "3" or "3 or 4"; "stencil" for more, or where nothing is known of them.
-std::string values_text(const stencil::Values& values) {
+// What a test meets: up to three numbers, else only that it is the stencil.
+std::string met_text(const stencil::Values& met) {
     constexpr size_t kShown = 3;
-    if (values.none() || values.count() > kShown) {
-        return "stencil";
-    }
-    std::string text;
-    for (size_t k = 0; k < values.size(); ++k) {
-        if (values[k]) {
-            text += fmt::format("{}{}", text.empty() ? "" : " or ", k);
-        }
-    }
-    return text;
+    return met.none() || met.count() > kShown ? "stencil" : stencil::to_text(met, " or ", kShown);
 }
 
 // What the comparison has of a number: with the mask, unless that keeps all bits.
@@ -210,7 +202,7 @@ std::string sentence_of(const stencil::Fate& fate, const cases::StencilState& st
         out += fmt::format(fmt::runtime(text_of(ReasonKind::stencil_test)),
                            fmt::arg("outcome", told), fmt::arg("face", front ? "front" : "back"),
                            fmt::arg("reference", masked(std::to_string(face.reference), face)),
-                           fmt::arg("stencil", masked(values_text(fate.met), face)),
+                           fmt::arg("stencil", masked(met_text(fate.met), face)),
                            fmt::arg("compare", kCompareNames[static_cast<size_t>(face.compare)]));
     }
     return out;

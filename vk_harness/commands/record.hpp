@@ -26,7 +26,7 @@ struct DrawPlan {
     DistancePlaces distances{};
     VkDeviceSize indices = 0;
     bool has_integer_color = false;  // the colour target's format holds integers
-    bool is_split = false;           // InstrumentLayout::split
+    bool is_split = false;           // TargetLayout::split
     std::shared_ptr<Feed> feed;      // of a door that feeds vertices in another way
 };
 

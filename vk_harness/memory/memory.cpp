@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <optional>
 
@@ -69,6 +70,12 @@ Result<Handle<VkImageView>> create_view(const Device& device, const VkImageCreat
     info.subresourceRange = {aspect, 0, 1, 0, of.arrayLayers};
     return make(device, Stage::memory, "vkCreateImageView", device.vk().vkCreateImageView,
                 device.vk().vkDestroyImageView, info);
+}
+
+// Whether a column of the table of depth formats has the format.
+bool is_depth_format(VkFormat format, uint32_t cases::DepthFormatRow::*column) {
+    return std::any_of(cases::kDepthFormats.begin(), cases::kDepthFormats.end(),
+                       [&](const auto& row) { return row.*column == uint32_t{format}; });
 }
 
 }  // namespace
@@ -199,15 +206,6 @@ VkImageUsageFlags color_usage(uint32_t samples) {
 VkImageCreateFlags color_flags(uint32_t samples) {
     return samples > 1 ? VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT : 0;
 }
-
-namespace {
-
-bool is_depth_format(VkFormat format, uint32_t cases::DepthFormatRow::*column) {
-    return std::any_of(cases::kDepthFormats.begin(), cases::kDepthFormats.end(),
-                       [&](const auto& row) { return row.*column == uint32_t{format}; });
-}
-
-}  // namespace
 
 Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D extent,
                             uint32_t samples, uint32_t layers, VkImageCreateFlags flags) {

@@ -42,7 +42,7 @@ ColorKey color_key(const cases::ColorTarget& target, const cases::ColorOutput& o
 }  // namespace
 
 PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw,
-                         const InstrumentLayout& layout) {
+                         const TargetLayout& layout) {
     PipelineKey key;
     key.attribute_count = input_count(c);
     key.samples = c.target.samples;

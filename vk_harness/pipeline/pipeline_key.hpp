@@ -67,7 +67,7 @@ struct PipelineKey {
     shaders::ColorKind color = shaders::ColorKind::none;
     int32_t color_attribute = -1;
     bool instruments = true;
-    InstrumentLayout layout;
+    TargetLayout layout;
     // Of cases::Variation.
     uint32_t masked = 0;
     std::optional<DrawState> fixed = {};  // static; nothing: all of it is dynamic
@@ -78,8 +78,7 @@ struct PipelineKey {
 
 // The key of a draw's pipeline. A draw with fewer attributes than its case gets flat ones that are
 // constantly capture::kClearValue: what its fragments leave in those attachments.
-PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw,
-                         const InstrumentLayout& layout);
+PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw, const TargetLayout& layout);
 
 // What the shaders have to be compiled for.
 shaders::VertexVariant vertex_variant(const PipelineKey& key);

@@ -72,7 +72,7 @@ void append_resolved(const cases::Target& target, std::vector<Attachment>& out) 
 
 }  // namespace
 
-std::vector<Attachment> attachments_of(const cases::Case& c, const InstrumentLayout& layout) {
+std::vector<Attachment> attachments_of(const cases::Case& c, const TargetLayout& layout) {
     std::vector<Attachment> out;
     const bool other = c.variation.other_clears;
     if (c.target.has_instruments) {

@@ -10,7 +10,7 @@
 
 #include "cases/model/case.hpp"
 #include "vk_harness/device/device.hpp"
-#include "vk_harness/target/instrument_layout.hpp"
+#include "vk_harness/target/target_layout.hpp"
 
 namespace vk_harness {
 
@@ -80,7 +80,7 @@ inline constexpr HitCode kBinary16Hits = {-2048.0F, -1024.0F, 0.0F, 32.0F, 1023,
 // In the order of shader locations: writer_and_hits, frag_coord, or writer, hits, frag_xy, frag_zw
 // if the layout is split; attributes (or their pairs), color; then depth, which has no location,
 // stencil and what is resolved. Without instruments only color, if any, and depth, if any.
-std::vector<Attachment> attachments_of(const cases::Case& c, const InstrumentLayout& layout = {});
+std::vector<Attachment> attachments_of(const cases::Case& c, const TargetLayout& layout = {});
 
 // How many of them are colour attachments.
 uint32_t color_count(const std::vector<Attachment>& attachments);

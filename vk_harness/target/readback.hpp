@@ -52,7 +52,7 @@ bool counts_in_halves(const std::vector<Attachment>& attachments);
 uint32_t decode_id(uint32_t bits);
 
 // A draw below `draws` and its primitive as one number, which binary32 holds below 2^24
-// (instrument_layout sees to it):
+// (target_layout sees to it):
 //     (primitive + 2) * draws + draw,    draw without gl_PrimitiveID.
 // What a shader writes so comes back as the draw and the primitive; what stands for no drawn number
 // in decode_id, in both; a number between the two kinds is kMalformedId.

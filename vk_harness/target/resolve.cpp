@@ -51,7 +51,7 @@ std::optional<Rejection> check_resolve_and_stencil(const Capabilities& c, const 
     if (t.has_stencil) {
         const VkImageUsageFlags read =
             t.samples > 1 ? VK_IMAGE_USAGE_SAMPLED_BIT : VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-        const cases::DepthFormat beside = t.has_depth ? t.depth_format : c.beside_lone_stencil;
+        const cases::DepthFormat beside = depth_beside_stencil(c, t);
         if (!has_image(depth_stencil_format(beside),
                        VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | read, t.samples) ||
             (c.limits.framebufferStencilSampleCounts & t.samples) == 0 ||

@@ -148,6 +148,14 @@ depth = { bias = { constant = 1 } })~"),
      R"~(f:8:14: error: the layout "less" promises depths below the draw's own, which begin at 0.5; write smaller ones or leave layout out)~"},
     {triangle(R"~(frag_depth = { value = 0.5, layout = "unchanged" })~"),
      R"~(f:8:14: error: the layout "unchanged" promises the fragment's own depth; write from = "frag-coord")~"},
+    {triangle(R"~(frag_depth = { value = 0.5 }
+shader_mask = 1)~"),
+     R"~(f:8:14: error: a shader that writes depth has plain values and writes no gl_SampleMask here; leave out frag_depth, or every source, probe and shader_mask)~"},
+    {triangle(R"~(frag_depth = { value = 0.5 }
+[[draw.attribute]]
+probe = "dfdx"
+values = [1,2,3])~"),
+     R"~(f:8:14: error: a shader that writes depth has plain values and writes no gl_SampleMask here; leave out frag_depth, or every source, probe and shader_mask)~"},
     {triangle(R"~(depth = { bounds = 0.5 })~"),
      R"~(f:8:20: error: bounds is a number; write an array of 2 numbers)~"},
     {triangle(R"~(depth = { bounds = [0, 1.5] })~"),

@@ -185,7 +185,6 @@ cull               = "back"
 front_face         = "clockwise"
 provoking          = "last"
 rasterizer_discard = true
-frag_depth         = { value = 0.5, other = 0.25, where = "odd-rows" }
 depth              = { compare = "less", write = false, bias = { slope = 1.5 }, clip = true, bounds = [0.25, 1] }
 depth_volume       = "negative-one-to-one"
 stencil            = { front = { compare = "equal", fail = "zero", depth_fail = "invert", pass = "replace", compare_mask = 0x7f, write_mask = 0xf0, reference = 9 }, back = { pass = "keep" } }
@@ -206,10 +205,11 @@ source    = "barycentric"
 auxiliary = "centroid"
 
 [[draw]]
-space    = "clip"
-vertices = [["nan",0,0,1], ["-inf",-0.0,"bits(0x7fc00001)",0], ["2^-149","0.1f",16777216,1],  [0,1,2,3]]
-discard  = "checker"
-color    = { value = [1, 1, 1, 1], blend = { destination = "one", alpha = { source = "zero" } } }
+space      = "clip"
+vertices   = [["nan",0,0,1], ["-inf",-0.0,"bits(0x7fc00001)",0], ["2^-149","0.1f",16777216,1],  [0,1,2,3]]
+discard    = "checker"
+frag_depth = { value = 0.5, other = 0.25, where = "odd-rows" }
+color      = { value = [1, 1, 1, 1], blend = { destination = "one", alpha = { source = "zero" } } }
 [[draw.clip_distance]]
 values = [1, -1, 0.33333334,  2]
 [[draw.clip_distance]]

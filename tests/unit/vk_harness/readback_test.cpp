@@ -278,10 +278,10 @@ TEST(DecodePackedId, TellsDrawsAndPrimitivesApart) {
 TEST(ReadCapture, NarrowAttachmentsHoldTheSame) {
     cases::Case c = target_case({3, 1, 1}, 3);
     c.draws.resize(5);
-    InstrumentLayout narrow;
+    TargetLayout narrow;
     narrow.split = true;
     narrow.components = {2, 2, 4, 4};
-    InstrumentLayout pairs = narrow;
+    TargetLayout pairs = narrow;
     pairs.pairs = true;
     const float clear = capture::kClearValue;
     // The first sample is clear, the second drawn, the third not copied.
@@ -290,7 +290,7 @@ TEST(ReadCapture, NarrowAttachmentsHoldTheSame) {
     const std::vector<std::vector<float>> attributes = {{clear, clear, clear, clear, 7, 0, 0, 0},
                                                         {clear, clear, clear, clear, 0, 8, 0, 0},
                                                         {clear, clear, clear, clear, 1, 2, 3, 4}};
-    const auto read = [&c](const InstrumentLayout& layout,
+    const auto read = [&c](const TargetLayout& layout,
                            const std::vector<std::vector<float>>& words) {
         const std::vector<Attachment> attachments = attachments_of(c, layout);
         const ReadbackLayout places = make_layout(c.target, attachments, 0, 64);
@@ -353,7 +353,7 @@ TEST(ReadCapture, HalvesHoldTheSame) {
     c.draws.resize(5);
     const float clear = capture::kClearValue;
     const std::vector<float> frag = {clear, clear, clear, clear, 9, 10, 11, 12};
-    const auto read = [&](const InstrumentLayout& layout,
+    const auto read = [&](const TargetLayout& layout,
                           const std::vector<std::vector<uint16_t>>& halves,
                           const std::vector<std::vector<float>>& words) {
         const std::vector<Attachment> attachments = attachments_of(c, layout);
@@ -372,12 +372,12 @@ TEST(ReadCapture, HalvesHoldTheSame) {
     // The first sample is clear, the second has two hits by back faces, the third is not copied.
     const capture::Capture wide =
         read({}, {{}, {}}, {{-1, -1, -1, kNoHits, 3, -2, 5, kNoHits + 2 * kBackHit}, frag});
-    InstrumentLayout halves;
+    TargetLayout halves;
     halves.halves = true;
     const capture::Capture packed = read(
         halves, {{0xbc00, 0xbc00, 0xbc00, 0xe800, 0x4200, 0xc000, 0x4500, 0xe7c0}, {}},  // -1984
         {{}, frag});
-    InstrumentLayout split = halves;
+    TargetLayout split = halves;
     split.split = true;
     const capture::Capture apart =
         read(split, {{}, {0xe800, 0xe800, 0xe800, 0xe7fe}, {}, {}},
@@ -398,18 +398,18 @@ Capabilities narrow_device(uint32_t attachments) {
     return c;
 }
 
-TEST(InstrumentLayout, HasAsManyNumbersAsAnyVertexOfAnyDrawNeeds) {
+TEST(TargetLayout, HasAsManyNumbersAsAnyVertexOfAnyDrawNeeds) {
     cases::Case c = target_case({3, 5, 1}, 2);
     c.draws.push_back(c.draws[0]);
     c.draws[0].attributes[0].values = {{1, 0, 0, 0}, {2, 0, 0, 0}};
     c.draws[1].attributes[0].values = {{1, 0, 0, 0}, {2, 0.5, 0, 0}};
     c.draws[0].attributes[1].values = {{1, 0, 0, 0}, {0, 0, -0.0F, 0}};  // -0 is not +0
-    InstrumentLayout layout = instrument_layout(narrow_device(8), c);
+    TargetLayout layout = target_layout(narrow_device(8), c);
     EXPECT_EQ(layout.components, (std::array<uint8_t, 4>{2, 4, 4, 4}));
     EXPECT_TRUE(layout.pairs);
     EXPECT_EQ(layout.attribute_format(0), kTwoNumbers);
     EXPECT_EQ(layout.attribute_format(1), kTwoNumbers);
-    layout = instrument_layout(narrow_device(7), c);
+    layout = target_layout(narrow_device(7), c);
     EXPECT_FALSE(layout.pairs);
     EXPECT_EQ(layout.components, (std::array<uint8_t, 4>{2, 4, 4, 4}));
     EXPECT_EQ(layout.attribute_format(0), kTwoNumbers);
@@ -418,49 +418,49 @@ TEST(InstrumentLayout, HasAsManyNumbersAsAnyVertexOfAnyDrawNeeds) {
     for (const cases::Source source : {cases::Source::sample_id, cases::Source::sample_mask_in,
                                        cases::Source::sample_position}) {
         c.draws[0].attributes[1].source = source;
-        layout = instrument_layout(narrow_device(8), c);
+        layout = target_layout(narrow_device(8), c);
         EXPECT_EQ(layout.attribute_format(1), kTwoNumbers);
         EXPECT_FALSE(layout.pairs);
     }
     c.draws[0].attributes[1].source = cases::Source::barycentric;
-    EXPECT_TRUE(instrument_layout(narrow_device(8), c).pairs);
-    EXPECT_EQ(instrument_layout(narrow_device(7), c).components[1], 4);
+    EXPECT_TRUE(target_layout(narrow_device(8), c).pairs);
+    EXPECT_EQ(target_layout(narrow_device(7), c).components[1], 4);
     // Levels of detail are two numbers, whatever the coordinates.
     c.draws[0].attributes[1] = {};
     c.draws[0].attributes[1].values = {{1, 2, 3, 4}};
     c.draws[0].attributes[1].probe = cases::Probe::lod;
-    EXPECT_EQ(instrument_layout(narrow_device(8), c).components[1], 2);
+    EXPECT_EQ(target_layout(narrow_device(8), c).components[1], 2);
 }
 
-TEST(InstrumentLayout, IsSplitWhereAllAttachmentsFit) {
+TEST(TargetLayout, IsSplitWhereAllAttachmentsFit) {
     cases::Case c = target_case({3, 5, 1}, 4);
-    EXPECT_TRUE(instrument_layout(narrow_device(8), c).split);
-    EXPECT_FALSE(instrument_layout(narrow_device(7), c).split);
+    EXPECT_TRUE(target_layout(narrow_device(8), c).split);
+    EXPECT_FALSE(target_layout(narrow_device(7), c).split);
     c.target.color = {cases::ColorFormat::rgba8_unorm, {}};
-    EXPECT_FALSE(instrument_layout(narrow_device(8), c).split);
-    EXPECT_FALSE(instrument_layout(narrow_device(16), c).split);  // no such shader is built
+    EXPECT_FALSE(target_layout(narrow_device(8), c).split);
+    EXPECT_FALSE(target_layout(narrow_device(16), c).split);  // no such shader is built
     c.draws[0].attributes.pop_back();
-    EXPECT_TRUE(instrument_layout(narrow_device(8), c).split);
-    EXPECT_EQ(attachments_of(c, instrument_layout(narrow_device(8), c)).size(), 9U);  // and depth
+    EXPECT_TRUE(target_layout(narrow_device(8), c).split);
+    EXPECT_EQ(attachments_of(c, target_layout(narrow_device(8), c)).size(), 9U);  // and depth
     // What a push constant and binary32 hold of draws and primitives.
     c.draws.resize(0xffff, c.draws[0]);
-    EXPECT_TRUE(instrument_layout(narrow_device(8), c).split);
+    EXPECT_TRUE(target_layout(narrow_device(8), c).split);
     c.draws.resize(0x10000, c.draws[0]);
-    EXPECT_FALSE(instrument_layout(narrow_device(8), c).split);
+    EXPECT_FALSE(target_layout(narrow_device(8), c).split);
     c.draws.resize(1);
     c.draws[0].positions.resize(kMaxId - 3);
-    EXPECT_TRUE(instrument_layout(narrow_device(8), c).split);
+    EXPECT_TRUE(target_layout(narrow_device(8), c).split);
     c.draws[0].positions.resize(kMaxId - 2);
-    EXPECT_FALSE(instrument_layout(narrow_device(8), c).split);
+    EXPECT_FALSE(target_layout(narrow_device(8), c).split);
     c.draws[0].indices = std::vector<uint32_t>(kMaxId - 3);
-    EXPECT_TRUE(instrument_layout(narrow_device(8), c).split);
+    EXPECT_TRUE(target_layout(narrow_device(8), c).split);
     c.draws[0].indices.reset();
     c.draws[0].positions.resize(3);
     c.target.samples = 8;  // which the device has with wide formats alone
-    EXPECT_EQ(instrument_layout(narrow_device(8), c), InstrumentLayout());
+    EXPECT_EQ(target_layout(narrow_device(8), c), TargetLayout());
     c.target.samples = 1;
     c.target.has_instruments = false;
-    EXPECT_EQ(instrument_layout(narrow_device(8), c), InstrumentLayout());
+    EXPECT_EQ(target_layout(narrow_device(8), c), TargetLayout());
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "vk_harness/target/instrument_layout.hpp"
+#include "vk_harness/target/target_layout.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -45,22 +45,22 @@ bool ids_fit(const cases::Case& test) {
 
 }  // namespace
 
-uint32_t InstrumentLayout::numbers(uint32_t attribute) const {
+uint32_t TargetLayout::numbers(uint32_t attribute) const {
     return pairs ? 2U : attribute < components.size() ? components.at(attribute) : 4U;
 }
 
-VkFormat InstrumentLayout::attribute_format(uint32_t attribute) const {
+VkFormat TargetLayout::attribute_format(uint32_t attribute) const {
     return numbers(attribute) == 2 ? kTwoNumbers : kColorFormat;
 }
 
-VkFormat stencil_format(const Capabilities& c, const cases::Target& target) {
-    return depth_stencil_format(target.has_depth ? target.depth_format : c.beside_lone_stencil);
+cases::DepthFormat depth_beside_stencil(const Capabilities& c, const cases::Target& target) {
+    return target.has_depth ? target.depth_format : c.beside_lone_stencil;
 }
 
-InstrumentLayout instrument_layout(const Capabilities& c, const cases::Case& test) {
-    InstrumentLayout layout;
+TargetLayout target_layout(const Capabilities& c, const cases::Case& test) {
+    TargetLayout layout;
     if (test.target.has_stencil) {
-        layout.stencil_format = stencil_format(c, test.target);
+        layout.stencil_format = depth_stencil_format(depth_beside_stencil(c, test.target));
     }
     layout.halves = test.target.has_instruments && !c.blends_wide;
     if (!test.target.has_instruments || !ids_fit(test) ||

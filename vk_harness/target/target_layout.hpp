@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How wide the attachments are that a case's instruments (hits, writer, FragCoord, attributes) are
-// drawn to. A driver may compile the store of an attachment once a sample, and narrow ones cost it
-// far less: lavapipe takes about 40 ms for four numbers with four samples, under 5 ms for two.
+// What the device lets a case's attachments be: how wide those are that its instruments (hits,
+// writer, FragCoord, attributes) are drawn to, and what a stencil lies in. A driver may compile the
+// store of an attachment once a sample, and narrow ones cost it far less: lavapipe takes about 40
+// ms for four numbers with four samples, under 5 ms for two.
 #pragma once
 
 #include <array>
@@ -15,7 +16,7 @@
 
 namespace vk_harness {
 
-struct InstrumentLayout {
+struct TargetLayout {
     bool split = false;  // writer, hits and FragCoord as four attachments of two numbers
     bool pairs = false;  // split: each attribute as two attachments of two numbers
     // The attachment that counts hits holds binary16: that of hits if the layout is split, else
@@ -36,7 +37,7 @@ struct InstrumentLayout {
         return split ? (halves ? kTwoHalves : kTwoNumbers) : (halves ? kColorHalves : kColorFormat);
     }
     uint32_t attribute_attachments() const { return pairs ? 2 : 1; }
-    friend auto operator<=>(const InstrumentLayout&, const InstrumentLayout&) = default;
+    friend auto operator<=>(const TargetLayout&, const TargetLayout&) = default;
 };
 
 inline constexpr uint32_t kSplitAttachments = 4;
@@ -46,10 +47,11 @@ inline constexpr uint32_t kMaxSplitAttachments =
 // Integers up to this are exact in binary16.
 inline constexpr uint32_t kMaxHalfId = 2048;
 
-// Of the image of a target with a stencil.
-VkFormat stencil_format(const Capabilities& c, const cases::Target& target);
+// The depth that shares an image with the stencil of a target that has one: the target's own, or
+// what the device has if there is none.
+cases::DepthFormat depth_beside_stencil(const Capabilities& c, const cases::Target& target);
 
 // The narrowest layout that the device has.
-InstrumentLayout instrument_layout(const Capabilities& c, const cases::Case& test);
+TargetLayout target_layout(const Capabilities& c, const cases::Case& test);
 
 }  // namespace vk_harness

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Depth that another fragment than the last one has stored.
+#include <gtest/gtest.h>
+
+#include "diff/verdict.hpp"
+#include "rasterizers/captures.hpp"
+#include "tests/unit/diff/perfect_capture.hpp"
+
+namespace diff {
+namespace {
+
+// Three triangles at the same place: the second one's plane is the first one's, so that either may
+// have stored its depth, and the third stores none.
+cases::Case with_equal_planes() {
+    cases::Case c = pixel_case(8, 8, {{0, 0}, {8, 0}, {0, 8}});
+    c.draws.resize(3, c.draws[0]);
+    c.draws[1].depth.compare = cases::CompareOp::less;
+    c.draws[2].depth.write = false;
+    return c;
+}
+
+TEST(OlderDepth, WhatTwoPlanesHaveIsToldOnce) {
+    const cases::Case c = with_equal_planes();
+    const ref::Expectation expectation = ref::expect(c, {}, cases::Profile::direct3d);
+    const size_t index = 8 + 1;  // pixel (1, 1)
+    ASSERT_EQ(expectation.samples[index].depth_count, 2U);
+    capture::Capture wrong = rasterizers::draw_by_reference(c);
+    ASSERT_TRUE(compare(c, expectation, wrong).ok());
+    wrong.depth[index] = 0.875F;
+    const Verdict verdict = compare(c, expectation, wrong);
+    ASSERT_EQ(verdict.findings.size(), 1U);
+    EXPECT_EQ(verdict.findings[0].quantity, "depth");
+    EXPECT_NE(verdict.findings[0].expected, "");
+    EXPECT_EQ(verdict.findings[0].expected.find(", or "), std::string::npos)
+        << verdict.findings[0].expected;
+}
+
+}  // namespace
+}  // namespace diff
