@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ref/stencil/values_text.hpp"
-
 #include <gtest/gtest.h>
+
+#include "ref/stencil/values_text.hpp"
 
 namespace ref::stencil {
 namespace {
