@@ -176,6 +176,15 @@ std::optional<Rejection> check_color(const Capabilities& c, const cases::Case& t
     if (blends && is_integer(color.format)) {
         return invalid("a target of integers is blended");
     }
+    const bool operates = std::any_of(test.draws.begin(), test.draws.end(), [](const auto& draw) {
+        return draw.color.logic.has_value();
+    });
+    if (operates && !c.logic_op) {
+        return unsupported("the device lacks the feature logicOp");
+    }
+    if (operates && test.target.has_instruments) {
+        return invalid("a logical operation switches off the blending that counts hits");
+    }
     const bool multisampled = test.target.samples > 1;
     if (blends && !c.portability.constant_alpha_factors &&
         std::any_of(test.draws.begin(), test.draws.end(), names_constant_alpha)) {

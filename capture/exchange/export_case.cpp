@@ -300,6 +300,7 @@ class Needs {
             add_attribute(a);
         }
         add(t.color && d.color.blend, "blend");
+        add(t.color && d.color.logic, "logic-operation");
         add(t.color && d.color.write_mask != 0xf, "color-write-mask");
     }
 

@@ -173,13 +173,15 @@ std::optional<ColorFormat> read_format(LeafContext& context, const TomlValue& va
     return context.enumerator<ColorFormat>(value, "the colour format");
 }
 
-ColorOutput read_color_output(LeafContext& context, const TomlValue& value,
-                              const ColorTarget& target, const std::vector<Attribute>& attributes) {
+ColorOutput read_color_output(LeafContext& context, const TomlValue& value, const Target& target,
+                              const std::vector<Attribute>& attributes) {
     ColorOutput out;
+    const ColorTarget& color = *target.color;
     if (!context.table(value, "color")) {
         return out;
     }
-    context.known_keys(value, "color", {"value", "attribute", "blend", "constants", "write_mask"});
+    context.known_keys(value, "color",
+                       {"value", "attribute", "blend", "constants", "logic", "write_mask"});
     const TomlValue* constant = value.find("value");
     const TomlValue* attribute = value.find("attribute");
     if ((constant != nullptr) == (attribute != nullptr)) {
@@ -190,19 +192,27 @@ ColorOutput read_color_output(LeafContext& context, const TomlValue& value,
         return out;
     }
     if (constant != nullptr) {
-        out.value = read_color(context, *constant, "value", target.format).value_or(glm::vec4(0));
+        out.value = read_color(context, *constant, "value", color.format).value_or(glm::vec4(0));
     } else {
-        out.attribute = read_attribute_name(context, *attribute, target, attributes);
+        out.attribute = read_attribute_name(context, *attribute, color, attributes);
     }
     if (const TomlValue* blend = value.find("blend")) {
-        out.blend = read_blend(context, *blend, target);
+        out.blend = read_blend(context, *blend, color);
     }
     if (const TomlValue* constants = value.find("constants")) {
         if (!out.blend) {
             context.error(constants->where, "constants without blend mean nothing; leave them out");
         } else {
             out.blend->constants =
-                read_color(context, *constants, "constants", target.format).value_or(glm::vec4(0));
+                read_color(context, *constants, "constants", color.format).value_or(glm::vec4(0));
+        }
+    }
+    if (const TomlValue* logic = value.find("logic")) {
+        out.logic = context.enumerator<LogicOp>(*logic, "the logical operation");
+        if (target.has_instruments) {
+            context.error(logic->where,
+                          "a logical operation switches off the blending that counts hits; write "
+                          "attachments = \"color\" or \"color+depth\" in [target]");
         }
     }
     if (const TomlValue* mask = value.find("write_mask")) {

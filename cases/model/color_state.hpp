@@ -53,17 +53,41 @@ struct Blend {
     friend bool operator==(const Blend&, const Blend&) = default;
 };
 
+// What becomes of the bits of a fragment's colour and of the target's.
+enum class LogicOp : uint8_t {  // numbered as VkLogicOp
+    clear,
+    and_both,
+    and_reverse,
+    copy,
+    and_inverted,
+    no_op,
+    exclusive_or,
+    or_both,
+    nor,
+    equivalent,
+    invert,
+    or_reverse,
+    copy_inverted,
+    or_inverted,
+    nand,
+    set
+};
+
 // What a draw writes to the colour target (Target::color).
 struct ColorOutput {
     glm::vec4 value{};       // what every fragment writes if attribute is -1
     int32_t attribute = -1;  // else the index of the attribute that is written
     std::optional<Blend> blend = {};
     uint8_t write_mask = 0xf;  // bit 0: red ... bit 3: alpha
+    // With one nothing is blended. Floating-point and sRGB formats are
+    // written as without it.
+    std::optional<LogicOp> logic = {};
     static void fields(auto&& visit, auto&... c) {
         visit("value", c.value...);
         visit("attribute", c.attribute...);
         visit("blend", c.blend...);
         visit("write_mask", c.write_mask...);
+        visit("logic", c.logic...);
     }
     friend bool operator==(const ColorOutput&, const ColorOutput&) = default;
 };

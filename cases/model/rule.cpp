@@ -206,6 +206,13 @@ constexpr std::array kRules = {
          "intermediate may be rounded to a neighbour in the destination's format. Fixed-point "
          "targets clamp source, factors and result. What is representable throughout is exact.",
          "framebuffer-blending", "17.5", "ref/color/blend.hpp"},
+    Rule{rule::logic_operation, Profile::vulkan,
+         "A logical operation combines the bits of the colours",
+         "Each component's code is combined with the stored one, bit by bit, in place of blending, "
+         "which is off for every "
+         "attachment. Floating-point and sRGB targets have no such operation: they are written as "
+         "without it.",
+         "framebuffer-logicop", "17.5", "ref/color/logic.hpp"},
     Rule{rule::blend_write_mask, Profile::vulkan, "A masked component keeps its value",
          "Components whose bit is not in the write mask are left as they were.",
          "framebuffer-color-write-mask", "17.15", "ref/color/blend.hpp"},

@@ -51,6 +51,7 @@ inline constexpr char store_half[] = "store.half";
 inline constexpr char store_float[] = "store.float";
 inline constexpr char store_integer[] = "store.integer";
 inline constexpr char blend_equation[] = "blend.equation";
+inline constexpr char logic_operation[] = "logic.operation";
 inline constexpr char blend_write_mask[] = "blend.write-mask";
 inline constexpr char write_consistent[] = "write.consistent";
 inline constexpr char write_outside[] = "write.outside";

@@ -90,6 +90,11 @@ template <>
 inline constexpr WordList<5> kWords<BlendOp> = {"add", "subtract", "reverse-subtract", "min",
                                                 "max"};
 template <>
+inline constexpr WordList<16> kWords<LogicOp> = {
+    "clear",         "and",         "and-reverse", "copy",       "and-inverted", "no-op",
+    "xor",           "or",          "nor",         "equivalent", "invert",       "or-reverse",
+    "copy-inverted", "or-inverted", "nand",        "set"};
+template <>
 inline constexpr auto kWords<ColorFormat> = detail::words_in(kColorFormats);
 template <>
 inline constexpr WordList<5> kWords<Resolve> = {"none", "sample-zero", "average", "min", "max"};
@@ -123,9 +128,9 @@ static_assert(detail::ends_with(Topology::triangle_fan) &&
               detail::ends_with(DepthBiasRepresentation::floating) &&
               detail::ends_with(Source::sample_position) && detail::ends_with(Probe::lod) &&
               detail::ends_with(BlendFactor::src_alpha_saturate) &&
-              detail::ends_with(BlendOp::max) && detail::ends_with(Resolve::max) &&
-              detail::ends_with(BlitFilter::linear) && detail::ends_with(BlitPattern::ramp) &&
-              detail::ends_with(kLastRelationKind));
+              detail::ends_with(BlendOp::max) && detail::ends_with(LogicOp::set) &&
+              detail::ends_with(Resolve::max) && detail::ends_with(BlitFilter::linear) &&
+              detail::ends_with(BlitPattern::ramp) && detail::ends_with(kLastRelationKind));
 
 // The word of a value. LeafContext::enumerator() goes the other way.
 template <class Enum>

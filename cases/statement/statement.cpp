@@ -295,6 +295,10 @@ constexpr Statement kStatements[] = {
     {91, "the colour write mask", exact, exact,
      "Masked components keep their bits.",
      {"blend.write-mask"}, ""},
+    {123, "logical operations", exact, not_spoken,
+     "What the operation makes of the codes, bit by bit; blending is off, and floating-point and sRGB targets are written "
+     "as they are.",
+     {"logic.operation"}, ""},
     {92, "when depth is written", exact, exact,
      "Where the test passes and writes are on; else the older depth stays.",
      {"depth.write"}, ""},

@@ -249,6 +249,9 @@ std::string color_output_text(const Draw& draw) {
             table.add("constants", color_text(color.blend->constants));
         }
     }
+    if (color.logic) {
+        table.add("logic", string_toml(std::string(word_of(*color.logic))));
+    }
     if (color.write_mask != ColorOutput().write_mask) {
         std::string letters;
         for (size_t k = 0; k < 4; ++k) {

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "cases/base/number_text.hpp"
+#include "ref/color/logic.hpp"
 
 namespace ref::color {
 
@@ -92,11 +93,14 @@ Color Unit::cleared(const cases::ColorTarget& target) const {
 Color Unit::write(const cases::ColorOutput& output, const Color& source,
                   const Color& before) const {
     Color out = before;
-    if (!output.blend) {
+    if (!output.blend || output.logic) {
         for (uint32_t k = 0; k < 4; ++k) {
             const Component component(cases::component_of(format, k));
             if (component.exists() && (output.write_mask >> k & 1U) != 0) {
                 out[k] = component.stored(source[k], profile, false);
+                if (output.logic && takes_logic(format)) {
+                    out[k] = operated(*output.logic, component, out[k], before[k]);
+                }
             }
         }
         return out;

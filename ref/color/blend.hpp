@@ -10,6 +10,8 @@
 // all; what the format holds exactly stays exact, which covers factors 0 and 1 and sums that are
 // representable. With fixed-point targets source, destination, constants, factors and the result
 // are clamped to [0, 1].
+//
+// Logical operations (ref/color/logic.hpp) take the place of blending.
 #pragma once
 
 #include <array>

@@ -11,6 +11,7 @@
 
 #include "cases/model/rule_ids.hpp"
 #include "cases/model/sample.hpp"
+#include "ref/color/logic.hpp"
 
 namespace ref {
 
@@ -115,7 +116,8 @@ const cases::ColorOutput& ColorReference::output_of(uint32_t triangle) const {
 
 bool ColorReference::replaces(uint32_t triangle, bool masked) const {
     const cases::ColorOutput& output = output_of(triangle);
-    return !output.blend && (!masked || output.write_mask == 0xf);
+    const bool mixes = output.logic ? color::takes_logic(unit_.format) : output.blend.has_value();
+    return !mixes && (!masked || output.write_mask == 0xf);
 }
 
 color::Source ColorReference::source_of(uint32_t triangle, cases::SampleId id,
@@ -208,9 +210,12 @@ bool ColorReference::leaves(const Sequence& sequence, cases::SampleId id, const 
 std::string ColorReference::rule_of(const Sequence& sequence, bool is_as_unmasked) const {
     const bool blends = std::any_of(sequence.begin(), sequence.end(),
                                     [&](uint32_t t) { return output_of(t).blend.has_value(); });
+    const bool operates = std::any_of(sequence.begin(), sequence.end(),
+                                      [&](uint32_t t) { return output_of(t).logic.has_value(); });
     const bool masks = std::any_of(sequence.begin(), sequence.end(),
                                    [&](uint32_t t) { return output_of(t).write_mask != 0xf; });
     return std::string(masks && is_as_unmasked ? cases::rule::blend_write_mask
+                       : operates              ? cases::rule::logic_operation
                        : blends                ? cases::rule::blend_equation
                        : masks                 ? cases::rule::blend_write_mask
                                : kStoreRules[static_cast<size_t>(row_of(unit_.format).kind)]);

@@ -283,9 +283,10 @@ std::string Component::text_of(const Interval& v) const {
                 return std::to_string(std::lower_bound(values.begin(), values.end(), x) -
                                       values.begin());
             }
+            case ComponentKind::uint:
+                return mpz_class(ref::floor_of(x)).get_str();
             case ComponentKind::half:
             case ComponentKind::binary32:
-            case ComponentKind::uint:
                 break;
         }
         return fmt::format("{:.9g}", x.get_d());

@@ -40,6 +40,7 @@ class Component {
     Component(cases::ComponentFormat format) : format_(format) {}
     bool exists() const { return format_.bits != 0; }
     cases::ComponentKind kind() const { return format_.kind; }
+    uint32_t bits() const { return format_.bits; }
     bool is_fixed_point() const;
 
     // The neighbours in the format: the largest value that is <= x, the smallest that is >= x.

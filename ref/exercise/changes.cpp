@@ -378,10 +378,31 @@ bool exchange_factors(Case& c) {
     });
 }
 
+bool operate_nothing(Case& c) {
+    return change_draws(
+        c, [](Draw& draw) { return set(draw.color.logic, std::optional<cases::LogicOp>()); });
+}
+
+bool exchange_operands(Case& c) {
+    using cases::LogicOp;
+    constexpr std::pair<LogicOp, LogicOp> kPairs[] = {{LogicOp::and_reverse, LogicOp::and_inverted},
+                                                      {LogicOp::or_reverse, LogicOp::or_inverted},
+                                                      {LogicOp::copy, LogicOp::no_op},
+                                                      {LogicOp::copy_inverted, LogicOp::invert}};
+    return change_draws(c, [&](Draw& draw) {
+        for (const auto& [one, other] : kPairs) {
+            if (draw.color.logic == one || draw.color.logic == other) {
+                return set(draw.color.logic, std::optional(draw.color.logic == one ? other : one));
+            }
+        }
+        return false;
+    });
+}
+
 bool blend_twice(Case& c) {
     std::vector<Draw> draws;
     for (const Draw& draw : c.draws) {
-        draws.insert(draws.end(), draw.color.blend ? 2 : 1, draw);
+        draws.insert(draws.end(), draw.color.blend && !draw.color.logic ? 2 : 1, draw);
     }
     const bool is_changed = draws.size() > c.draws.size();
     c.draws = std::move(draws);

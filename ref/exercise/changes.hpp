@@ -97,6 +97,9 @@ bool turn_provoking(cases::Case& c) {
 // Colours.
 bool blend_nothing(cases::Case& c);
 bool exchange_factors(cases::Case& c);
+// Logical operations are left out; with their operands exchanged.
+bool operate_nothing(cases::Case& c);
+bool exchange_operands(cases::Case& c);
 // Each draw that blends is drawn once more; the triangles get other numbers.
 bool blend_twice(cases::Case& c);
 bool write_all_components(cases::Case& c);

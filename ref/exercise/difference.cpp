@@ -222,13 +222,14 @@ bool Difference::shows(size_t index) {
 
 namespace {
 
-// Whether a draw shows by another draw's depth test, or in another state: discarded, not blended,
-// with all components written.
+// Whether a draw shows by another draw's depth test, or in another state: discarded, neither
+// blended nor with a logical operation, with all components written.
 bool shows_otherwise(Original& original, uint32_t draw) {
     cases::Case discarded = original.of();
     discarded.draws[draw].rasterizer_discard = true;
     cases::Case plain = original.of();
     plain.draws[draw].color.blend.reset();
+    plain.draws[draw].color.logic.reset();
     plain.draws[draw].color.write_mask = 0xf;
     for (cases::Case* other : {&discarded, &plain}) {
         Difference difference(original, std::move(*other), Differ::hits, {});

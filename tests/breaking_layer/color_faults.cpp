@@ -63,6 +63,23 @@ bool op(Blend& b) {
 bool disable(Blend& b) {
     return change(b.blendEnable, VK_FALSE);
 }
+// Of pipelines with a logical operation.
+template <VkLogicOp op>
+bool operate(PipelineCopy& p) {
+    return p.blend.logicOpEnable == VK_TRUE && change(p.blend.logicOp, op);
+}
+bool stop_operating(PipelineCopy& p) {
+    return change(p.blend.logicOpEnable, VK_FALSE);
+}
+bool exchange_operands(PipelineCopy& p) {
+    if (p.blend.logicOpEnable == VK_FALSE) {
+        return false;
+    }
+    // Bits 1 and 2 of the number are the results where one operand's bit is set.
+    const auto op = static_cast<unsigned>(p.blend.logicOp);
+    return change(p.blend.logicOp,
+                  static_cast<VkLogicOp>((op & 9U) | (op & 2U) << 1U | (op & 4U) >> 1U));
+}
 bool swap_factors(Blend& b) {
     std::swap(b.srcColorBlendFactor, b.dstColorBlendFactor);
     std::swap(b.srcAlphaBlendFactor, b.dstAlphaBlendFactor);
@@ -161,6 +178,13 @@ constexpr std::array kFaults = {
     Fault{"blend-subtract-as-add",
           "SUBTRACT adds.",
           {.pipeline = each_equation<op<VK_BLEND_OP_SUBTRACT, VK_BLEND_OP_ADD>>}},
+    Fault{"logic-op-off", "There are no logical operations.", {.pipeline = stop_operating}},
+    Fault{"logic-op-copies",
+          "Every logical operation is COPY, which switches blending off, too.",
+          {.pipeline = operate<VK_LOGIC_OP_COPY>}},
+    Fault{"logic-op-operands-swapped",
+          "Logical operations take the source for the destination.",
+          {.pipeline = exchange_operands}},
     Fault{"blend-constants-swapped",
           "Red and blue of the blend constants are swapped.",
           {.blend_constants = swap_constants}},

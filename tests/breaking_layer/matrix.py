@@ -19,6 +19,7 @@ import broken
 
 FOCUS = [  # families that are about the faults whose names match
     ("blend|write-mask", ["blend/**", "store/**", "order/**", "combination/**", "resolve/**"]),
+    ("logic-op", ["logic/**", "combination/**"]),
     ("sample-location", ["multisample/**", "depth-bias/**", "resolve/**"]),
     ("sample|centroid", ["multisample/**", "interpolate-at/**", "derivative/**"]),
     ("frag-depth", ["frag-depth/**", "combination/**"]),

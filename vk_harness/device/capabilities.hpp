@@ -54,6 +54,7 @@ struct Capabilities {
     cases::DepthFormat beside_lone_stencil = cases::DepthFormat::d32_float;
     bool depth_clamp = false, depth_bias_clamp = false, depth_clip_enable = false;
     bool depth_bounds = false;
+    bool logic_op = false;
     DepthBiasSupport depth_bias;
     PortabilitySupport portability;
     CoreSupport core;

@@ -28,6 +28,7 @@ ColorKey color_key(const cases::ColorTarget& target, const cases::ColorOutput& o
     ColorKey key;
     key.format = to_vulkan(target.format);
     key.write_mask = output.write_mask;
+    key.logic = output.logic;
     if (output.blend) {
         key.blends = true;
         const cases::BlendEquation& c = output.blend->color;

@@ -34,6 +34,7 @@ struct ColorKey {
     bool blends = false;
     std::array<uint8_t, 6> equation{};  // source, destination, op of colour, then of alpha
     uint8_t write_mask = 0xf;
+    std::optional<cases::LogicOp> logic = {};
     friend auto operator<=>(const ColorKey&, const ColorKey&) = default;
 };
 

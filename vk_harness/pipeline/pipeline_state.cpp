@@ -219,6 +219,10 @@ void color_state(const PipelineKey& key, ColorState& state) {
     state.info.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
     state.info.attachmentCount = static_cast<uint32_t>(state.blends.size());
     state.info.pAttachments = state.blends.data();
+    if (key.color_target.logic) {
+        state.info.logicOpEnable = VK_TRUE;
+        state.info.logicOp = static_cast<VkLogicOp>(*key.color_target.logic);
+    }
     if (key.fixed) {
         const auto constants = std::bit_cast<std::array<float, 4>>(key.fixed->blend_constants);
         std::copy(constants.begin(), constants.end(), state.info.blendConstants);

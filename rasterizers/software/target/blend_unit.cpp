@@ -216,6 +216,8 @@ uint8_t BlendUnit::mask_of(const cases::ColorOutput& output) const {
             return 0xf;
         case Fault::write_mask_ignored_blending:
             return output.blend ? 0xf : output.write_mask;
+        case Fault::logic_mask_ignored:
+            return output.logic ? 0xf : output.write_mask;
         case Fault::write_mask_shifted:
             return static_cast<uint8_t>((mask << 1 | mask >> 3) & 0xfU);
         case Fault::write_mask_unswizzled: {  // bit k is the component at position k in memory
@@ -257,7 +259,9 @@ Texel BlendUnit::write(const cases::ColorOutput& output, const glm::vec4& source
         return c.number == Number::unorm && c.bits == 8;
     });
     std::array<uint32_t, 4> codes{};
-    const std::optional<cases::Blend>& equation = output.blend;
+    const bool operates = output.logic && device_.fault != Fault::logic_ignored;
+    const std::optional<cases::Blend> equation =
+        operates && device_.fault != Fault::logic_blends_too ? std::nullopt : output.blend;
     if (!equation || device_.fault == Fault::blend_ignored) {
         for (size_t k = 0; k < 4; ++k) {
             codes[k] = channels[k].bits != 0
@@ -306,6 +310,11 @@ Texel BlendUnit::write(const cases::ColorOutput& output, const glm::vec4& source
                            : 0;
         }
     }
+    for (size_t k = 0; operates && k < 4; ++k) {
+        if (has_logic(k)) {
+            codes[k] = operated(*output.logic, codes[k], before[layout_.position[k]], k);
+        }
+    }
     Texel out = before;
     const unsigned mask = mask_of(output);
     for (size_t k = 0; k < 4; ++k) {
@@ -335,6 +344,9 @@ ColorAttachment::ColorAttachment(const cases::Case& c, const Device& device)
         switch (device.fault) {
             case Fault::blend_of_first_draw:
                 output.blend = first.blend;
+                break;
+            case Fault::logic_of_first_draw:
+                output.logic = first.logic;
                 break;
             case Fault::write_mask_of_first_draw:
                 output.write_mask = first.write_mask;

@@ -32,13 +32,14 @@ const std::string kUnorm = "format = \"rgba8-unorm\"";
 const std::string kValue = "color = { value = [0, 0, 0, 1] }";
 
 TEST(Color, IsRead) {
-    const auto loaded =
-        load_text(file("format = \"bgra8-unorm\"\nclear = [0, \"1/2\", 1, 2]",
-                       "color = { attribute = \"c\", blend = { source = \"dst-alpha\", op = "
-                       "\"max\", alpha = { "
-                       "destination = \"one\" } }, constants = [1, 2, 3, 4], write_mask = \"gb\" }",
-                       "size = [8, 8]\nattachments = \"color+depth\""),
-                  "f", "id");
+    const auto loaded = load_text(
+        file("format = \"bgra8-unorm\"\nclear = [0, \"1/2\", 1, 2]",
+             "color = { attribute = \"c\", blend = { source = \"dst-alpha\", op = "
+             "\"max\", alpha = { "
+             "destination = \"one\" } }, constants = [1, 2, 3, 4], logic = \"or-reverse\", "
+             "write_mask = \"gb\" }",
+             "size = [8, 8]\nattachments = \"color+depth\""),
+        "f", "id");
     ASSERT_TRUE(loaded) << to_string(loaded.error().front());
     const Case& c = loaded->front();
     EXPECT_EQ(c.target.color->format, ColorFormat::bgra8_unorm);
@@ -48,6 +49,7 @@ TEST(Color, IsRead) {
     const ColorOutput& out = c.draws[0].color;
     EXPECT_EQ(out.attribute, 0);
     EXPECT_EQ(out.write_mask, 0b0110);
+    EXPECT_EQ(out.logic, LogicOp::or_reverse);
     ASSERT_TRUE(out.blend);
     EXPECT_EQ(out.blend->constants, glm::vec4(1, 2, 3, 4));
     EXPECT_EQ(out.blend->color,
@@ -85,6 +87,11 @@ TEST(Color, MistakesAreNamed) {
          "blend is \"alhpa\"; did you mean \"alpha\"?");
     says(file(kUnorm, "color = { value = [0,0,0,0], blend = { source = \"alpha\" } }"),
          "the blend factor source is \"alpha\"; ");
+    says(file(kUnorm, "color = { value = [0,0,0,0], logic = \"xor\" }"),
+         "a logical operation switches off the blending that counts hits; write attachments = "
+         "\"color\" or \"color+depth\" in [target]");
+    says(file(kUnorm, "color = { value = [0,0,0,0], logic = \"andd\" }"),
+         "the logical operation is \"andd\"; did you mean \"and\"?");
     says(file(kUnorm, ""),
          "[[draw]] has no color, but the target has; write color = { value = [r, "
          "g, b, a] }");

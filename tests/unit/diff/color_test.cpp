@@ -66,6 +66,27 @@ TEST(Color, TheReferenceItselfIsRight) {
     EXPECT_EQ(drawn.capture.color[5 * 8 + 6], (capture::ColorCodes{0, 0, 0, 0}));
 }
 
+TEST(Color, ALogicalOperationIsJudgedByItsRule) {
+    cases::Case c = two_draws(ColorFormat::rgba8_uint, {170, 85, 0, 255});
+    for (cases::Draw& draw : c.draws) {
+        draw.color.value = {204, 240, 165, 60};
+        draw.color.logic = cases::LogicOp::nand;
+    }
+    const Drawn drawn(c);
+    EXPECT_TRUE(drawn.judge().ok()) << drawn.judge().error;
+    // By hand: ~(170 & 204) = 119 once, ~(119 & 204) = 187 twice.
+    EXPECT_EQ(drawn.capture.color[0 * 8 + 5][0], 119U);
+    EXPECT_EQ(drawn.capture.color[5 * 8 + 1][0], 187U);
+    // A copy, which is what a device leaves that has no such operations.
+    Drawn wrong(c);
+    wrong.at(5, 0) = {204, 240, 165, 60};
+    const Verdict verdict = wrong.judge();
+    ASSERT_EQ(verdict.findings.size(), 1U);
+    EXPECT_EQ(verdict.findings[0].rule, "logic.operation");
+    EXPECT_EQ(verdict.findings[0].level, Profile::vulkan);
+    EXPECT_THAT(verdict.findings[0].expected, testing::HasSubstr("r 119"));
+}
+
 // "If there is no depth attachment then the depth test is skipped."
 TEST(Color, NothingIsTestedWithoutADepthAttachment) {
     cases::Case c = additive();
