@@ -203,6 +203,9 @@ void add_reach(const CandidateSet<T>& set, const Basis<T>& basis, const Quantity
 struct Store {
     bool may_clamp = false;   // to the viewport's range
     bool must_clamp = false;  // depthClampEnable
+    // To 0 and 1: what becomes of depth outside of the viewport's range without depth clamp is
+    // undefined, and VK_KHR_depth_clamp_zero_one, which defines it, has it so.
+    bool may_clamp_to_one = false;
     Range<double> viewport;
     double steps = 0;  // 2^n - 1; 0 for binary32
     double rounding =
@@ -216,6 +219,7 @@ Store store_of(const CandidateSet<T>& set, const Quantity& q) {
     if (is_depth(q)) {
         store.may_clamp = true;
         store.must_clamp = set.depth.is_clamped;
+        store.may_clamp_to_one = !set.depth.is_clamped;
         store.steps = cases::depth_steps(set.depth.format);
         // Direct3D 11.3, 3.2.3.6: within 0.6 of a step; max norm is what that profile has, too.
         store.rounding = set.depth.is_max_norm ? 0.6 : 1;
@@ -261,7 +265,11 @@ Fit fit(const Stretch<T>& stretch, double device, const Store& store) {
                                             : 0.0;
     Answer answer = store.must_clamp ? Answer::no : may_store(stretch.range, device, store);
     if (answer != Answer::yes && store.may_clamp) {
-        const Answer other = may_store(clamped(stretch.range, store.viewport), device, store);
+        Answer other = may_store(clamped(stretch.range, store.viewport), device, store);
+        if (other != Answer::yes && store.may_clamp_to_one) {
+            constexpr Range<double> kZeroToOne{0, 1};
+            other = either(other, may_store(clamped(stretch.range, kZeroToOne), device, store));
+        }
         if (other == Answer::yes) {
             // A clamped value says nothing of the plane's error.
             const bool is_inside = answer != Answer::no;

@@ -102,6 +102,45 @@ TEST(ValueFreedom, DepthBeyondTheViewportIsUndefinedAtVulkan) {
     }
 }
 
+// z_f is 1/4 + 0.6/2 = 0.55, so e = -1 and r = 2^-24: the bias of 2^24 r is 1 in either direction.
+TEST(ValueFreedom, BiasedDepthMayBeClampedToZeroAndOne) {
+    const cases::SampleId id{10, 10, 0};
+    cases::Case c = make_case(
+        64, {clip_of(4, 4, 0.6, 1, 64), clip_of(60, 4, 0.6, 1, 64), clip_of(4, 60, 0.6, 1, 64)});
+    c.draws[0].viewport.min_depth = 0.25F;
+    c.draws[0].viewport.max_depth = 0.75F;
+    for (const bool is_down : {true, false}) {
+        c.draws[0].depth.clamp = false;
+        c.draws[0].depth.bias = cases::DepthBias{is_down ? -0x1p24F : 0x1p24F, 0, 0};
+        ref::FragmentValues v = exact_values(c, id);
+        const float unclamped = is_down ? -0.45F : 1.55F;
+        ASSERT_NEAR(v.depth, unclamped, 0x1p-20F);
+        const float end = is_down ? 0.25F : 0.75F;  // of the viewport's range
+        const float unit = is_down ? 0.0F : 1.0F;
+        for (const Profile profile : {Profile::practice, Profile::direct3d}) {
+            for (const float depth : {v.depth, end, unit}) {
+                ref::FragmentValues device = v;
+                device.depth = depth;
+                EXPECT_TRUE(is_ok(c, profile, id, device)) << depth;
+            }
+            // Between them, at the other ends, and without the bias.
+            for (const float depth :
+                 {(unclamped + unit) / 2, (end + unit) / 2, 1 - end, 1 - unit, 0.55F}) {
+                ref::FragmentValues device = v;
+                device.depth = depth;
+                EXPECT_FALSE(is_ok(c, profile, id, device)) << depth;
+            }
+        }
+        // With depth clamp the viewport's range is the only one.
+        c.draws[0].depth.clamp = true;
+        v = exact_values(c, id);
+        v.depth = end;
+        EXPECT_TRUE(is_ok(c, Profile::practice, id, v));
+        v.depth = unit;
+        EXPECT_FALSE(is_ok(c, Profile::practice, id, v));
+    }
+}
+
 // 8 operations of 1e-5 on coordinates of 2000 are more than 1/w itself.
 TEST(ValueFreedom, DenominatorsThatMayBeZeroLeaveTheHull) {
     cases::Case small =
