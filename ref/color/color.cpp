@@ -372,18 +372,25 @@ bool ColorReference::explains_depth(size_t index, cases::SampleId id, float dept
     if (!is_plain || case_.target.depth_format != cases::DepthFormat::d32_float) {
         return true;
     }
+    const bool is_clear = std::bit_cast<uint32_t>(depth) == std::bit_cast<uint32_t>(clear);
+    const auto is_left_by = [&](uint32_t triangle) {
+        if (is_constant_depth(triangle, depth)) {
+            return true;
+        }
+        const ValueRange range = values_.range(triangle, id, QuantityId{});
+        const auto value = static_cast<double>(depth);
+        return std::isfinite(depth) &&
+               (!range.is_promised || (value >= range.low && value <= range.high));
+    };
+    // What is discarded once its depth is stored leaves no colour.
+    const SampleExpectation& expected = expectation_.samples[index];
+    if (stores_discarded(case_) && (expected.depth_count > 0 || expected.depth_may_be_clear)) {
+        return (expected.depth_may_be_clear && is_clear) ||
+               std::ranges::any_of(expectation_.depth_writers_of(expected), is_left_by);
+    }
     const std::vector<Sequence> sets = allowed(index, std::nullopt);
     return sets.empty() || std::any_of(sets.begin(), sets.end(), [&](const Sequence& sequence) {
-               if (sequence.empty()) {
-                   return std::bit_cast<uint32_t>(depth) == std::bit_cast<uint32_t>(clear);
-               }
-               if (is_constant_depth(sequence.back(), depth)) {
-                   return true;
-               }
-               const ValueRange range = values_.range(sequence.back(), id, QuantityId{});
-               const auto value = static_cast<double>(depth);
-               return std::isfinite(depth) &&
-                      (!range.is_promised || (value >= range.low && value <= range.high));
+               return sequence.empty() ? is_clear : is_left_by(sequence.back());
            });
 }
 

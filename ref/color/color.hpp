@@ -69,9 +69,10 @@ class ColorReference {
     std::vector<uint32_t> drawn(size_t index) const;
     // Codes that the fragments of these triangles leave, whether or not they are allowed there.
     std::array<uint32_t, 4> codes_after(std::span<const uint32_t> triangles, cases::SampleId id);
-    // Whether depth may be what the last of an allowed set of fragments left, for targets without
-    // instruments; `clear`: what it holds where nothing was drawn. Only for D32 and draws that
-    // write depth without a test, bias or clamp; true otherwise.
+    // Whether depth may be what the last of an allowed set of fragments left, or one that was
+    // discarded once its depth was stored, for targets without instruments; `clear`: what it holds
+    // where nothing was drawn. Only for D32 and draws that write depth without a test, bias or
+    // clamp; true otherwise.
     bool explains_depth(size_t index, cases::SampleId id, float depth, float clear);
 
     // Whether judge() depends on the sample's expectation, its codes and its witness alone.

@@ -72,5 +72,26 @@ TEST(DiscardJudge, ADiscardedFragmentThatShowsIsExtra) {
     EXPECT_EQ(verdict.findings[0].rule, "discard.fragment");
 }
 
+// Where the colour alone says what was drawn, a discarded fragment leaves its depth beside the
+// clear colour.
+TEST(DiscardJudge, EarlyTestsStoreDepthBesideColours) {
+    for (const bool early : {true, false}) {
+        cases::Case c = discarding(early);
+        c.draws[0].depth = {};  // only a plain write is judged there
+        c.draws[0].color.value = {1, 1, 1, 1};
+        c.target.color = {cases::ColorFormat::rgba8_unorm, {0, 0, 0, 0}};
+        c.target.has_instruments = false;
+        capture::Capture picture = rasterizers::draw_by_reference(c);
+        const Verdict ok = judged(c, picture);
+        EXPECT_TRUE(ok.ok()) << ok.error;
+        EXPECT_EQ(picture.depth[kDiscarded] == picture.depth[kKept], early);
+        picture.depth[kDiscarded] = early ? c.target.depth_clear : picture.depth[kKept];
+        const Verdict verdict = judged(c, picture);
+        ASSERT_EQ(verdict.findings.size(), 1U) << early;
+        EXPECT_EQ(verdict.findings[0].quantity, "depth");
+        EXPECT_EQ(verdict.findings[0].level, cases::Profile::vulkan);
+    }
+}
+
 }  // namespace
 }  // namespace diff
