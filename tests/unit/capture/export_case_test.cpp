@@ -169,7 +169,7 @@ std::vector<Change> distance_changes() {
 }
 
 std::vector<Change> color_changes() {
-    [[maybe_unused]] const auto& [value, index, blend, write_mask] = cases::ColorOutput{};
+    [[maybe_unused]] const auto& [value, index, blend, write_mask, logic] = cases::ColorOutput{};
     [[maybe_unused]] const auto& [color, alpha, constants] = cases::Blend{};
     [[maybe_unused]] const auto& [source, destination, op] = cases::BlendEquation{};
     using Factor = cases::BlendFactor;
@@ -187,6 +187,7 @@ std::vector<Change> color_changes() {
         {"blend.alpha.op", [](Case& c) { draw(c).color.blend->alpha.op = cases::BlendOp::max; }},
         {"blend.constants", [](Case& c) { draw(c).color.blend->constants.w = 1; }},
         {"write_mask", [](Case& c) { draw(c).color.write_mask = 7; }},
+        {"logic", [](Case& c) { draw(c).color.logic = cases::LogicOp::nand; }},
     };
 }
 
