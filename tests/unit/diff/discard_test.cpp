@@ -4,6 +4,8 @@
 // Faults planted in cases whose fragment shader discards.
 #include <gtest/gtest.h>
 
+#include <bit>
+
 #include "diff/verdict.hpp"
 #include "rasterizers/captures.hpp"
 #include "tests/unit/diff/perfect_capture.hpp"
@@ -84,7 +86,9 @@ TEST(DiscardJudge, EarlyTestsStoreDepthBesideColours) {
         capture::Capture picture = rasterizers::draw_by_reference(c);
         const Verdict ok = judged(c, picture);
         EXPECT_TRUE(ok.ok()) << ok.error;
-        EXPECT_EQ(picture.depth[kDiscarded] == picture.depth[kKept], early);
+        EXPECT_EQ(std::bit_cast<uint32_t>(picture.depth[kDiscarded]) ==
+                      std::bit_cast<uint32_t>(picture.depth[kKept]),
+                  early);
         picture.depth[kDiscarded] = early ? c.target.depth_clear : picture.depth[kKept];
         const Verdict verdict = judged(c, picture);
         ASSERT_EQ(verdict.findings.size(), 1U) << early;
