@@ -3,6 +3,7 @@
 #include "capture/blank_capture.hpp"
 
 #include "cases/model/derive.hpp"
+#include "cases/model/sample.hpp"
 
 namespace capture {
 
@@ -16,6 +17,9 @@ Capture blank_capture(const cases::Case& c) {
     out.writers.assign(count, Writer{});
     out.frag_coord.assign(count, glm::vec4(kClearValue));
     out.depth.assign(count, nearest_depth(c.target.depth_clear, c.target.depth_format));
+    if (cases::asks_queries(c)) {
+        out.counted.assign(c.draws.size(), 0);
+    }
     for (uint32_t a = 0; a < out.attribute_count; ++a) {
         out.attributes.at(a).assign(count, glm::vec4(kClearValue));
     }

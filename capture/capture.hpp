@@ -74,6 +74,9 @@ struct StrayWrite {
     friend bool operator==(const StrayWrite&, const StrayWrite&) = default;
 };
 
+// In place of a count: the query never had a result.
+inline constexpr uint64_t kNotCounted = UINT64_MAX;
+
 // What was captured, and a plane of each kind; a Store is a vector of entries or a view of them. A
 // plane that the target lacks is empty (for_each_plane says which).
 template <template <class> class Store>
@@ -82,6 +85,10 @@ struct Planes {
     bool has_primitive = false;  // Writer::primitive is meaningful
     bool has_half_hits = false;  // hits were added up in binary16, not in binary32
     uint32_t attribute_count = 0;
+    // What the draws' occlusion queries counted, one number a draw, 0 where a draw has none:
+    // samples where the query is precise, else 0 or 1 for any. Empty if no draw of the case has a
+    // query.
+    std::vector<uint64_t> counted;
 
     Store<glm::vec4> hits;        // front hits, back hits, kHitGuard, kHitGuard + hits
     Store<Writer> writers;        // last writer
@@ -100,6 +107,7 @@ struct Planes {
         visit("has_primitive", p.has_primitive...);
         visit("has_half_hits", p.has_half_hits...);
         visit("attribute_count", p.attribute_count...);
+        visit("counted", p.counted...);
     }
 };
 

@@ -32,9 +32,13 @@ uint64_t capture_bits(const CaptureView& capture) {
             sums.insert(at, cases::checksum(kResultSeed, raw(entries)));
         },
         capture, capture);
+    constexpr uint64_t kFactor = 0x9e3779b97f4a7c15U;
     uint64_t sum = 0;
     for (const uint64_t of_plane : sums) {
-        sum = sum * 0x9e3779b97f4a7c15U + of_plane;
+        sum = sum * kFactor + of_plane;
+    }
+    if (!capture.counted.empty()) {
+        sum = sum * kFactor + cases::checksum(kResultSeed, raw(std::span(capture.counted)));
     }
     return sum;
 }

@@ -10,6 +10,7 @@ Capture copy_of(const CaptureView& from) {
     to.has_primitive = from.has_primitive;
     to.has_half_hits = from.has_half_hits;
     to.attribute_count = from.attribute_count;
+    to.counted = from.counted;
     for_each_plane([](const Plane&, const auto& source,
                       auto& plane) { plane.assign(source.begin(), source.end()); },
                    from, from, to);

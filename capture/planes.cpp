@@ -15,6 +15,7 @@ void view(From& from, To& to) {
     to.target = from.target;
     to.has_primitive = from.has_primitive;
     to.attribute_count = from.attribute_count;
+    to.counted = from.counted;
     for_each_plane([](const Plane&, auto& source, auto& span) { span = source; }, from, from, to);
 }
 

@@ -17,6 +17,7 @@
 #include "diff/sample/run_judge.hpp"
 #include "diff/stencil.hpp"
 #include "diff/verdict.hpp"
+#include "diff/whole_case.hpp"
 
 namespace diff {
 
@@ -93,6 +94,7 @@ class Comparison {
         verdict_.error = judge_dependent_planes(
             capture_, expectation_.profile, [this](Finding finding) { add(std::move(finding)); },
             stencil_ ? &*stencil_ : nullptr);
+        judge_queries(case_, capture_, attribution_, verdict_);
         return std::move(verdict_);
     }
 
@@ -105,6 +107,9 @@ class Comparison {
                 case_.target.width, case_.target.height,
                 cases::counted(case_.target.samples, "sample"),
                 case_.target.layers > 1 ? fmt::format(" and {} layers", case_.target.layers) : "");
+        }
+        if (cases::asks_queries(case_) && capture_.counted.size() != case_.draws.size()) {
+            return "the capture lacks what the case's queries counted";
         }
         const size_t attributes = cases::attributes_of(case_);
         for (size_t a = 0; a < attributes; ++a) {

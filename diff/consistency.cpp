@@ -147,6 +147,7 @@ class BitComparison {
         : base_(base),
           variation_(derivation.variation),
           theirs_(planes_of(derived)),
+          counted_(derived.counted),
           alike_(!variation_.other_clears && !variation_.other_depth_clear &&
                  variation_.masked == 0 && !variation_.masks_depth &&
                  cases::vertex_shift(variation_.door) == 0 &&
@@ -164,6 +165,7 @@ class BitComparison {
     Consistency run() {
         const size_t count = base_.sample_count();
         result_.compared = count;
+        compare_counts();
         if (alike_ && all_equal()) {
             return std::move(result_);
         }
@@ -189,6 +191,22 @@ class BitComparison {
         return true;
     }
 
+    // The same samples pass in both, so that the queries count as many.
+    void compare_counts() {
+        for (uint32_t k = 0; k < base_.counted.size() && k < counted_.size(); ++k) {
+            ++result_.compared;
+            if (base_.counted[k] != counted_[k]) {
+                ++result_.different;
+                if (result_.differences.size() == kMaxDifferences) {
+                    return;
+                }
+                result_.differences.push_back({0, kCounts, k,
+                                               static_cast<uint32_t>(base_.counted[k]),
+                                               static_cast<uint32_t>(counted_[k])});
+            }
+        }
+    }
+
     void compare_sample(size_t sample, capture::SampleState state) {
         for (uint32_t p = 0; p < kPlanes; ++p) {
             for (uint32_t w = 0; is_compared_[p] && w < ours_[p].words; ++w) {
@@ -212,6 +230,7 @@ class BitComparison {
     const capture::CaptureView& base_;
     const cases::Variation& variation_;
     std::array<PlaneWords, kPlanes> ours_, theirs_;
+    const std::vector<uint64_t>& counted_;
     std::array<bool, kPlanes> is_compared_{};
     bool alike_;
     Consistency result_;
@@ -274,6 +293,9 @@ std::string why_of(const cases::Derivation& derivation, const Consistency& found
 }
 
 std::string show_bits(uint32_t plane, uint32_t bits) {
+    if (plane == kCounts) {
+        return fmt::format("{}", bits);
+    }
     return plane == kWritersPlane || plane == kColorPlane
                ? fmt::format("{:#010x}", bits)
                : fmt::format("{:#010x} ({})", bits, std::bit_cast<float>(bits));
@@ -321,6 +343,9 @@ std::string plane_name(uint32_t plane, uint32_t word) {
                                                      "spare"};
     constexpr std::array<const char*, 4> kHits = {"front hits", "back hits", "guard of the hits",
                                                   "sum of the hits"};
+    if (plane == kCounts) {
+        return fmt::format("occlusion query of draw {}", word);
+    }
     if (plane == kDepthPlane) {
         return "depth";
     }

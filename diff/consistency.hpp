@@ -19,7 +19,7 @@ namespace diff {
 // One sample whose bits differ: its first word that does.
 struct Difference {
     uint64_t sample = 0;    // index in the capture
-    uint32_t plane = 0;     // its number (capture.hpp), below kPlanes
+    uint32_t plane = 0;     // its number (capture.hpp), below kPlanes, or kCounts
     uint32_t word = 0;      // of the sample in its plane
     uint32_t expected = 0;  // bits of the case itself, changed as the variation demands
     uint32_t got = 0;
@@ -34,12 +34,15 @@ struct Difference {
 };
 // The planes that are compared: those of samples, as far as the case itself draws them.
 inline constexpr uint32_t kPlanes = capture::kColorPlane + 1;
+// In place of a plane's number: the lowest 32 bits of what the query of draw `word` counted, which
+// belongs to no sample.
+inline constexpr uint32_t kCounts = kPlanes;
 inline constexpr size_t kMaxDifferences = 64;
 
 // What comparing one derived rendering with the case's own has found.
 struct Consistency {
-    uint64_t compared = 0;                // samples
-    uint64_t different = 0;               // samples
+    uint64_t compared = 0;                // samples, and counts of queries
+    uint64_t different = 0;               // of them
     std::vector<Difference> differences;  // the first kMaxDifferences
     // Of a picture through a door: why the device has no such door; then nothing was compared.
     std::string closed;

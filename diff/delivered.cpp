@@ -53,6 +53,9 @@ cases::Case with_instruments(const cases::Case& c) {
     out.target.color.reset();
     out.target.color_resolve = cases::Resolve::none;
     out.target.depth_resolve = cases::Resolve::none;
+    for (cases::Draw& draw : out.draws) {
+        draw.query = cases::Query::none;  // planes alone are delivered
+    }
     return out;
 }
 

@@ -14,6 +14,7 @@
 #include "rasterizers/color_plane.hpp"
 #include "ref/blit/blit.hpp"
 #include "ref/color/color.hpp"
+#include "ref/expectation/counted.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/value/fragment/shading_rate.hpp"
 #include "ref/value/value.hpp"
@@ -102,6 +103,36 @@ Event pick_event(const ref::Expectation& expectation, const ref::SampleExpectati
         }
     }
     return {all.front(), Writer{writers.back(), values.expected(writers.back(), id)}};
+}
+
+// What the queries counted where the capture's hits were drawn: of the draws that may have drawn
+// them the first.
+std::vector<uint64_t> counts_of(const cases::Case& c, const ref::Expectation& expectation,
+                                const capture::Capture& capture) {
+    if (!cases::asks_queries(c)) {
+        return {};
+    }
+    std::vector<uint64_t> out(c.draws.size(), 0);
+    for (size_t index = 0; index < capture.hits.size(); ++index) {
+        const auto draws = expectation.counted_of(expectation.samples[index]);
+        auto left = static_cast<uint32_t>(capture.hits[index].x + capture.hits[index].y);
+        for (const ref::CountedDraw& draw : draws) {
+            left -= draw.shown_least;
+        }
+        for (const ref::CountedDraw& draw : draws) {
+            const uint32_t more = std::min(left, draw.shown_most - draw.shown_least);
+            left -= more;
+            out[draw.draw] += draw.shown_least + more + draw.hidden_least;
+        }
+    }
+    for (size_t k = 0; k < out.size(); ++k) {
+        const cases::Query query = c.draws[k].query;
+        const uint64_t most = query == cases::Query::none        ? 0
+                              : query == cases::Query::occlusion ? 1
+                                                                 : UINT64_MAX;
+        out[k] = std::min(out[k], most);
+    }
+    return out;
 }
 
 capture::Capture blit_by_reference(const cases::Case& c) {
@@ -194,6 +225,7 @@ capture::Capture draw_by_reference(const cases::Case& c) {
             leave_older_depth();
         }
     }
+    capture.counted = counts_of(c, expectation, capture);
     add_color_plane(capture, c, expectation);
     drop_unattached(capture);
     diff::vary(capture, c.variation);

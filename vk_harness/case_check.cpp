@@ -338,6 +338,9 @@ std::optional<Rejection> check_draw(const Capabilities& c, const cases::Draw& dr
         return invalid("a draw has {} attributes, at most {} are allowed", draw.attributes.size(),
                        cases::kMaxAttributes);
     }
+    if (draw.query == cases::Query::occlusion_precise && !c.precise_queries) {
+        return unsupported("the device lacks the feature occlusionQueryPrecise");
+    }
     if (auto rejection = check_depth(c, draw.depth)) {
         return rejection;
     }

@@ -161,6 +161,9 @@ Result<void> BatchRenderer::draw_large(CasePlan& plan, Rendered& result,
     }
     damage = std::move(*found);
     const capture::PlaneSpans planes = place_planes(plan, result, store);
+    if (auto read = read_queries(plan, result); !read) {
+        return read;
+    }
     for (size_t first = 0; first < plan.attachments.size();) {
         step("readback");
         const size_t end = end_of_group(plan.attachments, first);

@@ -6,6 +6,7 @@
 
 #include "cases/format/color_format.hpp"
 #include "cases/model/derive.hpp"
+#include "cases/model/sample.hpp"
 #include "vk_harness/case_check.hpp"
 #include "vk_harness/target/shader_interface.hpp"
 
@@ -156,6 +157,14 @@ bool BatchRenderer::plan(CasePlan& plan, Rendered& result) {
         plan.blit = std::make_shared<BlitImages>(std::move(*blit));
         return true;
     }
+    if (cases::asks_queries(test)) {
+        auto queries = Queries::create(*device_, test);
+        if (!queries) {
+            reject(result, queries.error());
+            return false;
+        }
+        plan.queries = std::make_shared<Queries>(std::move(*queries));
+    }
     auto images = targets_.get(test.target, plan.attachments);
     if (!images) {
         reject(result, images.error());
@@ -173,6 +182,13 @@ Result<void> BatchRenderer::record(VkCommandBuffer commands, CasePlan& plan, VkB
     }
     plan.secondaries = std::move(*secondaries);
     return record_draws(*device_, pipelines_, commands, plan, vertices, read_back);
+}
+
+Result<void> BatchRenderer::read_queries(const CasePlan& plan, Rendered& result) {
+    if (!plan.queries) {
+        return {};
+    }
+    return put(result.capture.counted, plan.queries->read());
 }
 
 capture::PlaneSpans BatchRenderer::place_planes(const CasePlan& plan, Rendered& result,
@@ -301,6 +317,9 @@ Result<void> BatchRenderer::draw_chunk(std::span<CasePlan> plans, bool read_back
         for (const CasePlan& plan : plans) {
             read_planes(plan.attachments, plan.readback, readback->bytes(),
                         place_planes(plan, results[plan.slot], store));
+            if (auto read = read_queries(plan, results[plan.slot]); !read) {
+                return read;
+            }
         }
     }
     for (const CasePlan& plan : plans) {

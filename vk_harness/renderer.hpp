@@ -81,6 +81,8 @@ class BatchRenderer {
     // Where the planes of a case go that has been drawn: to the store's memory, if it has room.
     capture::PlaneSpans place_planes(const CasePlan& plan, Rendered& result,
                                      const PlaneStore& store) const;
+    // What the case's queries counted, into its capture.
+    static Result<void> read_queries(const CasePlan& plan, Rendered& result);
     // Whether a case that is drawn alone is so large that draw_large() reads it back.
     static bool is_large(std::span<const CasePlan> plans);
     // As draw_chunk() with read-back, of one case, in little more memory than its capture takes:

@@ -41,7 +41,8 @@ class DrawLoader {
                              "cull_distance", "attribute",   "mirror",       "rotate",
                              "offset",        "winding",     "first",        "order",
                              "color",         "sample_mask", "shader_mask",  "min_sample_shading",
-                             "stencil",       "discard",     "early_tests",  "frag_depth"});
+                             "stencil",       "discard",     "early_tests",  "frag_depth",
+                             "query"});
         draw_.where = table_.where;
         context_.read(table_, "topology", draw_.topology);
         context_.read(table_, "cull", draw_.cull);
@@ -56,6 +57,7 @@ class DrawLoader {
                            "a shader with early tests writes no gl_SampleMask here; leave out "
                            "early_tests or shader_mask");
         }
+        read_query();
         read_viewport();
         read_scissor();
         context_.read(table_, "viewport_index", draw_.viewport_index, 0, kMaxViewportIndex);
@@ -115,6 +117,25 @@ class DrawLoader {
     size_t word(const char* key, std::span<const std::string_view> words) {
         const TomlValue* value = table_.find(key);
         return value == nullptr ? 0 : context_.word(*value, key, words).value_or(0);
+    }
+
+    // Every fragment that is counted must show, or "some implementations may kill" it ("Occlusion
+    // Queries"): it adds to the hits. With early tests the sample mask "should" be tested before
+    // samples are counted, "but may instead be performed after" ("Fragment Operations").
+    void read_query() {
+        context_.read(table_, "query", draw_.query);
+        if (draw_.query == Query::none) {
+            return;
+        }
+        if (!target_.has_instruments) {
+            context_.error(table_.find("query")->where,
+                           "a query needs the attachments that count hits; leave attachments "
+                           "out of [target]");
+        } else if (draw_.early_tests && draw_.multisample.sample_mask != 0xffffffffU) {
+            context_.error(table_.find("query")->where,
+                           "with early tests a device may count what the sample mask takes away; "
+                           "leave out query, early_tests or sample_mask");
+        }
     }
 
     // No shader is built that discards or writes depth and has these (cmake/Shaders.cmake).

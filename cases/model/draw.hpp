@@ -27,6 +27,9 @@ enum class ProvokingVertex : uint8_t { first, last };
 // Which of a draw's fragments the fragment shader discards: those in every second column, row or
 // both, pixel (0, 0) not among them, or those of one face.
 enum class Discard : uint8_t { none, odd_columns, odd_rows, checker, front, back };
+// The occlusion query that counts a draw's samples; one that is not precise tells only whether any
+// passed.
+enum class Query : uint8_t { none, occlusion, occlusion_precise };
 // What a fragment shader promises of the depth that it writes, beside the fragment's own.
 enum class DepthLayout : uint8_t { any, greater, less, unchanged };
 // How the depth test and the stencil test compare.
@@ -290,6 +293,7 @@ struct Draw {
     ClipDistances distances;
     Multisample multisample;
     ColorOutput color;            // if the target has a colour target
+    Query query = Query::none;    // around this draw alone
     uint32_t layer = 0;           // below Target::layers; gl_Layer of all its primitives
     uint32_t viewport_index = 0;  // below 16; gl_ViewportIndex of all its primitives
     SourceLocation where;
@@ -309,6 +313,7 @@ struct Draw {
         visit("discard", d.discard...);
         visit("early_tests", d.early_tests...);
         visit("frag_depth", d.frag_depth...);
+        visit({"query", kNotExported}, d.query...);  // planes alone are delivered
         visit("depth", d.depth...);
         visit("stencil", d.stencil...);
         visit("multisample", d.multisample...);

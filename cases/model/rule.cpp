@@ -416,6 +416,13 @@ constexpr std::array kRules = {
          "What fails the stencil test is not tested for depth; what passes it does depthFailOp or "
          "passOp as it fails or passes the depth test, and passOp where there is no depth.",
          "fragops-stencil", "17.12", "ref/stencil/outcome.hpp"},
+    Rule{rule::query_occlusion, Profile::vulkan,
+         "An occlusion query counts the samples that pass all tests",
+         "A precise one counts each sample of each fragment of its draw that is left of scissor, "
+         "sample mask, discard, depth bounds, stencil and depth test; any other is 0 where that is "
+         "0, and not 0 where it is not. What the shader discards after early tests is counted at "
+         "practice and direct3d, and may be at vulkan.",
+         "fragops-samplecount", "", "ref/expectation/counted.hpp"},
     Rule{rule::resolve_select, Profile::vulkan, "Resolving by selection takes a sample as it is",
          "SAMPLE_ZERO, MIN and MAX leave one of the pixel's samples, bit for bit.",
          "renderpass-resolve-operations", "", "diff/resolve.hpp"},

@@ -92,6 +92,7 @@ inline constexpr char stencil_operation[] = "stencil.operation";
 inline constexpr char stencil_mask[] = "stencil.mask";
 inline constexpr char stencil_faces[] = "stencil.faces";
 inline constexpr char stencil_depth_outcome[] = "stencil.depth-outcome";
+inline constexpr char query_occlusion[] = "query.occlusion";
 inline constexpr char resolve_select[] = "resolve.select";
 inline constexpr char resolve_average[] = "resolve.average";
 inline constexpr char barycentric_value[] = "barycentric.value";

@@ -117,6 +117,11 @@ inline bool tests_bounds(const Case& c) {
            });
 }
 
+// Whether some draw has an occlusion query.
+inline bool asks_queries(const Case& c) {
+    return std::ranges::any_of(c.draws, [](const Draw& draw) { return draw.query != Query::none; });
+}
+
 // Whether a fragment is as if it had never been.
 inline bool takes_away_pixel(const Draw& draw, uint32_t x, uint32_t y) {
     return !draw.early_tests && discards_pixel(draw.discard, x, y);

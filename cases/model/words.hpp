@@ -43,6 +43,8 @@ template <>
 inline constexpr WordList<6> kWords<Discard> = {"none",    "odd-columns", "odd-rows",
                                                 "checker", "front",       "back"};
 template <>
+inline constexpr WordList<3> kWords<Query> = {"none", "occlusion", "occlusion-precise"};
+template <>
 inline constexpr WordList<4> kWords<DepthLayout> = {"any", "greater", "less", "unchanged"};
 template <>
 inline constexpr WordList<3> kWords<Interpolation> = {"smooth", "noperspective", "flat"};
@@ -122,9 +124,11 @@ constexpr bool ends_with(Enum last) {
 static_assert(detail::ends_with(Topology::triangle_fan) &&
               detail::ends_with(CullMode::front_and_back) &&
               detail::ends_with(FrontFace::clockwise) && detail::ends_with(Discard::back) &&
-              detail::ends_with(DepthLayout::unchanged) && detail::ends_with(Interpolation::flat) &&
-              detail::ends_with(Auxiliary::sample) && detail::ends_with(ProvokingVertex::last) &&
-              detail::ends_with(CompareOp::always) && detail::ends_with(DepthFormat::d16_unorm) &&
+              detail::ends_with(DepthLayout::unchanged) &&
+              detail::ends_with(Query::occlusion_precise) &&
+              detail::ends_with(Interpolation::flat) && detail::ends_with(Auxiliary::sample) &&
+              detail::ends_with(ProvokingVertex::last) && detail::ends_with(CompareOp::always) &&
+              detail::ends_with(DepthFormat::d16_unorm) &&
               detail::ends_with(DepthBiasRepresentation::floating) &&
               detail::ends_with(Source::sample_position) && detail::ends_with(Probe::lod) &&
               detail::ends_with(BlendFactor::src_alpha_saturate) &&

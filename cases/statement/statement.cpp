@@ -308,6 +308,9 @@ constexpr Statement kStatements[] = {
     {120, "discarded fragments", exact, exact,
      "What the fragment shader discards leaves no trace; with early tests its depth and stencil are stored.",
      {"discard.fragment", "discard.early-tests"}, ""},
+    {123, "occlusion queries", exact, not_spoken,
+     "A precise one counts the samples that survive all tests; any other is 0 or not as that is.",
+     {"query.occlusion"}, ""},
     {121, "depth bounds", exact, exact,
      "The bounds belong to what lies in them; what fails changes neither depth nor stencil. On D16 and D24 a stored "
      "depth within a step of a bound is open.",

@@ -349,6 +349,7 @@ std::string draw_text(const Draw& draw, const Target& target) {
     if (draw.frag_depth) {
         table.add("frag_depth", frag_depth_text(*draw.frag_depth));
     }
+    add_word(table, "query", draw.query, usual.query);
     add_depth(table, draw.depth);
     add_stencil(table, draw.stencil);
     add_multisample(table, draw.multisample);

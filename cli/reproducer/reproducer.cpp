@@ -81,6 +81,7 @@ std::string_view missing_of(const cases::Draw& d) {
         {d.discard != cases::Discard::none || d.early_tests,
          "fragments that the shader discards, or early tests"},
         {d.frag_depth.has_value(), "a depth that the shader writes"},
+        {d.query != cases::Query::none, "a query"},
         {d.depth.bounds.has_value(), "a depth bounds test"},
         {d.color.logic.has_value(), "a logical operation"},
         {d.depth.bias && d.depth.bias->is_controlled(), "a bias by VK_EXT_depth_bias_control"},

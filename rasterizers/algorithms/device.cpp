@@ -169,6 +169,9 @@ std::string unsupported_reason(const cases::Case& c) {
             return "the algorithms have no depth state, clip distances, sample masks, layers, "
                    "provoking vertices and rasterizer discard";
         }
+        if (d.query != cases::Query::none) {
+            return "the algorithms have no queries";
+        }
         if (d.discard != cases::Discard::none || d.early_tests || d.frag_depth) {
             return "the algorithms have no shaders that discard fragments or write their depth";
         }

@@ -18,6 +18,7 @@
 #include "rasterizers/software/multisample.hpp"
 #include "rasterizers/software/planes.hpp"
 #include "rasterizers/software/target/blend_unit.hpp"
+#include "rasterizers/software/target/query_unit.hpp"
 #include "rasterizers/software/target/resolve_unit.hpp"
 #include "rasterizers/software/target/stencil_unit.hpp"
 #include "rasterizers/software/tiles.hpp"
@@ -28,6 +29,7 @@ namespace software {
 struct Attachments {
     ColorAttachment color;
     StencilAttachment stencil;
+    QueryUnit queries;
 };
 
 // One draw of a case onto the capture.

@@ -211,7 +211,12 @@ void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const Tri
                            uint32_t covered) {
     const Fault fault = device_.fault;
     Invocation invocation = invoke(draw_, device_, samples_, i, j, s, covered);
+    const auto end = [&](Ending ending) {
+        const bool is_first = (covered & ((1U << s) - 1)) == 0;
+        attachments_.queries.count(number_, ending, is_first);
+    };
     if (!invocation.is_written) {
+        end(Ending::masked);
         return;
     }
     const bool discarded = is_discarded(i, j, s, front);
@@ -219,6 +224,7 @@ void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const Tri
                           : fault == Fault::discard_tests_late ? false
                                                                : draw_.early_tests;
     if (discarded && !is_early) {
+        end(Ending::discarded);
         return;
     }
     for (Place* place : {&invocation.centre, &invocation.sample, &invocation.centroid}) {
@@ -254,6 +260,7 @@ void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const Tri
         } else if (fault == Fault::bounds_fail_writes_depth && draw_.depth.write) {
             out_.depth[at] = z;
         }
+        end(Ending::out_of_bounds);
         return;
     }
     const bool passes = !out_.target.has_depth ||
@@ -265,6 +272,10 @@ void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const Tri
         fault == Fault::depth_write_before_test) {
         out_.depth[at] = z;
     }
+    end(!is_left    ? Ending::stencil_failed
+        : !passes   ? Ending::depth_failed
+        : discarded ? Ending::hidden
+                    : Ending::shown);
     if (!passes || !is_left || discarded) {
         return;
     }

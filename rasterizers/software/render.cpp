@@ -30,10 +30,11 @@ capture::Capture render(const cases::Case& c, const Device& device) {
     for (uint32_t a = 0; a < out.attribute_count; ++a) {
         out.attributes[a].assign(count, glm::vec4(capture::kClearValue));
     }
-    Attachments attachments{{c, device}, {c, device}};
+    Attachments attachments{{c, device}, {c, device}, {c, device}};
     const auto finish = [&] {
         out.color = attachments.color.read_back();
         out.stencil = attachments.stencil.values();
+        out.counted = attachments.queries.results();
         resolve(out, device);
     };
     const auto draws =

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "cases/model/profile.hpp"
+#include "cases/model/sample.hpp"
 #include "diff/blit.hpp"
 #include "diff/verdict.hpp"
 #include "rasterizers/color_plane.hpp"
@@ -41,6 +42,9 @@ bool can_matter(Fault fault, const cases::Case& c) {
     }
     if (is_between(Fault::stencil_faces_exchanged, Fault::stencil_never_written)) {
         return c.target.has_stencil;
+    }
+    if (is_between(Fault::query_before_mask, Fault::query_always_any)) {
+        return cases::asks_queries(c);
     }
     if (is_between(Fault::resolve_one_sample, Fault::resolve_ignored)) {
         return capture::resolves_color(c.target) || capture::resolves_depth(c.target);
@@ -83,7 +87,7 @@ diff::Verdict compare(const cases::Case& c, const ref::Expectation& expectation,
 }
 
 bool same_bits(const capture::Capture& a, const capture::Capture& b) {
-    bool same = true;
+    bool same = a.counted == b.counted;
     capture::for_each_plane([&same](const capture::Plane&, const auto& one,
                                     const auto& other) { same = same && same_bits(one, other); },
                             a, a, b);

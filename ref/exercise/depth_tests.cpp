@@ -61,4 +61,11 @@ bool is_counted_by_stencil(const View& view, std::string_view) {
            !view.sample.hits.empty();
 }
 
+bool is_counted_by_query(const View& view, std::string_view) {
+    return std::ranges::any_of(view.sample.counted, [&](const CountedDraw& counted) {
+        return view.of().draws[counted.draw].query != cases::Query::none &&
+               counted.shown_least + counted.hidden_least > 0;
+    });
+}
+
 }  // namespace ref

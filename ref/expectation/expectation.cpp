@@ -309,6 +309,7 @@ class RowJudge {
         SampleExpectation sample = scene_.narrowing.judge(
             position(at), at.s, hits, {out_.writers, out_.depth_writers, out_.stencils}, reasons);
         add_fragments(out_, scene_.c, hits, scene_.narrowing.fates(), sample);
+        add_counted(out_, scene_.c, hits, scene_.narrowing.fates(), sample);
         return out_.samples.add(sample);
     }
 
@@ -322,7 +323,8 @@ class RowJudge {
                               hits,
                               sample.hits,
                               out_.writers_of(sample),
-                              reasons},
+                              reasons,
+                              out_.counted_of(sample)},
                              scene_.setups)) {
             onlooker_ = nullptr;
         }

@@ -35,6 +35,15 @@ struct HitBounds {
     friend bool operator==(const HitBounds&, const HitBounds&) = default;
 };
 
+// How many fragments of one draw's triangles occlusion queries may count at a sample: those that
+// show, and those that the shader discards when depth and stencil have been tested.
+struct CountedDraw {
+    uint32_t draw = 0;
+    uint32_t shown_least = 0, shown_most = 0;
+    uint32_t hidden_least = 0, hidden_most = 0;
+    friend bool operator==(const CountedDraw&, const CountedDraw&) = default;
+};
+
 struct SampleExpectation {
     HitBounds hits;
     uint32_t writers_begin = 0;  // into Expectation::writers
@@ -51,6 +60,8 @@ struct SampleExpectation {
     // clear value, wherever nothing hits.
     uint32_t stencils_begin = 0, stencils_count = 0;
     bool is_stencil_free = false;  // nothing is claimed of it
+    // Into Expectation::counted, if a draw has a query: the draws that may cover the sample.
+    uint32_t counted_begin = 0, counted_count = 0;
 };
 
 // Is a triangle that must or may cover a sample.
@@ -103,6 +114,7 @@ struct Expectation {
     std::vector<uint32_t> depth_writers;
     std::vector<PossibleHit> fragments;
     std::vector<stencil::Outcome> stencils;
+    std::vector<CountedDraw> counted;
     uint64_t must_samples = 0;    // samples that must be hit at least once: the control of the case
     uint64_t either_samples = 0;  // samples where more than one answer is allowed
 
@@ -117,6 +129,9 @@ struct Expectation {
     }
     std::span<const stencil::Outcome> stencils_of(const SampleExpectation& s) const {
         return std::span(stencils).subspan(s.stencils_begin, s.stencils_count);
+    }
+    std::span<const CountedDraw> counted_of(const SampleExpectation& s) const {
+        return std::span(counted).subspan(s.counted_begin, s.counted_count);
     }
 };
 

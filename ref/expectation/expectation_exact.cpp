@@ -47,6 +47,7 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
                 SampleExpectation sample =
                     narrowing.judge(p, s, hits, {out.writers, out.depth_writers, out.stencils});
                 add_fragments(out, c, hits, narrowing.fates(), sample);
+                add_counted(out, c, hits, narrowing.fates(), sample);
                 out.must_samples += sample.hits.total_min > 0 ? 1U : 0U;
                 out.either_samples += sample.hits.is_decided() ? 0U : 1U;
                 out.samples.set(index++, 1, 1, out.samples.add(sample));

@@ -84,9 +84,9 @@ struct Predicates {
 
 // Whether what a sample shows hangs on the whole course of its fragments (ref/stencil/outcome.hpp):
 // the stencil of each fragment or the depth that is stored chooses, or some store depth or stencil
-// and do not show.
+// and do not show, or queries count what becomes of each.
 inline bool follows_courses(const cases::Case& c) {
-    return stencil::is_needed(c) || stores_discarded(c) || tests_bounds(c);
+    return stencil::is_needed(c) || stores_discarded(c) || tests_bounds(c) || asks_queries(c);
 }
 
 // Keeps the hits of a sample for the colour target, if the case has one. `fates`: of each hit, if
@@ -117,6 +117,10 @@ inline void add_fragments(Expectation& out, const cases::Case& c, std::span<cons
         out.fragments.push_back({hit.triangle, passes && hit.coverage == Coverage::must});
     }
 }
+
+// Keeps what queries may count of the hits of a sample, if a draw of the case has one.
+void add_counted(Expectation& out, const cases::Case& c, std::span<const Hit> hits,
+                 std::span<const stencil::Fate> fates, SampleExpectation& sample);
 
 class Narrowing {
   public:

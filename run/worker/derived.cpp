@@ -50,10 +50,13 @@ struct Round {
 
 capture::CaptureView view_of(const Rendered& rendered) {
     const capture::Capture& c = rendered.capture;
-    return rendered.placed.empty()
-               ? capture::CaptureView(c)
-               : capture::view_planes(c.target, c.has_primitive, c.attribute_count,
-                                      rendered.placed.data());
+    if (rendered.placed.empty()) {
+        return c;
+    }
+    capture::CaptureView view =
+        capture::view_planes(c.target, c.has_primitive, c.attribute_count, rendered.placed.data());
+    view.counted = c.counted;
+    return view;
 }
 
 ref::Limits limits_of(const vk_harness::DeviceInfo& device) {

@@ -47,13 +47,15 @@ constexpr size_t kMaxDerivations = 256;
 // Two sides of every attachment, in the case's rendering and in each derived one.
 constexpr size_t kMaxStrayWrites = 4096;
 
-// False if these cannot be the findings in a capture of that many samples.
-bool is_possible(const diff::Consistency& found, uint64_t samples) {
-    return found.compared <= samples && found.different <= found.compared &&
+// False if these cannot be the findings in a capture of that many samples and counts.
+bool is_possible(const diff::Consistency& found, uint64_t samples, uint64_t counts) {
+    return found.compared <= samples + counts && found.different <= found.compared &&
            found.differences.size() == std::min<uint64_t>(found.different, diff::kMaxDifferences) &&
            std::all_of(found.differences.begin(), found.differences.end(),
-                       [samples](const diff::Difference& d) {
-                           return d.sample < samples && d.plane < diff::kPlanes && d.word < 4 &&
+                       [samples, counts](const diff::Difference& d) {
+                           const bool is_word = d.plane < diff::kPlanes && d.word < 4;
+                           const bool is_count = d.plane == diff::kCounts && d.word < counts;
+                           return d.sample < samples && (is_word || is_count) &&
                                   d.expected != d.got;
                        });
 }
@@ -65,7 +67,9 @@ bool is_possible(const CaseResult& result) {
            result.consistency.size() <= kMaxDerivations &&
            r.stray_writes.size() <= kMaxStrayWrites &&
            std::all_of(result.consistency.begin(), result.consistency.end(),
-                       [&c](const auto& found) { return is_possible(found, c.sample_count()); }) &&
+                       [&c](const auto& found) {
+                           return is_possible(found, c.sample_count(), c.counted.size());
+                       }) &&
            (r.status != Rendered::Status::drawn || result.is_shared || capture::has_all_planes(c));
 }
 

@@ -182,6 +182,7 @@ bool WorkerClient::find_planes(CaseResult& result) const {
     }
     result.view = capture::view_planes(c.target, c.has_primitive, c.attribute_count,
                                        region_->bytes.data() + at);
+    result.view.counted = c.counted;
     result.keep = region_;
     return capture::capture_bits(result.view) == result.bits;
 }

@@ -34,6 +34,8 @@ using vulkan_layer::OwnCommand;
 std::span<const OwnCommand> state_commands();
 // Commands that make command buffers of others, or clear.
 std::span<const OwnCommand> recording_commands();
+// Queries, and what is read of them.
+std::span<const OwnCommand> query_commands();
 // Indirect draws, and several draws in a command.
 std::span<const OwnCommand> indirect_commands();
 

@@ -453,9 +453,9 @@ PFN_vkVoidFunction own_instance_command(const char* /*name*/) {
 }
 
 PFN_vkVoidFunction own_device_command(const char* name) {
-    for (const auto table :
-         {std::span<const breaking::OwnCommand>(breaking::kCommands), breaking::state_commands(),
-          breaking::indirect_commands(), breaking::recording_commands()}) {
+    for (const auto table : {std::span<const breaking::OwnCommand>(breaking::kCommands),
+                             breaking::state_commands(), breaking::indirect_commands(),
+                             breaking::recording_commands(), breaking::query_commands()}) {
         if (const PFN_vkVoidFunction own = find_command(table, name); own != nullptr) {
             return own;
         }

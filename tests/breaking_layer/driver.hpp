@@ -66,7 +66,10 @@ namespace breaking {
     X(CmdDispatch) \
     X(BeginCommandBuffer) \
     X(CmdExecuteCommands) \
-    X(CmdClearAttachments)
+    X(CmdClearAttachments) \
+    X(CmdBeginQuery) \
+    X(CmdResetQueryPool) \
+    X(GetQueryPoolResults)
 // clang-format on
 
 // The next layer's, or the driver's, commands of one device.

@@ -144,6 +144,14 @@ struct Clears {
     std::vector<VkClearRect> rects;
 };
 
+// What is read of a query.
+struct QueryResult {
+    uint64_t count = 0;
+    bool is_precise = false;
+    bool in_secondary = false;  // it was begun in a secondary command buffer
+    uint64_t before = 0;        // what the queries counted that were read before it, since a reset
+};
+
 // What becomes of a call that answers with a VkResult.
 enum class Answer { as_asked, device_lost, unknown_error, no_memory, hang, crash };
 
@@ -194,6 +202,7 @@ struct Hooks {
     // At the end of a rendering, for each of its attachments: which of the buffers that share its
     // memory gets a word of the driver's own, at which byte; sizes are known.
     bool (*stray_write)(Neighbours&) = nullptr;
+    bool (*query_result)(QueryResult&) = nullptr;
     Answer (*submit)(uint64_t number) = nullptr;  // in this process, from 1
     Answer (*wait)(uint64_t number) = nullptr;
     Answer (*make_pipeline)(uint64_t number) = nullptr;
@@ -219,6 +228,7 @@ std::span<const Fault> multisample_faults();
 std::span<const Fault> shader_faults();
 std::span<const Fault> transfer_faults();
 std::span<const Fault> device_faults();
+std::span<const Fault> query_faults();
 std::span<const Fault> door_faults();
 std::span<const Fault> recording_door_faults();
 std::vector<const Fault*> all_faults();

@@ -22,6 +22,7 @@ FOCUS = [  # families that are about the faults whose names match
     ("logic-op", ["logic/**", "combination/**"]),
     ("sample-location", ["multisample/**", "depth-bias/**", "resolve/**"]),
     ("sample|centroid", ["multisample/**", "interpolate-at/**", "derivative/**"]),
+    ("query", ["query/**", "combination/**", "large/query*"]),
     ("frag-depth", ["frag-depth/**", "combination/**"]),
     ("fragment-discard|early-tests", ["discard/**", "combination/**"]),
     ("resolve", ["resolve/**"]),

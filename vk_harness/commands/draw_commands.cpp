@@ -117,6 +117,10 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
     const DrawPlan& plan = of.draws[draw_index];
     const cases::Draw& draw = *plan.draw;
     if (draw.indices ? draw.indices->empty() : draw.positions.empty()) {
+        if (of.queries) {
+            of.queries->begin(commands, draw_index);
+            of.queries->end(commands, draw_index);
+        }
         return;
     }
     const Door door = test.variation.door;
@@ -148,6 +152,9 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
     if (is_dynamic) {
         set_state(device, commands, state, draw.depth.bias.value_or(cases::DepthBias{}));
     }
+    if (of.queries) {
+        of.queries->begin(commands, draw_index);
+    }
     for (const VkRect2D& scissor : scissors_of(draw, test)) {
         if (is_dynamic) {
             replace_scissor(state, draw, scissor);
@@ -157,6 +164,9 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
             bind(plan.pipeline);
         }
         draw_once(device, commands, plan, vertices);
+    }
+    if (of.queries) {
+        of.queries->end(commands, draw_index);
     }
 }
 

@@ -9,7 +9,8 @@
 namespace vk_harness {
 
 // Records the draw with all state and inputs that it needs: nothing is taken over from what was
-// recorded before. A draw without vertices records nothing.
+// recorded before. A draw without vertices records nothing but
+// its query.
 void record_draw(const Device& device, const PipelineCache& pipelines, VkCommandBuffer commands,
                  const CasePlan& of, uint32_t draw_index, VkBuffer vertices);
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "vk_harness/commands/blit.hpp"
+#include "vk_harness/commands/query.hpp"
 #include "vk_harness/door/feed.hpp"
 #include "vk_harness/pipeline/pipeline_cache.hpp"
 #include "vk_harness/target/readback.hpp"
@@ -38,6 +39,7 @@ struct CasePlan {
     std::vector<const Image*> images;  // one an attachment
     std::vector<DrawPlan> draws;
     std::shared_ptr<BlitImages> blit;          // instead of images and draws
+    std::shared_ptr<Queries> queries;          // if draws ask for them
     std::vector<VkCommandBuffer> secondaries;  // secondaries_of() many; empty: none
     ReadbackLayout readback;
 };

@@ -307,6 +307,9 @@ Result<void> record_draws(const Device& device, const PipelineCache& pipelines,
                           bool for_copies) {
     barrier(device, commands, plan, kReused, kColorDrawn, kReused, kDepthDrawn);
     clear_resolved(device, commands, plan);
+    if (plan.queries) {
+        plan.queries->reset(commands);
+    }
     const Door door = plan.test->variation.door;
     if (!plan.secondaries.empty()) {
         if (auto rendered = render_by_secondaries(device, pipelines, commands, plan, vertices);

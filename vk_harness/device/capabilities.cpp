@@ -171,6 +171,7 @@ void query_optional_features(Capabilities& c) {
     c.depth_bias_clamp = features.features.depthBiasClamp == VK_TRUE;
     c.depth_bounds = features.features.depthBounds == VK_TRUE;
     c.logic_op = features.features.logicOp == VK_TRUE;
+    c.precise_queries = features.features.occlusionQueryPrecise == VK_TRUE;
     c.depth_clip_enable = depth_clip.depthClipEnable == VK_TRUE;
     c.depth_bias = query_depth_bias_support(c.physical, has_device_extension);
     c.has_sample_shading = features.features.sampleRateShading == VK_TRUE;

@@ -55,6 +55,7 @@ struct Capabilities {
     bool depth_clamp = false, depth_bias_clamp = false, depth_clip_enable = false;
     bool depth_bounds = false;
     bool logic_op = false;
+    bool precise_queries = false;  // occlusionQueryPrecise
     DepthBiasSupport depth_bias;
     PortabilitySupport portability;
     CoreSupport core;

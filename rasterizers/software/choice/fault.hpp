@@ -341,6 +341,19 @@ enum class Fault : uint16_t {
     stencil_fail_draws,
     stencil_fail_writes_depth,
     stencil_never_written,
+    // occlusion queries
+    query_before_mask,
+    query_before_discard,
+    query_before_bounds,
+    query_before_stencil,
+    query_before_depth,
+    query_without_hidden,
+    query_counts_pixels,
+    query_halved,
+    query_not_reset,
+    query_in_16_bits,
+    query_precise_as_any,
+    query_always_any,
 };
 
 // One line of the table of faults.

@@ -88,9 +88,9 @@ std::vector<Change> target_changes() {
 std::vector<Change> draw_changes() {
     [[maybe_unused]] const auto& [topology, positions, indices, primitive_restart, attributes,
                                   viewport, scissor, cull, front_face, provoking,
-                                  rasterizer_discard, discard, early_tests, frag_depth, depth,
-                                  stencil, distances, multisample, color, layer, viewport_index,
-                                  where] = cases::Draw{};
+                                  rasterizer_discard, discard, early_tests, frag_depth, query,
+                                  depth, stencil, distances, multisample, color, layer,
+                                  viewport_index, where] = cases::Draw{};
     [[maybe_unused]] const auto& [x, y, width, height, min_depth, max_depth] = cases::Viewport{};
     [[maybe_unused]] const auto& [left, top, columns, rows] = cases::Rect{};
     [[maybe_unused]] const auto& [sample_mask, shader_mask, min_sample_shading] =

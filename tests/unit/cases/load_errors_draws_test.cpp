@@ -125,6 +125,15 @@ vertices = [[0,0],[8,0],[0,8]])~"),
      R"~(f:8:19: error: clamp is the string "yes"; write true or false)~"},
     {triangle(R"~(depth = { clip = 0 })~"),
      R"~(f:8:18: error: clip is the number 0; write true or false)~"},
+    {target("size = [8, 8]\nattachments = \"color\"\ncolor = { format = \"rgba8-unorm\" }") +
+         "query = \"occlusion\"\ncolor = { value = [0, 0, 0, 1] }\n",
+     R"~(f:10:9: error: a query needs the attachments that count hits; leave attachments out of [target])~"},
+    {triangle(R"~(query = "precise")~"),
+     R"~(f:8:9: error: query is "precise"; write "none", "occlusion" or "occlusion-precise")~"},
+    {triangle(R"~(query = "occlusion"
+early_tests = true
+sample_mask = 1)~"),
+     R"~(f:8:9: error: with early tests a device may count what the sample mask takes away; leave out query, early_tests or sample_mask)~"},
     {triangle(R"~(frag_depth = 0.5)~"),
      R"~(f:8:14: error: frag_depth is a number; write a table)~"},
     {triangle(R"~(frag_depth = {})~"),

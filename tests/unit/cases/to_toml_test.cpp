@@ -185,6 +185,7 @@ cull               = "back"
 front_face         = "clockwise"
 provoking          = "last"
 rasterizer_discard = true
+query              = "occlusion-precise"
 depth              = { compare = "less", write = false, bias = { slope = 1.5 }, clip = true, bounds = [0.25, 1] }
 depth_volume       = "negative-one-to-one"
 stencil            = { front = { compare = "equal", fail = "zero", depth_fail = "invert", pass = "replace", compare_mask = 0x7f, write_mask = 0xf0, reference = 9 }, back = { pass = "keep" } }

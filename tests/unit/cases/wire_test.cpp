@@ -42,6 +42,7 @@ Case sample() {
     draw.discard = cases::Discard::checker;
     draw.early_tests = true;
     draw.frag_depth = FragDepth{false, 0.25F, 0.5F, Discard::odd_rows, DepthLayout::less};
+    draw.query = Query::occlusion_precise;
     draw.depth.compare = CompareOp::less_or_equal;
     draw.depth.write = false;
     draw.depth.bounds = DepthBounds{0.125F, 0.75F};
@@ -140,6 +141,7 @@ TEST(Wire, RoundTripKeepsEveryBit) {
         EXPECT_EQ(a.discard, b.discard);
         EXPECT_EQ(a.early_tests, b.early_tests);
         EXPECT_EQ(a.frag_depth, b.frag_depth);
+        EXPECT_EQ(a.query, b.query);
         EXPECT_EQ(a.depth, b.depth);
         EXPECT_EQ(a.distances, b.distances);
         EXPECT_EQ(a.multisample, b.multisample);

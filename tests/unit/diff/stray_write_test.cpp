@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "diff/stray_write.hpp"
-
 #include <gmock/gmock.h>
+
+#include "diff/whole_case.hpp"
 
 namespace diff {
 namespace {

@@ -108,7 +108,7 @@ TEST(Message, DifferencesComeBackAndImpossibleOnesAreRefused) {
         << "more than were compared";
     EXPECT_TRUE(refuses({2, 1, {}, {}, {}})) << "one is kept back";
     EXPECT_TRUE(refuses({2, 1, {{2, 0, 0, 1, 2}}, {}, {}})) << "a sample outside";
-    EXPECT_TRUE(refuses({2, 1, {{1, diff::kPlanes, 0, 1, 2}}, {}, {}})) << "no such plane";
+    EXPECT_TRUE(refuses({2, 1, {{1, diff::kCounts, 0, 1, 2}}, {}, {}})) << "no such plane";
     EXPECT_TRUE(refuses({2, 1, {{1, 0, 4, 1, 2}}, {}, {}})) << "no such word";
     EXPECT_TRUE(refuses({2, 1, {{1, 0, 0, 2, 2}}, {}, {}})) << "no difference";
     result.consistency.assign(257, {2, 0, {}, {}, {}});

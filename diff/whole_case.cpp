@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "diff/whole_case.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "cases/model/rule_ids.hpp"
+#include "cases/model/sample.hpp"
+#include "ref/expectation/counted.hpp"
+
+namespace diff {
+
+namespace {
+
+using ref::CountBounds;
+
+bool has_wrong_hits(const Verdict& verdict) {
+    const auto count = [&](FindingKind kind) {
+        return verdict.counts.at(static_cast<size_t>(kind));
+    };
+    return count(FindingKind::missing) + count(FindingKind::extra) +
+               count(FindingKind::double_hit) >
+           0;
+}
+
+// The bounds of the number that a query gives: of one that is not precise 0 or any other, which is
+// captured as 1.
+CountBounds given(const CountBounds& counted, cases::Query query) {
+    return query == cases::Query::occlusion_precise
+               ? counted
+               : CountBounds{std::min(counted.least, uint64_t{1}),
+                             std::min(counted.most, uint64_t{1})};
+}
+
+std::string to_text(const CountBounds& bounds, cases::Query query) {
+    if (query == cases::Query::occlusion) {
+        return bounds.most == 0 ? "0" : bounds.least == 0 ? "any number" : "not 0";
+    }
+    return bounds.least == bounds.most ? fmt::format("{}", bounds.least)
+                                       : fmt::format("{} to {}", bounds.least, bounds.most);
+}
+
+std::string why_of(uint64_t got, const CountBounds& counted, const cases::Draw& draw) {
+    if (got == capture::kNotCounted) {
+        return "the query is not available, although its submission has ended";
+    }
+    return fmt::format(
+        "a query counts the samples of the draw's fragments that survive all tests{}; by what the "
+        "picture shows, sample by sample, they are {}",
+        cases::stores_discarded(draw) ? ", those among them that the shader discards afterwards"
+                                      : "",
+        to_text(counted, cases::Query::occlusion_precise));
+}
+
+}  // namespace
+
+void add_stray_writes(const cases::Case& c, std::span<const capture::StrayWrite> writes,
+                      Verdict& verdict) {
+    const cases::Target& t = c.target;
+    for (const capture::StrayWrite& w : writes) {
+        const std::string_view side = w.is_before ? "before" : "after";
+        Finding finding = finding_at(
+            FindingKind::value, t,
+            w.is_before ? cases::SampleId{0, 0, 0, 0}
+                        : cases::SampleId{t.width - 1, t.height - 1, t.samples - 1, t.layers - 1});
+        finding.rule = cases::rule::write_outside;
+        finding.level = cases::Profile::vulkan;
+        finding.quantity = fmt::format("memory {} {}", side, w.attachment);
+        finding.expected = fmt::format("{:#010x}", w.expected);
+        finding.got = fmt::format("{:#010x}", w.got);
+        finding.why = fmt::format(
+            "a buffer that no command of the case writes to lies {} the attachment in its memory; "
+            "{} of its words changed, the nearest {} bytes {}",
+            side, w.words, w.distance,
+            w.is_before ? "before the first byte" : "after the last byte");
+        if (w.renderings > 1) {
+            finding.why +=
+                fmt::format("; {} renderings were in the submission, and none of them did it alone",
+                            w.renderings);
+        }
+        verdict.add(std::move(finding), t);
+    }
+}
+
+void judge_queries(const cases::Case& c, const capture::CaptureView& capture,
+                   Attribution& attribution, Verdict& verdict) {
+    if (!cases::asks_queries(c) || has_wrong_hits(verdict)) {
+        return;
+    }
+    const auto hits = [&](size_t index) -> std::optional<uint32_t> {
+        const capture::SampleState state = capture::sample_state(capture, index);
+        if (state == capture::SampleState::inconsistent) {
+            return std::nullopt;
+        }
+        return static_cast<uint32_t>(capture.hits[index].x + capture.hits[index].y);
+    };
+    std::vector<bool> is_told(c.draws.size(), false);
+    for (const cases::Profile profile : cases::kProfiles) {
+        if (profile > verdict.profile) {
+            break;
+        }
+        const std::vector<CountBounds> counted =
+            ref::count_bounds(attribution.at(profile), c.draws.size(), hits);
+        for (size_t k = 0; k < c.draws.size(); ++k) {
+            const cases::Query query = c.draws[k].query;
+            const CountBounds bounds = given(counted[k], query);
+            const uint64_t got = capture.counted[k];
+            if (query == cases::Query::none || is_told[k] ||
+                (got != capture::kNotCounted && got >= bounds.least && got <= bounds.most)) {
+                continue;
+            }
+            is_told[k] = true;
+            Finding finding = finding_at(FindingKind::value, c.target, {});
+            finding.rule = cases::rule::query_occlusion;
+            finding.level = profile;
+            finding.quantity = fmt::format("occlusion query of draw {}", k);
+            finding.expected = to_text(bounds, query);
+            finding.got = got == capture::kNotCounted                   ? "no result"
+                          : query == cases::Query::occlusion && got > 0 ? "not 0"
+                                                                        : fmt::format("{}", got);
+            finding.why = why_of(got, counted[k], c.draws[k]);
+            verdict.add(std::move(finding), c.target);
+        }
+    }
+}
+
+}  // namespace diff

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What is wrong with a rendering as a whole and belongs to no sample: memory beside its attachments
+// (rule write.outside), numbers of its queries (query.occlusion).
+#pragma once
+
+#include <span>
+
+#include "diff/attribution.hpp"
+#include "diff/verdict.hpp"
+
+namespace diff {
+
+// Memory that has changed: adds one finding each to a verdict. Such a word belongs to no sample:
+// the finding stands at the target's first sample if the memory lies before the attachment's, else
+// at the last.
+void add_stray_writes(const cases::Case& c, std::span<const capture::StrayWrite> writes,
+                      Verdict& verdict);
+
+// Adds one finding for each draw whose query is wrong. Such a number belongs to no sample: the
+// finding stands at the first sample of the target. Nothing is judged where hits are wrong, since
+// what is counted follows from them.
+void judge_queries(const cases::Case& c, const capture::CaptureView& capture,
+                   Attribution& attribution, Verdict& verdict);
+
+}  // namespace diff

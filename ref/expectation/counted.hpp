@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What occlusion queries may count: "the occlusion query sample counter increments by one for each
+// sample with a coverage value of 1 in each fragment that survives all the per-fragment tests"
+// (Vulkan specification, "Sample Counting").
+//
+// With early tests, fragment shading "should" come after the counting, "but may be performed
+// before" ("Fragment Operations"): what is discarded then may be counted at profile vulkan, and is
+// from practice on.
+//
+// The fragments that show at a sample are as many as its hits. So where the hits of a device are
+// known, its counts have to go with them, and of a sample that is open nothing is left open that
+// one draw alone may have hit.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "cases/model/profile.hpp"
+#include "ref/expectation/expectation.hpp"
+
+namespace ref {
+
+struct CountBounds {
+    uint64_t least = 0, most = 0;
+    friend bool operator==(const CountBounds&, const CountBounds&) = default;
+};
+
+// How many of a sample's fragments of the k-th of these draws are counted, where between `least`
+// and `most` fragments of all draws show.
+CountBounds counted_at(std::span<const CountedDraw> draws, size_t k, uint32_t least, uint32_t most,
+                       cases::Profile profile);
+
+// The hits of a device at a sample; nothing where they are not known.
+using HitsAt = std::function<std::optional<uint32_t>(size_t index)>;
+
+// What the queries of a case may count, one entry a draw, with the hits that a device shows.
+std::vector<CountBounds> count_bounds(const Expectation& expectation, size_t draws,
+                                      const HitsAt& hits);
+
+}  // namespace ref

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Occlusion queries: what is read of them.
+#include <algorithm>
+#include <array>
+
+#include "fault.hpp"
+
+namespace breaking {
+
+namespace {
+
+constexpr std::array kFaults = {
+    Fault{"query-halved",
+          "Queries give half of what they counted.",
+          {.query_result = [](QueryResult& q) { return change(q.count, q.count / 2); }}},
+    Fault{"query-one-more",
+          "A query that counted any sample gives one more.",
+          {.query_result =
+               [](QueryResult& q) { return change(q.count, q.count + (q.count > 0 ? 1 : 0)); }}},
+    Fault{"query-in-16-bits",
+          "Queries count in 16 bits.",
+          {.query_result = [](QueryResult& q) { return change(q.count, q.count & 0xffff); }}},
+    Fault{"query-precise-as-any",
+          "A precise query tells only whether any sample passed.",
+          {.query_result =
+               [](QueryResult& q) {
+                   return q.is_precise && change(q.count, std::min(q.count, uint64_t{1}));
+               }}},
+    Fault{"query-any-always",
+          "A query that is not precise tells of samples where none passed.",
+          {.query_result =
+               [](QueryResult& q) {
+                   return !q.is_precise && change(q.count, std::max(q.count, uint64_t{1}));
+               }}},
+    Fault{"query-not-reset",
+          "A query goes on from what the queries before it counted.",
+          {.query_result = [](QueryResult& q) { return change(q.count, q.count + q.before); }}},
+    Fault{"door-query-lost",
+          "Queries in secondary command buffers count nothing.",
+          {.query_result = [](QueryResult& q) { return q.in_secondary && change(q.count, 0); }}},
+};
+
+}  // namespace
+
+std::span<const Fault> query_faults() {
+    return kFaults;
+}
+
+}  // namespace breaking

@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Wrong numbers planted in what occlusion queries counted.
+#include <gtest/gtest.h>
+
+#include "diff/consistency.hpp"
+#include "diff/verdict.hpp"
+#include "rasterizers/captures.hpp"
+#include "tests/unit/diff/perfect_capture.hpp"
+
+namespace diff {
+namespace {
+
+using cases::Profile;
+using cases::Query;
+
+// Three draws: 10 pixels that may be hit by one draw alone, nothing, and all 64.
+cases::Case asked(Query query) {
+    cases::Case c = pixel_case(8, 8, {{0, 0}, {5, 0}, {0, 5}});
+    c.draws.push_back(pixel_case(8, 8, {{8, 0}, {16, 0}, {8, 8}}).draws[0]);
+    c.draws.push_back(pixel_case(8, 8, {{0, 0}, {16, 0}, {0, 16}}).draws[0]);
+    for (cases::Draw& draw : c.draws) {
+        draw.query = query;
+    }
+    return c;
+}
+
+Verdict verdict_of(const cases::Case& c, const capture::Capture& capture,
+                   Profile profile = Profile::direct3d) {
+    return compare(c, ref::expect(c, {}, profile), capture);
+}
+
+// The one finding of a capture whose query of a draw counted something else.
+Finding finding_with(const cases::Case& c, size_t draw, uint64_t count) {
+    capture::Capture wrong = rasterizers::draw_by_reference(c);
+    wrong.counted[draw] = count;
+    const Verdict verdict = verdict_of(c, wrong);
+    EXPECT_EQ(verdict.finding_total(), 1U) << verdict.error;
+    return verdict.findings.empty() ? Finding{} : verdict.findings[0];
+}
+
+TEST(QueryJudge, EveryOtherNumberIsWrong) {
+    const cases::Case c = asked(Query::occlusion_precise);
+    const capture::Capture right = rasterizers::draw_by_reference(c);
+    EXPECT_EQ(right.counted, (std::vector<uint64_t>{10, 0, 64}));
+    EXPECT_TRUE(verdict_of(c, right).ok());
+    for (const auto& [draw, count] :
+         {std::pair(0U, 9U), {0U, 11U}, {0U, 1U}, {1U, 1U}, {2U, 63U}, {2U, 65U}, {2U, 0U}}) {
+        const Finding finding = finding_with(c, draw, count);
+        EXPECT_EQ(finding.rule, "query.occlusion");
+        EXPECT_EQ(finding.level, Profile::vulkan);
+        EXPECT_EQ(finding.quantity, "occlusion query of draw " + std::to_string(draw));
+        EXPECT_EQ(finding.expected, std::to_string(right.counted[draw]));
+        EXPECT_EQ(finding.got, std::to_string(count));
+    }
+}
+
+TEST(QueryJudge, AnyNumberButZeroTellsOfSamples) {
+    const cases::Case c = asked(Query::occlusion);
+    capture::Capture capture = rasterizers::draw_by_reference(c);
+    EXPECT_EQ(capture.counted, (std::vector<uint64_t>{1, 0, 1}));
+    EXPECT_TRUE(verdict_of(c, capture).ok());
+    EXPECT_EQ(finding_with(c, 0, 0).expected, "not 0");
+    EXPECT_EQ(finding_with(c, 1, 1).expected, "0");
+    EXPECT_EQ(finding_with(c, 1, 1).got, "not 0");
+}
+
+TEST(QueryJudge, DrawsWithoutQueriesAreNotJudged) {
+    cases::Case c = asked(Query::occlusion_precise);
+    c.draws[0].query = Query::none;
+    capture::Capture capture = rasterizers::draw_by_reference(c);
+    EXPECT_EQ(capture.counted[0], 0U);
+    capture.counted[0] = 5;
+    EXPECT_TRUE(verdict_of(c, capture).ok());
+}
+
+TEST(QueryJudge, CountsFollowFromWhatTheDeviceShows) {
+    // Sample (2, 2) lies on the first triangle's edge: its owner is the device's choice at vulkan.
+    const cases::Case c = asked(Query::occlusion_precise);
+    capture::Capture capture = rasterizers::draw_by_reference(c);
+    set_hits(capture, 2 * 8 + 2, 0, 2);
+    EXPECT_EQ(verdict_of(c, capture, Profile::vulkan).findings.at(0).expected, "11");
+    capture.counted[0] = 11;
+    EXPECT_TRUE(verdict_of(c, capture, Profile::vulkan).ok());
+    // At direct3d the hit is the finding, and what is counted follows from it.
+    const Verdict strict = verdict_of(c, capture);
+    ASSERT_EQ(strict.finding_total(), 1U);
+    EXPECT_EQ(strict.findings[0].rule, "tie.top-left");
+}
+
+TEST(QueryJudge, ACaptureWithoutCountsIsNoPass) {
+    const cases::Case c = asked(Query::occlusion_precise);
+    capture::Capture capture = rasterizers::draw_by_reference(c);
+    capture.counted.clear();
+    EXPECT_EQ(verdict_of(c, capture).error, "the capture lacks what the case's queries counted");
+}
+
+TEST(QueryJudge, OtherRenderingsCountAsMany) {
+    cases::Case c = asked(Query::occlusion_precise);
+    c.relations.push_back({});
+    const capture::Capture base = rasterizers::draw_by_reference(c);
+    capture::Capture other = base;
+    const std::vector<cases::Derivation> derivations = cases::derivations(c);
+    EXPECT_EQ(compare_bits(base, other, derivations[0]).different, 0U);
+    other.counted[2] = 63;
+    const Consistency found = compare_bits(base, other, derivations[0]);
+    EXPECT_EQ(found.different, 1U);
+    Verdict verdict = verdict_of(c, base);
+    add_differences(c, derivations, std::vector{found, Consistency{}}, verdict);
+    ASSERT_EQ(verdict.findings.size(), 1U);
+    EXPECT_EQ(verdict.findings[0].rule, "repeat.same");
+    EXPECT_EQ(verdict.findings[0].quantity, "occlusion query of draw 2, same-twice");
+    EXPECT_EQ(verdict.findings[0].expected, "64");
+    EXPECT_EQ(verdict.findings[0].got, "63");
+}
+
+}  // namespace
+}  // namespace diff

@@ -1,0 +1,177 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What occlusion queries may count: random cases against the oracle, bounds by hand, and what the
+// hits that a device shows leave open.
+#include "ref/expectation/counted.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "cases/model/sample.hpp"
+#include "tests/unit/ref/same_expectations.hpp"
+#include "tests/unit/ref/value_case.hpp"
+
+namespace ref::test {
+namespace {
+
+using cases::Profile;
+
+class CountedRandom {
+  public:
+    explicit CountedRandom(uint64_t seed) : engine_(seed) {}
+    uint32_t below(uint32_t n) { return static_cast<uint32_t>(engine_() % n); }
+    bool one_in(uint32_t n) { return below(n) == 0; }
+
+  private:
+    std::mt19937_64 engine_;
+};
+
+cases::Case random_counted_case(uint64_t seed) {
+    CountedRandom random(seed);
+    cases::Case c;
+    c.id = "random queries";
+    c.target = {8, 8, random.one_in(3) ? 4U : 1U};
+    c.target.has_stencil = random.one_in(2);
+    c.target.depth_clear = 0.75F;
+    const uint32_t draws = 1 + random.below(4);
+    for (uint32_t k = 0; k < draws; ++k) {
+        cases::Draw d;
+        d.viewport = {0, 0, 8, 8, 0, 1};
+        d.scissor = {0, 0, 8, 8 - random.below(4)};
+        d.query = static_cast<cases::Query>(k == 0 ? 2 : random.below(3));
+        d.discard = static_cast<cases::Discard>(random.one_in(3) ? random.below(6) : 0);
+        d.early_tests = random.one_in(2);
+        d.multisample.sample_mask = random.one_in(4) && !d.early_tests ? 5U : 0xffffffffU;
+        d.cull = static_cast<cases::CullMode>(random.one_in(3) ? random.below(3) : 0);
+        d.depth.compare = random.one_in(2) ? cases::CompareOp::always
+                                           : static_cast<cases::CompareOp>(random.below(8));
+        d.depth.write = !random.one_in(4);
+        if (c.target.has_stencil && random.one_in(2)) {
+            d.stencil.front.compare = static_cast<cases::CompareOp>(random.below(8));
+            d.stencil.front.reference = random.below(3);
+        }
+        value_test::add_random_triangles(d, random, 8, 64);
+        c.draws.push_back(d);
+    }
+    return c;
+}
+
+std::vector<CountBounds> without_hits(const Expectation& e, const cases::Case& c) {
+    return count_bounds(e, c.draws.size(), [](size_t) { return std::nullopt; });
+}
+
+TEST(Counted, ExpectationsAgreeWithTheOracle) {
+    uint64_t least = 0, open = 0, hidden = 0;
+    for (uint64_t seed = 1; seed <= 120; ++seed) {
+        const cases::Case c = random_counted_case(seed);
+        for (const Profile profile : cases::kProfiles) {
+            const Expectation fast = expect(c, Limits{}, profile);
+            const Expectation slow = exact::expect(c, Limits{}, profile);
+            ASSERT_TRUE(same_expectations(fast, slow)) << "seed " << seed;
+            for (const CountBounds& bounds : without_hits(fast, c)) {
+                ASSERT_LE(bounds.least, bounds.most) << "seed " << seed;
+                least += bounds.least;
+                open += bounds.most - bounds.least;
+            }
+            for (const CountedDraw& counted : fast.counted) {
+                hidden += counted.hidden_most;
+            }
+        }
+    }
+    EXPECT_GT(least, 2000U);
+    EXPECT_GT(open, 100U);
+    EXPECT_GT(hidden, 500U);
+}
+
+// A query alters nothing of what is drawn.
+TEST(Counted, HitsAreThoseWithoutQueries) {
+    for (uint64_t seed = 1; seed <= 120; ++seed) {
+        const cases::Case c = random_counted_case(seed);
+        cases::Case plain = c;
+        for (cases::Draw& draw : plain.draws) {
+            draw.query = cases::Query::none;
+        }
+        for (const Profile profile : cases::kProfiles) {
+            const Expectation asked = expect(c, Limits{}, profile);
+            const Expectation unasked = expect(plain, Limits{}, profile);
+            ASSERT_TRUE(unasked.counted.empty());
+            for (size_t k = 0; k < asked.samples.size(); ++k) {
+                // Courses know together what a list of triangles knows of each.
+                const HitBounds& a = asked.samples[k].hits;
+                const HitBounds& b = unasked.samples[k].hits;
+                EXPECT_GE(a.total_min, b.total_min) << "seed " << seed << " sample " << k;
+                EXPECT_LE(a.total_max, b.total_max) << "seed " << seed << " sample " << k;
+            }
+        }
+    }
+}
+
+cases::Case triangle_of_8() {
+    cases::Case c;
+    c.target = {8, 8, 1};
+    cases::Draw d;
+    d.viewport = {0, 0, 8, 8, 0, 1};
+    d.scissor = {0, 0, 8, 8};
+    d.positions = {{-1, -1, 0.5F, 1}, {1, -1, 0.5F, 1}, {-1, 1, 0.5F, 1}};
+    d.query = cases::Query::occlusion_precise;
+    c.draws.push_back(d);
+    return c;
+}
+
+// 1 + 2 + ... + 7 centres lie inside, and 8 on the edge from the right to the left, which is no
+// top-left edge.
+TEST(Counted, TheDiagonalIsOpenWithoutTopLeftRule) {
+    const cases::Case c = triangle_of_8();
+    EXPECT_EQ(without_hits(expect(c, Limits{}, Profile::direct3d), c)[0], (CountBounds{28, 28}));
+    const Expectation vulkan = expect(c, Limits{}, Profile::vulkan);
+    EXPECT_EQ(without_hits(vulkan, c)[0], (CountBounds{28, 36}));
+    // A device that shows every second sample of the diagonal counts 4 more, no others.
+    const auto hits = [&](size_t index) -> std::optional<uint32_t> {
+        const size_t x = index % 8;
+        const size_t y = index / 8;
+        return x + y < 7 || (x + y == 7 && x % 2 == 0) ? 1 : 0;
+    };
+    EXPECT_EQ(count_bounds(vulkan, 1, hits)[0], (CountBounds{32, 32}));
+}
+
+TEST(Counted, TwoTrianglesShareTheirEdge) {
+    cases::Case c = triangle_of_8();
+    for (const glm::vec4& v : {glm::vec4(-1, 1, 0.5F, 1), {1, -1, 0.5F, 1}, {1, 1, 0.5F, 1}}) {
+        c.draws[0].positions.push_back(v);
+    }
+    for (const Profile profile : cases::kProfiles) {
+        EXPECT_EQ(without_hits(expect(c, Limits{}, profile), c)[0], (CountBounds{64, 64}));
+    }
+}
+
+// 14 of the 28 pixels have an odd x or an odd y, but not both: 7 - 2k of row k are covered.
+TEST(Counted, WhatIsDiscardedEarlyIsCountedFromPracticeOn) {
+    cases::Case c = triangle_of_8();
+    c.draws[0].discard = cases::Discard::checker;
+    const auto at = [&](Profile profile) {
+        return without_hits(expect(c, Limits{}, profile), c)[0];
+    };
+    EXPECT_EQ(at(Profile::direct3d), (CountBounds{16, 16}));
+    c.draws[0].early_tests = true;
+    EXPECT_EQ(at(Profile::direct3d), (CountBounds{28, 28}));
+    EXPECT_EQ(at(Profile::vulkan).least, 16U);
+    EXPECT_EQ(at(Profile::vulkan).most, 36U);
+}
+
+TEST(Counted, OthersHitsLeaveLess) {
+    const std::vector<CountedDraw> draws = {{0, 0, 2, 0, 0}, {1, 1, 3, 0, 1}};
+    EXPECT_EQ(counted_at(draws, 0, 1, 5, Profile::vulkan), (CountBounds{0, 2}));
+    EXPECT_EQ(counted_at(draws, 0, 1, 1, Profile::vulkan), (CountBounds{0, 0}));
+    EXPECT_EQ(counted_at(draws, 0, 5, 5, Profile::vulkan), (CountBounds{2, 2}));
+    EXPECT_EQ(counted_at(draws, 1, 4, 4, Profile::vulkan), (CountBounds{2, 4}));
+    EXPECT_EQ(counted_at(std::vector<CountedDraw>{{0, 0, 1, 1, 1}}, 0, 0, 0, Profile::vulkan),
+              (CountBounds{0, 1}));
+    EXPECT_EQ(counted_at(std::vector<CountedDraw>{{0, 0, 1, 1, 1}}, 0, 0, 0, Profile::practice),
+              (CountBounds{1, 1}));
+}
+
+}  // namespace
+}  // namespace ref::test

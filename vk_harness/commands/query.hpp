@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Occlusion queries around the draws of a case.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cases/model/case.hpp"
+#include "vk_harness/device/device.hpp"
+
+namespace vk_harness {
+
+// The queries of one case, one a draw. Those of draws that ask for none are not used.
+class Queries {
+  public:
+    // Keeps references.
+    static Result<Queries> create(const Device& device, const cases::Case& c);
+
+    // Outside of a rendering, before its first query.
+    void reset(VkCommandBuffer commands) const;
+    // Around the draw's commands, where it asks for a query; clears and loads lie outside, since
+    // they "may count towards the results of queries" (Vulkan specification, "Query Operation").
+    void begin(VkCommandBuffer commands, uint32_t draw) const;
+    void end(VkCommandBuffer commands, uint32_t draw) const;
+
+    // What was counted (capture::Planes::counted), when the commands have been submitted.
+    Result<std::vector<uint64_t>> read() const;
+
+  private:
+    Queries(const Device& device, const cases::Case& c) : device_(&device), case_(&c) {}
+    const Device* device_;
+    const cases::Case* case_;
+    Handle<VkQueryPool> pool_;
+};
+
+}  // namespace vk_harness
