@@ -295,7 +295,7 @@ constexpr Statement kStatements[] = {
     {91, "the colour write mask", exact, exact,
      "Masked components keep their bits.",
      {"blend.write-mask"}, ""},
-    {123, "logical operations", exact, not_spoken,
+    {124, "logical operations", exact, not_spoken,
      "What the operation makes of the codes, bit by bit; blending is off, and floating-point and sRGB targets are written "
      "as they are.",
      {"logic.operation"}, ""},
