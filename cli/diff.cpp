@@ -69,6 +69,7 @@ void judge_folder(CaseRecord& record, std::vector<std::string>& skipped, const c
                              work.options.run.capture);
         if (record.status == Status::pass || record.status == Status::fail) {
             skipped = diff::not_judged(c, read->planes);
+            record.not_judged = skipped;
             std::string list;
             for (const std::string& word : skipped) {
                 list += (list.empty() ? "not judged: " : ", ") + word;

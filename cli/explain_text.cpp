@@ -66,8 +66,11 @@ std::string accepted_text(ref::ValueReference& values, uint32_t triangle, cases:
     if (!all.is_promised) {
         return text;
     }
-    text += fmt::format(", of all bases {} to {}", cases::number_text(all.low),
-                        cases::number_text(all.high));
+    text += fmt::format(", of all bases{} {} to {}", all.is_of_places ? " and places" : "",
+                        cases::number_text(all.low), cases::number_text(all.high));
+    if (all.is_of_places) {
+        text += ", and nothing between the places";
+    }
     if (all.has_biased) {
         text += fmt::format(", or with the bias {} to {}", cases::number_text(all.biased_low),
                             cases::number_text(all.biased_high));

@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
 #include <optional>
 #include <utility>
+#include <vector>
 
+#include "cases/model/sample.hpp"
 #include "diagnosis/as_if.hpp"
 
 namespace diagnosis::as_if {
@@ -42,6 +45,17 @@ bool placed_as(Case& c) {
                }
                return is_changed;
            });
+}
+
+// Changes the locations of four samples or more, in 1/16 pixel.
+bool with_locations(Case& c, void (*change)(std::vector<std::array<uint8_t, 2>>&)) {
+    const auto known = cases::sample_locations(c.target);
+    std::vector<std::array<uint8_t, 2>> changed(known.begin(), known.end());
+    if (changed.size() < 4) {
+        return false;
+    }
+    change(changed);
+    return set(c.target.sample_locations, changed);
 }
 
 const Row kInputsRows[] = {
@@ -91,6 +105,12 @@ const Row kInputsRows[] = {
              return least && *least > 0 && set(*least, *least / 2);
          });
      }},
+    {"samples-one-two-exchanged", "Samples 1 and 2 of a pixel are exchanged",
+     [](Case& c) { return with_locations(c, [](auto& at) { std::swap(at[1], at[2]); }); }},
+    {"sample-three-at-centre", "Sample 3 lies at the centre of its pixel",
+     [](Case& c) { return with_locations(c, [](auto& at) {
+                       at[3] = {8, 8};
+                   }); }},
     // clip and cull distances
     {"clip-distance-culls", "Clip distances cull whole triangles",
      [](Case& c) {

@@ -65,6 +65,20 @@ void take_from(capture::Capture& capture, int64_t dx, int64_t dy) {
         capture, capture);
 }
 
+// True if the face tested or changed the stencil before.
+bool set_off(cases::StencilFace& face) {
+    bool is_changed = set(face.compare, cases::CompareOp::always);
+    for (cases::StencilOp* op : {&face.fail, &face.depth_fail, &face.pass}) {
+        is_changed = set(*op, cases::StencilOp::keep) || is_changed;
+    }
+    return is_changed;
+}
+
+template <uint32_t value>
+bool cleared_to(Case& c) {
+    return c.target.has_stencil && set(c.target.stencil_clear, value);
+}
+
 const Row kTargetsRows[] = {
     // colour
     {"blend-off-unless-adding", "Only equations that add are blended",
@@ -124,6 +138,16 @@ const Row kTargetsRows[] = {
      }},
     {"depth-cleared-to-one", "Depth is cleared to 1 whatever is asked",
      [](Case& c) { return c.target.has_depth && set(c.target.depth_clear, 1.0F); }},
+    // stencil
+    {"stencil-off", "There is no stencil test, and the stencil is not written",
+     [](Case& c) {
+         return c.target.has_stencil && each(c, [](Draw& d) {
+                    const bool front = set_off(d.stencil.front);
+                    return set_off(d.stencil.back) || front;
+                });
+     }},
+    {"stencil-cleared-to-one", "The stencil is cleared to 1 whatever is asked", cleared_to<1>},
+    {"stencil-cleared-to-all", "The stencil is cleared to 255 whatever is asked", cleared_to<255>},
     // the whole picture
     {"read-back-right", "Copies of the picture begin one column further right", always,
      [](capture::Capture& p) { take_from(p, 1, 0); }},

@@ -68,7 +68,7 @@ class Diagnoser {
         choose_passed(run, case_of, families);
         for (const CaseRecord& record : run.cases) {
             if (record.status == report::Status::pass) {
-                passed_ids_.insert(record.id);
+                passed_records_.emplace(record.id, &record);
             }
         }
         case_of_ = &case_of;
@@ -325,7 +325,7 @@ class Diagnoser {
         for (const software::Kill& kill : software::built_in_kills()) {
             const bool is_asked = h.device.fault == kill.fault &&
                                   kill.fault != software::Fault::none &&
-                                  passed_ids_.contains(kill.leaf);
+                                  passed_records_.contains(kill.leaf);
             const cases::Case* c = is_asked ? (*case_of_)(kill.leaf) : nullptr;
             if (c != nullptr && cost_of(*c) <= kMaxCost) {
                 list.push_back(c);
@@ -354,11 +354,10 @@ class Diagnoser {
     }
 
     const std::optional<Subject>& passed_subject(const cases::Case& c) {
-        static const CaseRecord kNone;
         const auto [at, is_new] = passed_subjects_.try_emplace(&c);
         if (is_new) {
             work_ += work_of_subject(c);
-            at->second = make_subject(c, kNone, bits_, profile_);
+            at->second = make_subject(c, *passed_records_.at(c.id), bits_, profile_);
         }
         return at->second;
     }
@@ -403,7 +402,7 @@ class Diagnoser {
     std::vector<Choice> more_failed_;     // until they are asked for
     std::vector<Subject> more_subjects_;  // then
     std::vector<Choice> passed_;
-    std::set<std::string> passed_ids_;
+    std::map<std::string, const CaseRecord*> passed_records_;  // by id
     const CaseOf* case_of_ = nullptr;
     std::vector<Hypothesis> known_;
     size_t fitted_ = 0;  // so many of them, the first, have a size

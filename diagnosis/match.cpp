@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cases/model/sample.hpp"
+#include "diff/delivered.hpp"
 #include "rasterizers/strength/strength.hpp"
 
 namespace diagnosis {
@@ -102,10 +103,19 @@ std::optional<Subject> make_subject(const cases::Case& c, const report::CaseReco
     software::Device right;
     right.subpixel_bits = subpixel_bits;
     out.right = software::captured(c, right);
-    if (!software::compare(c, out.expectation, out.right).ok()) {
+    if (!verdict_of(out, out.right).ok()) {
         return std::nullopt;
     }
     return out;
+}
+
+diff::Verdict verdict_of(const Subject& subject, const capture::Capture& picture) {
+    const cases::Case& c = *subject.data;
+    const std::vector<std::string>& left_out = subject.record->not_judged;
+    return c.blit || left_out.empty()
+               ? software::compare(c, subject.expectation, picture)
+               : diff::compare_delivered(c, subject.expectation,
+                                         diff::judged_planes(c, picture, left_out));
 }
 
 bool can_match(const cases::Case& c, const report::CaseRecord& record) {
@@ -144,7 +154,10 @@ bool may_match(const Subject& subject, const capture::Capture& drawn) {
     const report::Pictures& pictures = subject.record->pictures;
     uint64_t wrong = 0;
     uint64_t other = 0;
-    for (size_t k = 0; k < pictures.marks.size(); ++k) {
+    // Hits that nobody counted are those that the reference allows.
+    const bool counts_hits = std::ranges::find(subject.record->not_judged, "number of hits") ==
+                             subject.record->not_judged.end();
+    for (size_t k = 0; k < pictures.marks.size() && counts_hits; ++k) {
         if (is_wrong_mark(pictures.marks[k]) && k < pictures.device_hits.size() &&
             k < drawn.hits.size()) {
             ++wrong;

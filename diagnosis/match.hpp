@@ -48,6 +48,10 @@ struct Subject {
 std::optional<Subject> make_subject(const cases::Case& c, const report::CaseRecord& record,
                                     int subpixel_bits, cases::Profile profile);
 
+// The verdict on another picture of the case, on what was judged of the device's alone: a renderer
+// elsewhere need not deliver all planes.
+diff::Verdict verdict_of(const Subject& subject, const capture::Capture& picture);
+
 // True if the record has what match() needs: the picture of the whole target, and no finding that
 // comes of several renderings or of memory beside the attachments.
 bool can_match(const cases::Case& c, const report::CaseRecord& record);

@@ -13,7 +13,7 @@ Answer answer_of(const Subject& subject, const std::optional<capture::Capture>& 
     if (!drawn || software::same_bits(*drawn, subject.right)) {
         return {};
     }
-    const diff::Verdict verdict = software::compare(*subject.data, subject.expectation, *drawn);
+    const diff::Verdict verdict = verdict_of(subject, *drawn);
     if (verdict.ok()) {
         return {};
     }
@@ -22,8 +22,7 @@ Answer answer_of(const Subject& subject, const std::optional<capture::Capture>& 
 }
 
 bool is_against(const Subject& passed, const capture::Capture& drawn) {
-    return !software::same_bits(drawn, passed.right) &&
-           !software::compare(*passed.data, passed.expectation, drawn).ok();
+    return !software::same_bits(drawn, passed.right) && !verdict_of(passed, drawn).ok();
 }
 
 size_t Tally::count(Says what) const {

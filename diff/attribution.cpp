@@ -116,7 +116,8 @@ void Attribution::attribute_writer(Finding& finding,
     like_writer_.insert_or_assign(finding.level, finding);
 }
 
-void Attribution::attribute_hits(Finding& finding, uint32_t front, uint32_t back) {
+void Attribution::attribute_hits(Finding& finding, uint32_t front, uint32_t back,
+                                 const LastHit& last) {
     const size_t index = index_of(finding);
     level_hits(finding, front, back);
     const ref::HitBounds& asked = at(finding.level).samples[index].hits;
@@ -127,11 +128,13 @@ void Attribution::attribute_hits(Finding& finding, uint32_t front, uint32_t back
     }
     finding.got = hits_text(front, back, by_face);
 
+    // The case bounds how many draws there are, not what a broken device says.
+    const uint32_t draw = last.wrote && last.draw < case_.draws.size() ? last.draw : ~uint32_t{0};
     const std::string key =
-        fmt::format("{} {} {}|{}", static_cast<int>(finding.kind), static_cast<int>(finding.level),
-                    finding.expected, finding.got);
+        fmt::format("{} {} {} {}|{}", static_cast<int>(finding.kind),
+                    static_cast<int>(finding.level), draw, finding.expected, finding.got);
     const Finding* earlier = nullptr;
-    const std::pair rough(finding.kind, finding.level);
+    const std::tuple rough(finding.kind, finding.level, draw);
     if (const auto like = like_.find(key); like != like_.end() && explained_ >= explains_) {
         earlier = &like->second;
     } else if (const auto alike = alike_.find(rough);
@@ -144,13 +147,14 @@ void Attribution::attribute_hits(Finding& finding, uint32_t front, uint32_t back
         finding.why = "as at " + cases::pixel_text(case_.target, sample_of(*earlier));
         return;
     }
-    explain_hits(finding, asked, front + back);
+    explain_hits(finding, asked, front + back, last);
     ++explained_;
     like_.insert_or_assign(key, finding);
     alike_.insert_or_assign(rough, finding);
 }
 
-void Attribution::explain_hits(Finding& finding, const ref::HitBounds& asked, uint32_t total) {
+void Attribution::explain_hits(Finding& finding, const ref::HitBounds& asked, uint32_t total,
+                               const LastHit& last) {
     const Causes causes(explainer(finding.level), case_, sample_of(finding), finding.level);
     if (finding.kind == FindingKind::value) {
         finding.quantity = "facing";
@@ -161,6 +165,12 @@ void Attribution::explain_hits(Finding& finding, const ref::HitBounds& asked, ui
             tell(finding, causes.of_facing());
         }
         return;
+    }
+    if (total > asked.total_max && last.wrote) {
+        if (const std::optional<Cause> hit = causes.of_last_hit(last.wrote)) {
+            tell(finding, *hit);
+            return;
+        }
     }
     if (const std::optional<Cause> bounds = causes.of_bounds(total < asked.total_min)) {
         tell(finding, *bounds);

@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 
 #include "cases/model/case.hpp"
 #include "cases/model/profile.hpp"
@@ -19,6 +20,13 @@
 #include "ref/reason/reason.hpp"
 
 namespace diff {
+
+// Who hit a sample last, as the sample says: whether a triangle is one of those that it may mean,
+// and its draw. Empty where nobody says it.
+struct LastHit {
+    std::function<bool(const cases::Triangle&)> wrote;
+    uint32_t draw = 0;
+};
 
 // Finds the loosest profile at which hits are wrong; computes the looser expectations once, when
 // first asked.
@@ -32,7 +40,7 @@ class Attribution {
 
     // Fills rule, level, expected, got and why of a finding whose kind and sample are set, for a
     // sample where the device counted `front` and `back` hits.
-    void attribute_hits(Finding& finding, uint32_t front, uint32_t back);
+    void attribute_hits(Finding& finding, uint32_t front, uint32_t back, const LastHit& last = {});
 
     // Fills the level alone, which is cheap enough for every wrong sample of a broken device.
     void level_hits(Finding& finding, uint32_t front, uint32_t back);
@@ -51,12 +59,14 @@ class Attribution {
     size_t index_of(const Finding& finding) const;
     ref::Explainer& explainer(cases::Profile level);
     // Fills rule and why from the story of the sample.
-    void explain_hits(Finding& finding, const ref::HitBounds& asked, uint32_t total);
+    void explain_hits(Finding& finding, const ref::HitBounds& asked, uint32_t total,
+                      const LastHit& last);
 
     // Explaining a sample costs as much as judging thousands, and more with each triangle of the
     // case. After kExplained findings, or kTriangles set up for them, one that looks like an
-    // earlier one (same kind, level and numbers) takes over its rule, and after kMostExplained one
-    // of the same kind and level: a driver that breaks everything is judged in seconds, too.
+    // earlier one (same kind, level, draw that hit last and numbers) takes over its rule, and after
+    // kMostExplained one of the same kind, level and draw: a driver that breaks everything is
+    // judged in seconds, too.
     static constexpr size_t kExplained = 16;
     static constexpr size_t kMostExplained = 64;
     static constexpr size_t kTriangles = 1024;
@@ -67,8 +77,8 @@ class Attribution {
     std::optional<ref::Explainer> explainers_[3];  // by profile, made when first asked for
     size_t explains_;  // how many findings are explained before one takes over another's rule
     size_t explained_ = 0;
-    std::map<std::string, Finding> like_;  // by kind, level, expected and got
-    std::map<std::pair<FindingKind, cases::Profile>, Finding> alike_;
+    std::map<std::string, Finding> like_;  // by kind, level, draw, expected and got
+    std::map<std::tuple<FindingKind, cases::Profile, uint32_t>, Finding> alike_;
     std::map<cases::Profile, Finding> like_writer_;  // wrong writers, by level
 };
 

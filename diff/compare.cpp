@@ -261,7 +261,7 @@ class Comparison {
         verdict_.device_hits[index] = static_cast<uint8_t>(std::min(front + back, 255U));
         if (!bounds.allows(front, back)) {
             Finding finding = finding_at(kind_of(bounds, front, back), case_.target, id);
-            attribution_.attribute_hits(finding, front, back);
+            attribution_.attribute_hits(finding, front, back, last_fragment_.last_hit(index));
             add(std::move(finding));
             return;
         }

@@ -24,6 +24,9 @@ constexpr const char* kEmptyPasses =
     "of the delivered planes ({}) a picture in which nothing is drawn would pass too; deliver "
     "coverage or hits";
 
+// A primitive and a vertex that no case has, of a writer that was not delivered.
+constexpr uint32_t kNobody = capture::kClearId - 1;
+
 bool is_clear(float v) {
     return std::bit_cast<uint32_t>(v) == std::bit_cast<uint32_t>(capture::kClearValue);
 }
@@ -276,7 +279,8 @@ class Completion {
             return {triangle.draw, triangle.primitive, triangle.provoking, capture::kClearId};
         }
         if (planes_.draws.empty()) {
-            return {0, 0, 0, capture::kClearId};  // no triangle may be here: the hits are told of
+            // No triangle may be here: the hits are told of. Nobody says whose they are.
+            return {0, kNobody, kNobody, capture::kClearId};
         }
         capture::Writer writer{planes_.draws[index], planes_.primitives[index], 0,
                                capture::kClearId};
@@ -428,6 +432,46 @@ std::vector<std::string> not_judged(const cases::Case& c, const capture::Deliver
     }
     add(!c.relations.empty(), "relations");
     return words;
+}
+
+capture::Delivered judged_planes(const cases::Case& c, const capture::Capture& picture,
+                                 const std::vector<std::string>& left_out) {
+    const auto is_judged = [&](const std::string& word) {
+        return std::ranges::find(left_out, word) == left_out.end();
+    };
+    capture::Delivered out;
+    if (is_judged("writer")) {
+        for (const capture::Writer& w : picture.writers) {
+            out.draws.push_back(w.draw);
+            out.primitives.push_back(w.primitive);
+        }
+    }
+    out.frag_coord = is_judged("FragCoord") ? picture.frag_coord : out.frag_coord;
+    out.depth = is_judged("depth") ? picture.depth : out.depth;
+    bool has_values = !out.frag_coord.empty() || !out.depth.empty() || !out.draws.empty();
+    for (uint32_t a = 0; a < cases::attributes_of(c); ++a) {
+        if (is_judged(fmt::format("attribute {}", a))) {
+            out.attributes.at(a) = picture.attributes.at(a);
+            has_values = true;
+        }
+    }
+    out.color = is_judged("color") ? picture.color : out.color;
+    // Without a number of hits there may have been a plane of coverage; values say the same.
+    out.detail = is_judged("faces")                 ? capture::HitDetail::faces
+                 : is_judged("number of hits")      ? capture::HitDetail::total
+                 : has_values || !out.color.empty() ? capture::HitDetail::none
+                                                    : capture::HitDetail::coverage;
+    for (const glm::vec4& h : picture.hits) {
+        const auto front = static_cast<uint32_t>(h.x), back = static_cast<uint32_t>(h.y);
+        if (out.detail == capture::HitDetail::faces) {
+            out.front.push_back(front);
+            out.back.push_back(back);
+        } else if (out.detail != capture::HitDetail::none) {
+            out.front.push_back(out.detail == capture::HitDetail::total ? front + back
+                                                                        : front + back > 0);
+        }
+    }
+    return out;
 }
 
 Verdict compare_delivered(const cases::Case& c, const ref::Expectation& expectation,

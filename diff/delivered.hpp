@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "capture/capture.hpp"
 #include "capture/delivered.hpp"
 #include "diff/verdict.hpp"
 
@@ -20,6 +21,11 @@ namespace diff {
 // What the case has and nobody can judge from these planes, in words: "depth", "writer",
 // "number of hits". `c` has draws or a blit.
 std::vector<std::string> not_judged(const cases::Case& c, const capture::Delivered& planes);
+
+// The planes of a whole picture but those that not_judged() named of another one, so that both are
+// judged alike. `c` has draws.
+capture::Delivered judged_planes(const cases::Case& c, const capture::Capture& picture,
+                                 const std::vector<std::string>& left_out);
 
 // Judges the delivered planes; at least one. The colour is judged as if it were the only
 // attachment. An error, never a pass, if a picture in which nothing is drawn would pass too.

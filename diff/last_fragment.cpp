@@ -22,6 +22,14 @@ ref::FragmentValues values_at(const capture::CaptureView& capture, size_t index)
     return values;
 }
 
+LastHit LastFragment::last_hit(size_t index) const {
+    if (index >= capture_.writers.size()) {
+        return {};
+    }
+    const capture::Writer writer = capture_.writers[index];
+    return {[this, writer](const cases::Triangle& t) { return wrote(writer, t); }, writer.draw};
+}
+
 LastFragment::Outcome LastFragment::judge(size_t index, cases::SampleId id) {
     const ref::SampleExpectation& expected = expectation_.samples[index];
     const capture::Writer& writer = capture_.writers[index];

@@ -49,6 +49,9 @@ class LastFragment {
         uint64_t compared_values = 0;                   // numbers
     };
 
+    // Whose hit the sample says was the last.
+    LastHit last_hit(size_t index) const;
+
     // Judges a sample that was hit as often as it may be; `index` is that of `id`.
     Outcome judge(size_t index, cases::SampleId id);
 

@@ -156,7 +156,12 @@ std::string without_not(const std::string& need) {
 std::string need_text(const Entry& entry) {
     std::string text;
     for (const std::string& need : entry.needs) {
-        text += "# It passes, or fails otherwise, " + without_not(need) + ".\n";
+        // What passes so says it, and more.
+        const std::string words = without_not(need);
+        const bool is_said = std::ranges::any_of(entry.passes, [&](const std::string& other) {
+            return other == words || other.starts_with(words + " in place of ");
+        });
+        text += is_said ? "" : "# It passes, or fails otherwise, " + words + ".\n";
     }
     for (const std::string& other : entry.undrawn) {
         text += "# The device draws nothing " + other + ".\n";

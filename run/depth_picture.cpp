@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "cases/model/sample.hpp"
+#include "ref/stencil/outcome.hpp"
 #include "ref/value/value.hpp"
 
 namespace run {
@@ -48,6 +50,35 @@ bool is_about_depth(const diff::Finding& finding) {
     return finding.quantity == "depth" || finding.quantity == "frag_coord.z";
 }
 
+struct Span {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+};
+
+// The ends of what two pictures show; nothing if both show nothing.
+std::optional<Span> span_of(const std::vector<double>& one, const std::vector<double>& other) {
+    Span span;
+    for (const auto* numbers : {&one, &other}) {
+        for (const double number : *numbers) {
+            span.low = std::min(span.low, number);
+            span.high = number < kNone ? std::max(span.high, number) : span.high;
+        }
+    }
+    return span.low <= span.high ? std::optional(span) : std::nullopt;
+}
+
+// 1 at the low end to 255 at the high one; 0 where nothing is shown.
+std::vector<uint8_t> codes_of(const std::vector<double>& numbers, const Span& span) {
+    const double size = span.high > span.low ? span.high - span.low : 1;
+    std::vector<uint8_t> out;
+    out.reserve(numbers.size());
+    for (const double number : numbers) {
+        out.push_back(number < kNone ? static_cast<uint8_t>(
+                                           std::lround(1 + 254 * ((number - span.low) / size)))
+                                     : uint8_t{0});
+    }
+    return out;
+}
+
 }  // namespace
 
 void add_depths(report::Pictures& pictures, const PictureWindow& window, const cases::Case& c,
@@ -63,30 +94,52 @@ void add_depths(report::Pictures& pictures, const PictureWindow& window, const c
             expected.push_back(expected_depth(c, expectation, values, k));
         });
     }
-    double low = HUGE_VAL, high = -HUGE_VAL;
-    for (const auto* depths : {&device, &expected}) {
-        for (const double depth : *depths) {
-            low = std::min(low, depth);
-            high = depth < kNone ? std::max(high, depth) : high;
-        }
-    }
-    if (!(low < high)) {
+    const std::optional<Span> span = span_of(device, expected);
+    if (!span || !(span->low < span->high)) {
         return;
     }
-    const auto codes = [&](const std::vector<double>& depths) {
-        std::vector<uint8_t> out;
-        out.reserve(depths.size());
-        for (const double depth : depths) {
-            out.push_back(depth < kNone ? static_cast<uint8_t>(
-                                              std::lround(1 + 254 * ((depth - low) / (high - low))))
-                                        : uint8_t{0});
+    pictures.depth_low = span->low;
+    pictures.depth_high = span->high;
+    pictures.device_depths = codes_of(device, *span);
+    pictures.expected_depths = codes_of(expected, *span);
+}
+
+void add_stencils(report::Pictures& pictures, const PictureWindow& window, const cases::Case& c,
+                  const diff::Verdict& verdict, const ref::Expectation& expectation,
+                  const capture::CaptureView& capture) {
+    const bool is_told = std::ranges::any_of(
+        verdict.findings, [](const diff::Finding& f) { return f.quantity == "stencil"; });
+    if (!is_told || capture.stencil.empty() || expectation.samples.size() == 0) {
+        return;
+    }
+    std::vector<double> device, expected;
+    window.for_each([&](uint32_t, uint32_t, uint32_t, size_t k) {
+        device.push_back(capture.stencil[k] <= cases::kStencilBits
+                             ? static_cast<double>(capture.stencil[k])
+                             : kNone);
+        const ref::SampleExpectation& sample = expectation.samples[k];
+        if (ref::stencil::is_needed(c)) {
+            const ref::stencil::Values values = stencils_at(expectation, sample, std::nullopt);
+            size_t value = 0;
+            while (!values[value]) {
+                ++value;
+            }
+            expected.push_back(values.count() == 1 ? static_cast<double>(value) : kNone);
+        } else {  // it counts front faces up and back faces down
+            expected.push_back(
+                sample.hits.is_decided()
+                    ? static_cast<double>((sample.hits.front_min - sample.hits.back_min) & 0xffU)
+                    : kNone);
         }
-        return out;
-    };
-    pictures.depth_low = low;
-    pictures.depth_high = high;
-    pictures.device_depths = codes(device);
-    pictures.expected_depths = codes(expected);
+    });
+    const std::optional<Span> span = span_of(device, expected);
+    if (!span) {
+        return;
+    }
+    pictures.stencil_low = static_cast<uint32_t>(span->low);
+    pictures.stencil_high = static_cast<uint32_t>(span->high);
+    pictures.device_stencils = codes_of(device, *span);
+    pictures.expected_stencils = codes_of(expected, *span);
 }
 
 }  // namespace run

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pictures of depths: what a device has stored, and what the reference has there.
+// Pictures of depths and stencils: what a device has stored, and what the reference has there.
 #pragma once
 
 #include "capture/capture.hpp"
@@ -19,5 +19,11 @@ namespace run {
 void add_depths(report::Pictures& pictures, const PictureWindow& window, const cases::Case& c,
                 const diff::Verdict& verdict, const ref::Expectation& expectation,
                 const capture::CaptureView& capture);
+
+// The same of the stencil, if a finding is about it; the reference's is none where several are
+// right.
+void add_stencils(report::Pictures& pictures, const PictureWindow& window, const cases::Case& c,
+                  const diff::Verdict& verdict, const ref::Expectation& expectation,
+                  const capture::CaptureView& capture);
 
 }  // namespace run

@@ -10,6 +10,9 @@
 #include <set>
 
 #include "diff/last_fragment.hpp"
+#include "ref/expectation/explain.hpp"
+#include "ref/stencil/outcome.hpp"
+#include "ref/stencil/values_text.hpp"
 #include "ref/value/value.hpp"
 #include "run/depth_picture.hpp"
 #include "run/picture.hpp"
@@ -83,7 +86,11 @@ class EvidenceMaker {
         : case_(c),
           expectation_(expectation),
           capture_(capture),
-          values_(c, limits, expectation.profile) {}
+          values_(c, limits, expectation.profile) {
+        if (has_tests(c) && expectation.triangles.size() <= kMostExplained) {
+            explainer_.emplace(c, limits, expectation.profile);
+        }
+    }
 
     SampleEvidence at(size_t index) {
         const cases::SampleId id = cases::sample_at(case_.target, index);
@@ -93,6 +100,9 @@ class EvidenceMaker {
         e.y = id.layer * case_.target.height + id.y;
         e.sample = id.sample;
         e.allowed = hits_text(expected.hits);
+        if (explainer_) {
+            add_courses(e, index, id);
+        }
         if (!case_.target.has_instruments) {
             return e;
         }
@@ -115,15 +125,68 @@ class EvidenceMaker {
             is_writer = drawn && writer.draw == t.draw && writer.provoking_vertex == t.provoking &&
                         (!capture_.has_primitive || writer.primitive == t.primitive);
         }
-        if (triangle) {
-            for (const ref::ExpectedValue& v : values_.expected(*triangle, id)) {
-                add(e, v, *triangle, id, is_writer ? std::optional(index) : std::nullopt);
+        // A fragment that is discarded after its tests leaves its depth and nothing else.
+        const bool is_depth_alone = !triangle && expected.depth_count > 0;
+        if (is_depth_alone) {
+            triangle = expectation_.depth_writers_of(expected).back();
+        }
+        const bool has_depth =
+            is_writer || capture::sample_state(capture_, index) == capture::SampleState::depth_only;
+        for (const ref::ExpectedValue& v :
+             triangle ? values_.expected(*triangle, id) : std::vector<ref::ExpectedValue>{}) {
+            const bool is_depth = v.quantity.is_depth();
+            const bool is_written = case_.draws[expectation_.triangles[*triangle].draw].depth.write;
+            if (is_depth ? is_written : !is_depth_alone) {
+                const bool is_there = is_depth ? has_depth : is_writer;
+                add(e, v, *triangle, id, is_there ? std::optional(index) : std::nullopt);
             }
         }
         return e;
     }
 
   private:
+    static constexpr size_t kMostExplained = 1024;  // triangles of a case
+
+    static bool has_tests(const cases::Case& c) {
+        return ref::stencil::is_needed(c) ||
+               std::ranges::any_of(c.draws, [&](const cases::Draw& draw) {
+                   const cases::DepthState& depth = draw.depth;
+                   const bool tests_depth =
+                       depth.bounds || depth.compare != cases::CompareOp::always || !depth.write;
+                   return draw.discard != cases::Discard::none ||
+                          (c.target.has_depth && tests_depth);
+               });
+    }
+
+    void add_courses(SampleEvidence& e, size_t index, cases::SampleId id) {
+        const ref::SampleExplanation all = explainer_->explain(id);
+        for (const ref::TriangleExplanation& t : all.triangles) {
+            const bool may_hit = t.decision.coverage != ref::Coverage::must_not;
+            const bool is_taken = t.is_suppressed() && t.why() != ref::ReasonKind::other_layer;
+            const std::string name =
+                fmt::format("triangle {} of draw {}", t.triangle.primitive, t.triangle.draw);
+            const auto say = [&](const std::string& sentence) {
+                if (!sentence.empty()) {
+                    e.courses.emplace_back(name, sentence);
+                }
+            };
+            say(is_taken ? t.sentence : "");
+            say(t.bounds_text);
+            say(t.stencil_text);
+            say(t.depth ? t.depth_text : "");
+            say(may_hit && case_.target.has_depth && !case_.draws[t.triangle.draw].depth.write
+                    ? "does not write its depth"
+                    : "");
+        }
+        if (all.stencils) {
+            e.stencil =
+                all.stencils->all() ? "anything" : ref::stencil::to_text(*all.stencils, " or ", 8);
+            e.device_stencil = index < capture_.stencil.size()
+                                   ? fmt::format("{}", capture_.stencil[index])
+                                   : std::string();
+        }
+    }
+
     void add(SampleEvidence& e, const ref::ExpectedValue& v, uint32_t triangle, cases::SampleId id,
              std::optional<size_t> drawn) {
         if (!v.part.empty()) {
@@ -162,6 +225,7 @@ class EvidenceMaker {
     const ref::Expectation& expectation_;
     const capture::CaptureView& capture_;
     ref::ValueReference values_;
+    std::optional<ref::Explainer> explainer_;  // of a case that discards or tests
 };
 
 }  // namespace
@@ -172,6 +236,7 @@ void keep_pictures(report::CaseRecord& record, const cases::Case& c, const diff:
     const PictureWindow window(verdict, c.target);
     record.pictures = cut_pictures(window, c, verdict, capture);
     add_depths(record.pictures, window, c, verdict, expectation, capture);
+    add_stencils(record.pictures, window, c, verdict, expectation, capture);
     record.geometry = geometry_of(window, c, limits, expectation, report::kMaxShapes);
 }
 

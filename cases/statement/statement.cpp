@@ -154,7 +154,7 @@ constexpr Statement kStatements[] = {
      "One of the invocation's samples, bit for bit.",
      {"fragcoord.sample"}, ""},
     {47, "FragCoord.z", contrary, exact,
-     "The hull over centre and samples; with the bias or without it, and nothing between.",
+     "At the centre or at a sample (practice: between them); with the bias or without it, and nothing between.",
      {"depth.linear"}, ""},
     {48, "FragCoord.w", tolerance, tolerance,
      "The interpolated 1/w within the budget.",

@@ -15,6 +15,7 @@
 #include <variant>
 
 #include "cases/base/checksum.hpp"
+#include "cases/base/counted.hpp"
 #include "cases/load/loader.hpp"
 #include "cases/model/selector.hpp"
 #include "report/record/run.hpp"
@@ -54,6 +55,23 @@ bool is_outside_folder(const fs::path& selector, const fs::path& root) {
     }
     const auto files = cases::case_files(selector);
     return !files || !files->empty();  // what cannot be read is told by whoever loads it
+}
+
+// What is wrong with a folder that holds the suite and case files beside it: they would be left
+// out.
+std::string left_out_files(const fs::path& selector, const fs::path& root) {
+    if (!is_folder(selector) || !is_below(root, selector)) {
+        return {};
+    }
+    const auto files = cases::case_files(selector);
+    std::vector<fs::path> own = files ? *files : std::vector<fs::path>();
+    std::erase_if(own, [&](const fs::path& file) { return is_below(file, root); });
+    return own.empty() ? std::string()
+                       : "'" + selector.string() + "' holds the suite and " +
+                             cases::counted(own.size(), "case file") + " beside it (" +
+                             own.front().string() +
+                             "), which would be left out; name their folder, and the suite by no "
+                             "selector or by selectors of its cases";
 }
 
 // A leaf of a case file: "FILE.toml:seed=1". The leaf is empty where a selector names none.
@@ -152,6 +170,9 @@ OrStop<std::vector<std::string>> load_outside_files(const SuiteOptions& options,
                 loaded = tl::unexpected(std::move(own.errors));
             }
         } else {
+            if (std::string wrong = left_out_files(selector, suite.root); !wrong.empty()) {
+                return tl::unexpected(Stop{report::kExitUsage, {std::move(wrong)}});
+            }
             selectors.push_back(selector);
             continue;
         }

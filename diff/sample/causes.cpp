@@ -95,6 +95,59 @@ std::optional<Cause> Causes::of_stray_writer(
     return of(*first);
 }
 
+Cause Causes::of_bounds_of(const TriangleExplanation& t) const {
+    return {ref::rule_of(ReasonKind::bounds_test, cases::Profile::vulkan),
+            [this, &t] { return fmt::format("{} {}", name_of(t), explainer_.bounds_sentence(t)); }};
+}
+
+Cause Causes::of_stencil_of(const TriangleExplanation& t) const {
+    return {ref::rule_of(ReasonKind::stencil_test, cases::Profile::vulkan), [this, &t] {
+                return fmt::format("{} {}", name_of(t), explainer_.stencil_sentence(t));
+            }};
+}
+
+Cause Causes::of_depth_of(const TriangleExplanation& t) const {
+    return {ref::rule_of(t.depth_reason, cases::Profile::vulkan), [this, &t] {
+                return fmt::format("{} {}", name_of(t), explainer_.depth_sentence(t, sample_));
+            }};
+}
+
+std::optional<Cause> Causes::of_last_hit(
+    const std::function<bool(const cases::Triangle&)>& wrote) const {
+    const TriangleExplanation* last = nullptr;
+    for (const TriangleExplanation& t : reasons_.triangles) {
+        if (!wrote(t.triangle)) {
+            continue;
+        }
+        const bool may_hit = t.decision.coverage != Coverage::must_not &&
+                             (!t.fate || t.fate->passes) &&
+                             (!t.depth || *t.depth != ref::DepthOutcome::fails);
+        if (may_hit) {
+            return std::nullopt;
+        }
+        last = last == nullptr ? &t : last;
+    }
+    if (last == nullptr) {
+        return std::nullopt;
+    }
+    const TriangleExplanation& t = *last;
+    if (t.decision.coverage == Coverage::must_not) {
+        // A looser profile lets it cover the sample: that is a question of positions.
+        const bool is_told = level_ == cases::Profile::vulkan && t.why() != ReasonKind::other_layer;
+        return is_told ? std::optional<Cause>(of(t)) : std::nullopt;
+    }
+    if (t.fate && !t.fate->passes) {
+        if (t.fate->fails_bounds && !t.fate->is_tested()) {
+            return of_bounds_of(t);
+        }
+        if (t.fate->fails && !t.fate->fails_depth) {
+            return of_stencil_of(t);
+        }
+    }
+    return t.depth == ref::DepthOutcome::fails ? std::optional<Cause>(of_depth_of(t))
+                                               : std::nullopt;
+}
+
 std::optional<Cause> Causes::of_depth(bool is_missing) const {
     const auto& triangles = reasons_.triangles;
     const ref::DepthOutcome asked =
@@ -110,9 +163,7 @@ std::optional<Cause> Causes::of_depth(bool is_missing) const {
     if (it == triangles.rend() || !is_tested) {
         return std::nullopt;
     }
-    return Cause{ref::rule_of(it->depth_reason, cases::Profile::vulkan), [this, &t = *it] {
-                     return fmt::format("{} {}", name_of(t), explainer_.depth_sentence(t, sample_));
-                 }};
+    return of_depth_of(*it);
 }
 
 std::optional<Cause> Causes::of_bounds(bool is_missing) const {
@@ -126,9 +177,7 @@ std::optional<Cause> Causes::of_bounds(bool is_missing) const {
     if (it == triangles.rend()) {
         return std::nullopt;
     }
-    return Cause{ref::rule_of(ReasonKind::bounds_test, cases::Profile::vulkan), [this, &t = *it] {
-                     return fmt::format("{} {}", name_of(t), explainer_.bounds_sentence(t));
-                 }};
+    return of_bounds_of(*it);
 }
 
 std::optional<Cause> Causes::of_stencil(bool is_missing) const {
@@ -147,9 +196,7 @@ std::optional<Cause> Causes::of_stencil(bool is_missing) const {
     if (it == triangles.rend()) {
         return std::nullopt;
     }
-    return Cause{ref::rule_of(ReasonKind::stencil_test, cases::Profile::vulkan), [this, &t = *it] {
-                     return fmt::format("{} {}", name_of(t), explainer_.stencil_sentence(t));
-                 }};
+    return of_stencil_of(*it);
 }
 
 Cause Causes::of_extra() const {

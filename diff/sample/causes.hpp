@@ -47,6 +47,11 @@ class Causes {
     // those that may have written it may.
     std::optional<Cause> of_stray_writer(
         const std::function<bool(const cases::Triangle&)>& wrote) const;
+    // Of hits too many, of which the sample says who was the last (`wrote`): why that triangle must
+    // not have hit it. Nothing if one of those that may be it may hit it, or if it is a question of
+    // positions that a looser profile allows.
+    std::optional<Cause> of_last_hit(
+        const std::function<bool(const cases::Triangle&)>& wrote) const;
     // Of the right number of hits by the wrong face.
     Cause of_facing() const;
     // A triangle that the top-left rule decides, if there is one: better one that it gives the
@@ -58,6 +63,9 @@ class Causes {
 
     Cause of(const ref::TriangleExplanation& t) const;
     Cause of(const ref::FixedSet& set) const;
+    Cause of_bounds_of(const ref::TriangleExplanation& t) const;
+    Cause of_stencil_of(const ref::TriangleExplanation& t) const;
+    Cause of_depth_of(const ref::TriangleExplanation& t) const;
     // A reason of the sample as a whole: `triangle` and `number` are those that its sentence names.
     Cause of(ref::ReasonKind why, const std::string& triangle = "", uint32_t number = 0) const;
     std::optional<Cause> of_suppressed(const Fits& fits) const;

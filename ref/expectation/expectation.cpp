@@ -14,6 +14,7 @@
 #include "ref/expectation/narrowing.hpp"
 #include "ref/expectation/onlooker.hpp"
 #include "ref/expectation/scene.hpp"
+#include "ref/stencil/values_text.hpp"
 
 namespace ref {
 
@@ -169,23 +170,7 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
 
 stencil::Values stencils_at(const Expectation& e, const SampleExpectation& s,
                             std::optional<std::pair<uint32_t, uint32_t>> hits) {
-    stencil::Values out;
-    const std::span<const stencil::Outcome> outcomes = e.stencils_of(s);
-    const auto fits = [&](const stencil::Outcome& o) {
-        return hits && o.front == hits->first && o.back == hits->second;
-    };
-    const bool is_known = std::ranges::any_of(outcomes, fits);
-    for (const stencil::Outcome& o : outcomes) {
-        if (!is_known || fits(o)) {
-            out |= o.values;
-        }
-    }
-    if (s.is_stencil_free) {
-        out.set();
-    } else if (outcomes.empty()) {
-        out.set(e.target.stencil_clear);
-    }
-    return out;
+    return stencil::values_of(e.stencils_of(s), s.is_stencil_free, e.target.stencil_clear, hits);
 }
 
 bool is_same(const Expectation& a, const Expectation& b, size_t index) {

@@ -11,6 +11,7 @@
 #include "ref/coverage/exact.hpp"
 #include "ref/expectation/reason_text.hpp"
 #include "ref/position/clip.hpp"
+#include "ref/stencil/values_text.hpp"
 
 namespace ref {
 
@@ -215,26 +216,6 @@ std::string Explainer::sentence(const FixedSet& set) {
     return sentence_of(set, scene_.triangles);
 }
 
-namespace {
-
-// All that a sample may hold.
-stencil::Values stencils_of(const SampleExpectation& judged,
-                            const std::vector<stencil::Outcome>& outcomes,
-                            const cases::Target& target) {
-    stencil::Values out;
-    for (const stencil::Outcome& o : outcomes) {
-        out |= o.values;
-    }
-    if (judged.is_stencil_free) {
-        out.set();
-    } else if (outcomes.empty()) {
-        out.set(target.stencil_clear);
-    }
-    return out;
-}
-
-}  // namespace
-
 SampleExplanation Explainer::explain(cases::SampleId sample, Detail detail) {
     SampleExplanation out;
     out.position = sample_position(sample.x, sample.y, sample.sample, scene_.c.target);
@@ -295,7 +276,8 @@ SampleExplanation Explainer::explain(cases::SampleId sample, Detail detail) {
         out.sets.push_back({std::move(set), std::move(words)});
     }
     if (stencil::is_needed(scene_.c)) {
-        out.stencils = stencils_of(judged, stencils, scene_.c.target);
+        out.stencils = stencil::values_of(stencils, judged.is_stencil_free,
+                                          scene_.c.target.stencil_clear, std::nullopt);
     }
     for (size_t m = 0; m < reasons.fates.size(); ++m) {
         if (explained[m] != kUntold) {

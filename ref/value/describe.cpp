@@ -4,10 +4,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cases/base/number_text.hpp"
+#include "ref/number/rational.hpp"
+#include "ref/value/accept/reach.hpp"
 #include "ref/value/fragment/partials.hpp"
+#include "ref/value/reference.hpp"
 
 namespace ref::value {
 
@@ -29,6 +33,48 @@ template Valued<Ball> nominal_value(const Basis<Ball>&, const Quantity&, const E
                                     cases::Profile);
 template Valued<mpq_class> nominal_value(const Basis<mpq_class>&, const Quantity&,
                                          const Evaluation<mpq_class>&, cases::Profile);
+
+std::vector<OtherCoord> other_coords(const Primitive& primitive, const Basis<mpq_class>& basis,
+                                     const Quantity& q,
+                                     std::span<const Evaluation<mpq_class>> places,
+                                     cases::Profile profile) {
+    std::vector<OtherCoord> out;
+    std::vector<Point<mpq_class>> points = {places.front().attributes.front()};
+    for (const Evaluation<mpq_class>& place : places) {
+        const bool is_single = place.frag_coord.size() == 1;
+        if (is_single && std::ranges::none_of(points, [&](const Point<mpq_class>& p) {
+                return p.x == place.frag_coord.front().x && p.y == place.frag_coord.front().y;
+            })) {
+            points.push_back(place.frag_coord.front());
+        }
+    }
+    mpq_class first;
+    for (const Point<mpq_class>& point : points) {
+        Evaluation<mpq_class> there = places.front();
+        there.attributes = {point};
+        const Valued<mpq_class> v = nominal_value(basis, q, there, profile);
+        if (v.exists != Answer::yes) {
+            continue;
+        }
+        const bool is_first = &point == &points.front();
+        const mpq_class half(1, 2);
+        const bool is_centre =
+            point.x - floor_of(point.x) == half && point.y - floor_of(point.y) == half;
+        const std::string where = is_centre ? "at the centre" : "at a sample";
+        first = is_first ? v.value : first;
+        if (!is_first) {
+            if (v.value == first) {
+                continue;
+            }
+            out.push_back({v.value.get_d(), where});
+        }
+        if (is_frag_coord_z(q) && primitive.draw->depth.bias) {
+            out.push_back({biased_depth(primitive, basis, v.value, profile).get_d(),
+                           is_first ? "with the bias" : where + " with the bias"});
+        }
+    }
+    return out;
+}
 
 std::string number_text(double nearest, const std::optional<mpq_class>& exact) {
     const std::string text = cases::number_text(nearest);

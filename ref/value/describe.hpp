@@ -26,6 +26,18 @@ std::string number_text(double nearest, const std::optional<mpq_class>& exact);
 // What a probe is expected to be: the number of the likeliest quad, and what it is made of.
 std::string probe_text(const Basis<mpq_class>& basis, const Quantity& q, const ProbePlace& place);
 
+// What else FragCoord.z or w may be near, besides its value at the first place: its values at the
+// other single places of a profile that has nothing between them, and z with the bias. Each ends
+// with what it is: {0.4375, "with the bias"}, {0.375, "at a sample"}.
+struct OtherCoord {
+    double nearest = 0;
+    std::string what;
+};
+std::vector<OtherCoord> other_coords(const Primitive& primitive, const Basis<mpq_class>& basis,
+                                     const Quantity& q,
+                                     std::span<const Evaluation<mpq_class>> places,
+                                     cases::Profile profile);
+
 // Whether a barycentric component holds what another component of the attribute ought to.
 template <class T>
 Answer is_other_vertex(const Basis<T>& basis, const Quantity& q, std::span<const Quantity> all,

@@ -13,6 +13,7 @@
 
 #include "cases/model/sample.hpp"
 #include "ref/number/rational.hpp"
+#include "ref/value/accept/candidate_reach.hpp"
 #include "ref/value/accept/reach.hpp"
 #include "ref/value/describe.hpp"
 #include "ref/value/reference.hpp"
@@ -97,6 +98,16 @@ ValueRange told(const value::AcceptedRange<T>& accepted) {
         out.biased_high = biased_high;
     }
     return out;
+}
+
+// Whether FragCoord.z and w are those of one of several places, and never anything between.
+bool are_coord_places_single(std::span<const value::Evaluation<Ball>> places) {
+    const auto& first = places.front().frag_coord;
+    return first.size() == 1 && !std::ranges::all_of(places, [&](const auto& place) {
+               const value::Point<Ball>& p = place.frag_coord.front();
+               return value::is_identical(p.x, first.front().x) &&
+                      value::is_identical(p.y, first.front().y);
+           });
 }
 
 }  // namespace
@@ -184,6 +195,8 @@ void ValueReference::add_ranges(uint32_t t, cases::SampleId sample, std::span<co
                                    .front();
             range = told(exact);
         }
+        range.is_of_places = all[only[k]].id.of == QuantityId::Of::frag_coord &&
+                             are_coord_places_single(impl_->places_of_range(t, sample));
         if (range.is_promised && all[only[k]].id.is_depth()) {
             store_depth(value::store_of(balls, all[only[k]]), primitive.depth_format, range);
         }
@@ -198,7 +211,8 @@ std::vector<ExpectedValue> ValueReference::expected(uint32_t t, cases::SampleId 
     }
     const std::vector<Quantity>& all = impl_->quantities_of(t);
     const value::Fragment fragment = impl_->fragment(t, sample, impl_->profile);
-    const auto place = value::evaluations<mpq_class>(fragment, impl_->profile).front();
+    const auto places = value::evaluations<mpq_class>(fragment, impl_->profile);
+    const value::Evaluation<mpq_class>& place = places.front();
     const value::Basis<mpq_class>& basis = impl_->unsnapped_basis<mpq_class>(t);
     for (const Quantity& q : all) {
         ExpectedValue e;
@@ -238,10 +252,12 @@ std::vector<ExpectedValue> ValueReference::expected(uint32_t t, cases::SampleId 
                 e.exact = stored.get_str();
                 e.nearest = stored.get_d();
             }
-            if (value::is_frag_coord_z(q) && primitive.draw->depth.bias) {
-                e.also = fmt::format(
-                    "or {:.9g} with the bias",
-                    value::biased_depth(primitive, basis, v.value, impl_->profile).get_d());
+            if (q.id.of == QuantityId::Of::frag_coord) {
+                for (const value::OtherCoord& other :
+                     value::other_coords(primitive, basis, q, places, impl_->profile)) {
+                    e.also += fmt::format("{}or {:.9g} {}", e.also.empty() ? "" : ", ",
+                                          other.nearest, other.what);
+                }
             }
         }
         out.push_back(std::move(e));

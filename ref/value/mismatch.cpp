@@ -291,8 +291,8 @@ std::string ValueReference::Impl::expected_text(uint32_t t, cases::SampleId id, 
     if (q.kind == Kind::probe) {
         return value::probe_text(basis, q, probe_place(t, id, profile));
     }
-    const auto place = value::evaluations<mpq_class>(fragment(t, id, profile), profile).front();
-    const auto v = basis.orientation != 0 ? value::nominal_value(basis, q, place, profile)
+    const auto places = value::evaluations<mpq_class>(fragment(t, id, profile), profile);
+    const auto v = basis.orientation != 0 ? value::nominal_value(basis, q, places.front(), profile)
                                           : value::Valued<mpq_class>{};
     if (v.exists != Answer::yes) {
         return "a value between the vertex values";
@@ -306,9 +306,11 @@ std::string ValueReference::Impl::expected_text(uint32_t t, cases::SampleId id, 
     std::string text =
         fmt::format("{} within {:.4g} x {:.3g}", value::number_text(v.value.get_d(), v.value),
                     factor, v.budget.get_d());
-    if (value::is_frag_coord_z(q) && primitive.draw->depth.bias) {
-        text += fmt::format(", or {:.9g} or near it with the bias",
-                            value::biased_depth(primitive, basis, v.value, profile).get_d());
+    if (q.id.of == QuantityId::Of::frag_coord) {
+        for (const value::OtherCoord& other :
+             value::other_coords(primitive, basis, q, places, profile)) {
+            text += fmt::format(", or {:.9g} or near it {}", other.nearest, other.what);
+        }
     }
     return text;
 }

@@ -97,18 +97,36 @@ std::vector<Evaluation<T>> evaluations(const Fragment& f, Profile profile) {
             centroid = {own};
         }
     }
-    // FragCoord.z and w: "not fully specified" under sample shading (Vulkan-Docs issue 1544); the
-    // hull over the centre and the samples that the invocation may stand for.
-    std::vector<Point<T>> frag_coord = {point_of<T>(centre), sample};
+    // FragCoord.z and w: "not fully specified" under sample shading (Vulkan-Docs issue 1544); those
+    // of the centre or of a sample that the invocation may stand for. Direct3D interpolates them at
+    // a place, so nothing between is right there; the looser profiles have the hull.
+    std::vector<Spot> coords = {centre};
+    add(coords, own);
     if (rate == ShadingRate::some) {
         for (uint32_t s = 0; s < f.target->samples; ++s) {
-            frag_coord.push_back(point_of<T>(spot_of(f, s)));
+            add(coords, spot_of(f, s));
+        }
+    }
+    std::vector<Point<T>> frag_coord;
+    for (const Spot& spot : coords) {
+        frag_coord.push_back(point_of<T>(spot));
+    }
+    std::vector<std::vector<Point<T>>> coord_places = {frag_coord};
+    if (profile == Profile::direct3d) {
+        if (rate == ShadingRate::sample) {
+            std::swap(frag_coord.front(), frag_coord.back());
+        }
+        coord_places.clear();
+        for (const Point<T>& place : frag_coord) {
+            coord_places.push_back({place});
         }
     }
     std::vector<Evaluation<T>> all;
     for (const Spot& u : undecorated) {
         for (const Spot& c : centroid) {
-            all.push_back({{point_of<T>(u)}, frag_coord, sample, {point_of<T>(c)}, false});
+            for (const std::vector<Point<T>>& z : coord_places) {
+                all.push_back({{point_of<T>(u)}, z, sample, {point_of<T>(c)}, false});
+            }
         }
     }
     if (profile == Profile::direct3d) {

@@ -75,6 +75,8 @@ inline std::string to_text(const ExpectedValue& value) {
 struct ValueRange {
     bool is_promised = false;  // false: nothing is claimed of the value
     double low = 0, high = 0;
+    // They are the ends of what several places have, and what lies between the places is wrong.
+    bool is_of_places = false;
     // FragCoord.z of a draw with a bias may also be what it is with the bias, and nothing between
     // the two.
     bool has_biased = false;

@@ -243,11 +243,19 @@ void decode(const Json& json, const char* key, SampleValue& to) {
 }
 
 Json encode(const SampleEvidence& e) {
-    return Json{{"at", Json::array({e.x, e.y, e.sample})},
-                {"writer", encode(e.writer)},
-                {"allowed", encode(e.allowed)},
-                {"hits", encode(e.hits)},
-                {"values", encode(e.values)}};
+    Json json{{"at", Json::array({e.x, e.y, e.sample})},
+              {"writer", encode(e.writer)},
+              {"allowed", encode(e.allowed)},
+              {"hits", encode(e.hits)},
+              {"values", encode(e.values)}};
+    if (!e.courses.empty()) {
+        json["courses"] = encode(e.courses);
+    }
+    if (!e.stencil.empty()) {
+        json["stencil"] = encode(e.stencil);
+        json["device_stencil"] = encode(e.device_stencil);
+    }
+    return json;
 }
 
 void decode(const Json& json, const char* /*key*/, SampleEvidence& to) {
@@ -260,6 +268,13 @@ void decode(const Json& json, const char* /*key*/, SampleEvidence& to) {
     read(json, "allowed", to.allowed);
     read(json, "hits", to.hits);
     read(json, "values", to.values);
+    if (json.contains("courses")) {
+        read(json, "courses", to.courses);
+    }
+    if (json.contains("stencil")) {
+        read(json, "stencil", to.stencil);
+        read(json, "device_stencil", to.device_stencil);
+    }
 }
 
 }  // namespace report

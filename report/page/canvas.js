@@ -83,9 +83,9 @@ function paintCells(view, scene, shot) {
     if (mark > 1 && (shot.kind === "difference" || shot.kind === "error")) { view.told.push([x, y, x + w, y + h]); }
     if (plane) {
       fill("rgb(" + plane[k] + "," + plane[p.count + k] + "," + plane[2 * p.count + k] + ")", x, y, w, h);
-    } else if (shot.options.depth && depthsOf(p, shot.kind)) {
-      const depths = depthsOf(p, shot.kind);
-      if (depths[k]) { fill(grey(depths[k]), x, y, w, h); }
+    } else if (codesOf(p, shot.kind, shot.options.plane)) {
+      const codes = codesOf(p, shot.kind, shot.options.plane);
+      if (codes[k]) { fill(grey(codes[k]), x, y, w, h); }
       else if (shot.kind === "expected" && p.expected[k] === SEVERAL) { drawFree(context, palette, x, y, w, h); }
     } else if (shot.kind === "difference" && mark > 1) {
       if (drawMark(context, mark, x, y, w, h)) { view.lettered.add(k); }
@@ -112,8 +112,11 @@ function paintCells(view, scene, shot) {
   });
 }
 
-// The depths that a picture of this kind shows, if they are known.
-const depthsOf = (p, kind) => kind === "device" ? p.depths : kind === "expected" ? p.expectedDepths : null;
+// The depths or stencils that a picture of this kind shows, if they are known.
+function codesOf(p, kind, plane) {
+  const [device, expected] = plane === "depth" ? [p.depths, p.expectedDepths] : plane === "stencil" ? [p.stencils, p.expectedStencils] : [null, null];
+  return kind === "device" ? device : kind === "expected" ? expected : null;
+}
 const grey = (code) => { const v = Math.round(30 + 215 * (code - 1) / 254); return "rgb(" + v + "," + v + "," + v + ")"; };
 
 function paintError(view, k, x, y, w, h) {

@@ -18,7 +18,7 @@ function makeInspector(record, scene) {
     const known = evidence.get(at.x + "," + at.y + "," + at.sample);
     summary.className = "sample-title";
     summary.replaceChildren(...sampleTitle(scene, at));
-    body.replaceChildren(...[verdictPart(scene, at, known), findingsPart(told), valuesPart(scene, at, known, told, isComplete(record, findings, told)), trianglesPart(scene, at), blitPart(scene, at)].filter(Boolean));
+    body.replaceChildren(...[verdictPart(scene, at, known), findingsPart(told), coursesPart(known), valuesPart(scene, at, known, told, isComplete(record, findings, told)), trianglesPart(scene, at), blitPart(scene, at)].filter(Boolean));
   }, sentence: (at) => sampleSentence(scene, at)};
 }
 
@@ -64,6 +64,9 @@ function verdictPart(scene, at, known) {
   const depth = (codes) => codes && codes[k] ? "about " + shortNumber(p.depthLow + (p.depthHigh - p.depthLow) * (codes[k] - 1) / 254, 4) : "";
   fact("expected depth", depth(p.expectedDepths));
   fact("device depth", depth(p.depths));
+  const stencil = (codes) => codes && codes[k] ? String(Math.round(p.stencilLow + (p.stencilHigh - p.stencilLow) * (codes[k] - 1) / 254)) : "";
+  fact("expected stencil", known && known.stencil ? known.stencil : stencil(p.expectedStencils));
+  fact("device stencil", known && known.device_stencil ? known.device_stencil : stencil(p.stencils));
   return el("div", {class: "verdict-part"}, el("div", {class: "mark-line"}, swatch, el("strong", {"data-mark": MARKS[mark]}, p.isReference && mark === 0 ? "the reference" : spoken(scene, MARK_TEXT[mark]))), el("dl", {}, rows));
 }
 
@@ -84,6 +87,13 @@ function findingsPart(told) {
       list.map((g) => el("p", {class: "pair"}, g.quantity ? el("strong", {}, g.quantity + ": ") : null, "expected ", el("span", {class: "number"}, folded(g.expected)), ", got ",
         el("span", {class: numberClass(g.got)}, g.got), g.ratio ? ", " + g.ratio + " budgets off" : "")));
   }));
+}
+
+// What the tests of each triangle make of it, and what its shader discards, in drawing order.
+function coursesPart(known) {
+  if (!known || !known.courses || known.courses.length === 0) { return null; }
+  return el("div", {class: "courses"}, el("h2", {}, "Discards and tests"),
+    known.courses.map(([name, sentence]) => el("p", {class: "small"}, el("strong", {}, name), " " + sentence)));
 }
 
 const MAX_STEPS = 1e7;

@@ -38,13 +38,16 @@ function openPictures(p) {
   const open = (name) => p[name] ? decodePicture(p[name]) : new Uint8Array(0);
   const pictures = {width: p.width, height: p.height, left: p.left, top: p.top, layerHeight: p.layer_height || 0, expected: open("expected_hits"),
     device: open("device_hits"), marks: open("marks"), errors: open("errors"), colors: open("device_colors"),
-    expectedColors: open("expected_colors"), depths: open("device_depths"), expectedDepths: open("expected_depths"), depthLow: numberOf(p.depth_low), depthHigh: numberOf(p.depth_high)};
+    expectedColors: open("expected_colors"), depths: open("device_depths"), expectedDepths: open("expected_depths"), depthLow: numberOf(p.depth_low), depthHigh: numberOf(p.depth_high),
+    stencils: open("device_stencils"), expectedStencils: open("expected_stencils"), stencilLow: p.stencil_low || 0, stencilHigh: p.stencil_high || 0};
   const count = pictures.marks.length, samples = count / (p.width * p.height);
   if (!Number.isInteger(samples) || samples < 1 || pictures.expected.length !== count || pictures.device.length !== count) { return null; }
   const fits = (plane, planes) => plane.length === planes * count ? plane : null;
   pictures.errors = fits(pictures.errors, 1);
   pictures.depths = fits(pictures.depths, 1);
   pictures.expectedDepths = fits(pictures.expectedDepths, 1);
+  pictures.stencils = fits(pictures.stencils, 1);
+  pictures.expectedStencils = fits(pictures.expectedStencils, 1);
   pictures.colors = fits(pictures.colors, 3);
   pictures.expectedColors = fits(pictures.expectedColors, 3);
   pictures.samples = samples;
@@ -61,7 +64,7 @@ function openReference(record) {
   const [r, geometry] = pair, expected = decodePicture(r.hits), none = new Uint8Array(expected.length), samples = expected.length / (r.width * r.height);
   const columns = Math.ceil(Math.sqrt(samples));
   return {geometry, pictures: {width: r.width, height: r.height, left: r.left, top: r.top, layerHeight: r.layer_height, expected, device: none,
-    marks: expected.map((hits) => hits === SEVERAL ? 1 : 0), errors: null, depths: null, expectedDepths: null, colors: null, expectedColors: null, samples, count: expected.length, columns,
+    marks: expected.map((hits) => hits === SEVERAL ? 1 : 0), errors: null, depths: null, expectedDepths: null, stencils: null, expectedStencils: null, colors: null, expectedColors: null, samples, count: expected.length, columns,
     rows: Math.ceil(samples / columns), isReference: true}};
 }
 

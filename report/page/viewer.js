@@ -16,7 +16,7 @@ const panesOf = (view) => view === "side" ? ["expected", "device", "difference"]
 // The plane that shows what the leading finding of a case is about.
 function planeOf(record) {
   const quantity = record.lead ? finding(record.lead).quantity : "";
-  return /^(depth|frag_coord\.z)$/.test(quantity) ? "depth" : /^(color|texel)/.test(quantity) ? "colour" : "";
+  return /^(depth|frag_coord\.z)$/.test(quantity) ? "depth" : quantity === "stencil" ? "stencil" : /^(color|texel)/.test(quantity) ? "colour" : "";
 }
 
 // `onSample(at)` is called when another sample is pointed at; `onChange()` when the address should change.
@@ -35,7 +35,7 @@ function makeViewer(record, onSample, onChange) {
   const views = VIEWS.filter(([name]) => pictures.isReference ? name === "reference" : name !== "error" || pictures.errors);
   // What is looked at, or the nearest that this case has.
   const shownView = () => views.some(([name]) => name === viewing.view) ? viewing.view : pictures.isReference ? "reference" : "difference";
-  const planes = [["hits", "hits"], pictures.colors && ["colour", "colour"], pictures.depths && ["depth", "depth"]].filter(Boolean);
+  const planes = [["hits", "hits"], pictures.colors && ["colour", "colour"], pictures.depths && ["depth", "depth"], pictures.stencils && ["stencil", "stencil"]].filter(Boolean);
   const hasPlane = (name) => planes.some(([plane]) => plane === name);
   // What was chosen, else what the leading finding is about; a blit is seen by its colours.
   const leading = planeOf(record), firstPlane = hasPlane(leading) ? leading : pictures.expectedColors ? "colour" : "hits";
@@ -76,7 +76,7 @@ function makeViewer(record, onSample, onChange) {
       const shown = {width: Math.min(width, pane.frame.clientWidth), height: Math.min(height, pane.frame.clientHeight)};
       paint(pane.canvas, scene, {kind: kindOf(pane), zoom, left: pane.frame.scrollLeft, top: pane.frame.scrollTop, ...shown,
         cursor: viewer.cursor, options: {...viewing,
-          colors: shownPlane() === "colour", depth: shownPlane() === "depth"}, theme: theme()});
+          colors: shownPlane() === "colour", plane: shownPlane()}, theme: theme()});
       pane.title.textContent = paneTitle(kindOf(pane), pictures, shownPlane());
     }
     zoomText.textContent = zoom + "\u00d7";
@@ -135,7 +135,7 @@ function makeViewer(record, onSample, onChange) {
       el("button", {type: "button", title: "key 0", onclick: () => viewer.setZoom(0)}, "Fit")),
     el("div", {class: "checks"}, (isBlitScene(scene) ? [["outlines", "Region"], ["grid", "Grid"]] : [["outlines", "Triangles"], ["samples", "Samples"], ["grid", "Grid"]]).map(([name, title]) =>
       el("label", {}, el("input", {type: "checkbox", checked: viewing[name], "data-option": name, onchange: (event) => { viewing[name] = event.target.checked; draw(); }}), title))),
-    pictures.colors || pictures.depths ? el("label", {}, "show ", el("select", {onchange: (event) => { viewing.show = event.target.value; refreshLegend(); draw(); }},
+    planes.length > 1 ? el("label", {}, "show ", el("select", {onchange: (event) => { viewing.show = event.target.value; refreshLegend(); draw(); }},
       planes.map(([value, title]) =>
         el("option", {value, selected: shownPlane() === value}, title)))) : null);
 
@@ -200,11 +200,11 @@ function pictureText(record, scene, kind) {
     ", " + (wrong || "no wrong sample") + (counts[1] ? ", " + counts[1] + " free" : "") + ". " + (p.isReference ? "What must be covered, as the rules say." : "The table of findings says the same.");
 }
 
-// What each picture of a view is painted by: hits, colours, depths or errors.
+// What each picture of a view is painted by: hits, colours, depths, stencils or errors.
 function paintedBy(kind, p, plane) {
   if (kind === "error" || kind === "difference") { return kind; }
   if (plane === "colour") { return (kind === "device" ? p.colors : p.expectedColors) ? "colour" : "hits"; }
-  return plane === "depth" && depthsOf(p, kind) ? "depth" : "hits";
+  return codesOf(p, kind, plane) ? plane : "hits";
 }
 
 // Names for what the pictures of this view show of this case, and for nothing else.
@@ -219,7 +219,7 @@ function legendEntries(scene, view, plane) {
       const mark = p.marks[k], count = kind === "device" ? p.device[k] : p.expected[k];
       if (by === "difference" && mark > 1) { marks.add(mark); }
       else if (by === "error" && mark > 1 && !(p.errors && p.errors[k])) { marks.add(mark); }
-      else if (by === "depth") { isFree = isFree || (kind === "expected" && count === SEVERAL); }
+      else if (by === "depth" || by === "stencil") { isFree = isFree || (kind === "expected" && count === SEVERAL); }
       else if (by === "hits" || by === "difference") {
         if (kind !== "device" && (count === SEVERAL || (by === "difference" && mark === 1))) { isFree = true; }
         else if (by === "difference") { isOk = isOk || count > 0; }
@@ -231,6 +231,10 @@ function legendEntries(scene, view, plane) {
     const ramp = el("canvas", {width: 320, height: 28, class: "ramp", "aria-hidden": "true"}), context = ramp.getContext("2d");
     for (let x = 0; x < 320; ++x) { context.fillStyle = heatColor(Math.round(128 + 8 * HEAT_SPAN * (x / 160 - 1)), theme()); context.fillRect(x, 0, 1, 28); }
     list.push(el("li", {class: "scale"}, "\u2264 1/256", ramp, "\u2265 256 budgets; " + Math.round(MOST_BUDGETS) + " are accepted. Framed: not accepted"));
+  }
+  if (isPainted("stencil")) {
+    list.push(legendItem("stencil " + p.stencilLow, legendBox(grey(1))));
+    if (p.stencilHigh > p.stencilLow) { list.push(legendItem("stencil " + p.stencilHigh, legendBox(grey(255)))); }
   }
   if (isPainted("depth")) { list.push(legendItem("depth " + shortNumber(p.depthLow, 4), legendBox(grey(1))), legendItem("depth " + shortNumber(p.depthHigh, 4), legendBox(grey(255)))); }
   for (const count of [...hits].sort()) {

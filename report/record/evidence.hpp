@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cases/base/fields.hpp"
@@ -105,6 +106,11 @@ struct SampleEvidence {
     std::string allowed;                // the hits that are allowed here
     std::string hits;                   // what the device's hit counter says
     std::vector<SampleValue> values;    // of the writer, or of the triangle that ought to be it
+    // What becomes of the triangles there, in drawing order: "triangle 0 of draw 1" and a sentence
+    // on its discard or on one of its tests. Only of a case that discards or tests.
+    std::vector<std::pair<std::string, std::string>> courses;
+    std::string stencil;         // that the sample may hold, "3 or 5"; empty: nobody tests it
+    std::string device_stencil;  // that it holds
     static void fields(auto&& visit, auto&... e) {
         visit("x", e.x...);
         visit("y", e.y...);
@@ -113,6 +119,9 @@ struct SampleEvidence {
         visit("allowed", e.allowed...);
         visit("hits", e.hits...);
         visit("values", e.values...);
+        visit({"courses", cases::kLeftOutIfEmpty}, e.courses...);
+        visit({"stencil", cases::kLeftOutIfEmpty}, e.stencil...);
+        visit({"device_stencil", cases::kLeftOutIfEmpty}, e.device_stencil...);
     }
     friend bool operator==(const SampleEvidence&, const SampleEvidence&) = default;
 };

@@ -98,6 +98,10 @@ struct Pictures {
     // finding is about a depth.
     std::vector<uint8_t> expected_depths;
     double depth_low = 0, depth_high = 0;
+    // The stencil alike, from stencil_low to stencil_high, if a finding is about it: the device's,
+    // and those that the reference wants, 0 where several are right.
+    std::vector<uint8_t> device_stencils, expected_stencils;
+    uint32_t stencil_low = 0, stencil_high = 0;
     static void fields(auto&& visit, auto&... p) {
         visit("width", p.width...);
         visit("height", p.height...);
@@ -114,6 +118,10 @@ struct Pictures {
         visit({"expected_depths", cases::kOlderLackIt}, p.expected_depths...);
         visit({"depth_low", cases::kOlderLackIt}, p.depth_low...);
         visit({"depth_high", cases::kOlderLackIt}, p.depth_high...);
+        visit({"device_stencils", cases::kOlderLackIt}, p.device_stencils...);
+        visit({"expected_stencils", cases::kOlderLackIt}, p.expected_stencils...);
+        visit({"stencil_low", cases::kOlderLackIt}, p.stencil_low...);
+        visit({"stencil_high", cases::kOlderLackIt}, p.stencil_high...);
     }
     friend bool operator==(const Pictures&, const Pictures&) = default;
 };
@@ -174,8 +182,9 @@ struct CaseRecord : PlannedCase, diff::Outcome {
     // alone.
     std::string bits, hit_bits;
     std::string reason;  // why unsupported, skipped, error, lost, crashed; one sentence
-    std::string step;    // last step of the worker before it died ("submit", ...)
-    std::string signal;  // "SIGSEGV", ... of a crash
+    std::vector<std::string> not_judged;  // of a renderer elsewhere: planes that are not there
+    std::string step;                     // last step of the worker before it died ("submit", ...)
+    std::string signal;                   // "SIGSEGV", ... of a crash
     // Of a death that no case repeated alone, and that is charged to this one as a flake: the cases
     // that were drawn together, this one among them.
     std::vector<std::string> suspects;
@@ -209,6 +218,7 @@ struct CaseRecord : PlannedCase, diff::Outcome {
         visit({"bits", cases::kOlderLackIt}, r.bits...);
         visit({"hit_bits", cases::kOlderLackIt}, r.hit_bits...);
         visit("reason", r.reason...);
+        visit({"not_judged", cases::kLeftOutIfEmpty}, r.not_judged...);
         visit("step", r.step...);
         visit("signal", r.signal...);
         visit({"suspects", cases::kLeftOutIfEmpty}, r.suspects...);

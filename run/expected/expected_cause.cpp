@@ -138,6 +138,13 @@ std::string wrong_door(const FindingGroup& group, bool is_named) {
         return fmt::format("'{}' is no door{}", group.door,
                            cases::did_you_mean(group.door, words, "; 'edgecase doors' lists them"));
     }
+    if (is_named) {
+        const std::string_view rule = cases::row_of(*cases::find_door(group.door)).rule;
+        if (rule != group.rule) {
+            return fmt::format("'{}' is a door of '{}' and not of '{}'", group.door, rule,
+                               group.rule);
+        }
+    }
     return {};
 }
 

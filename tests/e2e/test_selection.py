@@ -81,6 +81,9 @@ class Selection(ProgramTest):
         self.assertEqual(self.edgecase("list", "--ids", "mine", "fam/c1", check=0).stdout.split(), ["fam/c1", "a", "sub/b"])
         # A folder that holds the suite is none of one's own.
         self.assertEqual(self.edgecase("list", "--ids", "cases", check=0).stdout.split(), self.ids)
+        # One that holds files of one's own, too, would leave them out.
+        self.assertIn("holds the suite and 2 case files beside it (./mine/a.toml), which would be left out",
+                      self.edgecase("list", "--ids", ".", check=2).stderr)
         self.write_case("a", CASE.format(n=0))
         self.assertIn("mine/a.toml: error: its id 'a' is already that of",
                       self.edgecase("list", "mine", check=3).stderr)

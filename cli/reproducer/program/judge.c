@@ -291,17 +291,27 @@ static void judge_color(uint32_t at, const struct Expected* e, uint32_t hits) {
     }
 }
 
+// "1", or "0 to 2".
+static void print_range(const char* name, unsigned low, unsigned high) {
+    printf("%s%u", name, low);
+    if (high != low) {
+        printf(" to %u", high);
+    }
+}
+
 static void judge_instruments(uint32_t at, const struct Expected* e) {
     const struct Bounds* b = &kBounds[e->bounds];
     const double front = (double)number(HITS, at, 0) - (double)NO_HITS;
     const double back = (double)number(HITS, at, 1) - (double)NO_HITS;
     if (!are_allowed(b, front, back)) {
         if (tell(at)) {
-            printf(
-                "hits: expected %u to %u (front %u to %u, back %u to %u, difference %d to %d), "
-                "got %g front, %g back\n",
-                b->total_min, b->total_max, b->front_min, b->front_max, b->back_min, b->back_max,
-                b->signed_min, b->signed_max, front, back);
+            print_range("hits: expected ", b->total_min, b->total_max);
+            print_range(" (front ", b->front_min, b->front_max);
+            print_range(", back ", b->back_min, b->back_max);
+            if (b->front_min != b->front_max || b->back_min != b->back_max) {
+                printf(", difference %d to %d", b->signed_min, b->signed_max);
+            }
+            printf("), got %g front, %g back\n", front, back);
         }
         return;
     }

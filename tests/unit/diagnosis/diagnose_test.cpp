@@ -25,6 +25,7 @@
 #include "cases/model/sample.hpp"
 #include "diagnosis/condition.hpp"
 #include "diagnosis/hypothesis.hpp"
+#include "diff/delivered.hpp"
 #include "folders.hpp"
 #include "rasterizers/strength/strength.hpp"
 #include "run/judge.hpp"
@@ -129,12 +130,41 @@ INSTANTIATE_TEST_SUITE_P(
                     "ties_bottom_right", "floor_snapping", "affine", "provoking_last",
                     "one_over_w_cached", "interpolate_at_centre_w", "scissor_half_early",
                     "depth_samples_mirrored", "values_at_corner", "stencil_faces_exchanged",
-                    "resolve_one_sample", "subpixel-bits-4"),
+                    "resolve_one_sample", "subpixel-bits-4", "stencil-off",
+                    "stencil-cleared-to-one", "stencil-cleared-to-all"),
     [](const auto& test) {
         std::string name = test.param;
         std::replace(name.begin(), name.end(), '-', '_');
         return name;
     });
+
+// A renderer elsewhere delivers no stencil: what a hypothesis leaves there does not count, and of
+// fewer planes no other plane does.
+TEST(Diagnose, ComparesOnlyWhatWasDelivered) {
+    const Hypothesis& fault = named("stencil-off");
+    const std::vector<std::vector<std::string>> left_out = {{"stencil"},
+                                                            {"stencil", "writer", "faces"}};
+    for (const std::vector<std::string>& words : left_out) {
+        report::Run run;
+        run.device.subpixel_bits = kBits;
+        for (const cases::Case& c : small_suite()) {
+            if (c.blit || !c.target.has_instruments || c.target.color) {
+                continue;
+            }
+            report::CaseRecord record = run::make_record(c);
+            std::optional<capture::Capture> drawn = diagnosis::draw(fault, c);
+            drawn = drawn ? drawn : diagnosis::draw(Hypothesis{}, c);
+            record.not_judged = words;
+            run::judge_delivered(record, c, diff::judged_planes(c, *drawn, words), {kBits},
+                                 run.profile, run::KeepPictures::failed);
+            run.cases.push_back(std::move(record));
+        }
+        const std::vector<report::Diagnosis> list = diagnose(run);
+        ASSERT_FALSE(list.empty()) << words.size();
+        EXPECT_THAT(list.front().names, testing::Contains("stencil-off"));
+        EXPECT_EQ(list.front().unexplained.size(), 0U);
+    }
+}
 
 TEST(Diagnose, SizesAreFitted) {
     Hypothesis moved;

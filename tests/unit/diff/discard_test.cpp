@@ -97,5 +97,31 @@ TEST(DiscardJudge, EarlyTestsStoreDepthBesideColours) {
     }
 }
 
+// Two draws must not hit the pixel: one discards there, the other one fails its test everywhere.
+// The writer says whose hit it is.
+TEST(DiscardJudge, AHitIsBlamedOnTheDrawThatWroteIt) {
+    cases::Case c = discarding(false);
+    c.draws.push_back(c.draws[0]);
+    c.draws[1].discard = cases::Discard::none;
+    c.draws[1].depth.compare = cases::CompareOp::never;
+    const capture::Capture right = rasterizers::draw_by_reference(c);
+    ASSERT_TRUE(judged(c, right).ok());
+    for (const uint32_t draw : {0U, 1U}) {
+        capture::Capture wrong = right;
+        wrong.hits[kDiscarded] = right.hits[kKept];
+        wrong.writers[kDiscarded] = right.writers[kKept];
+        wrong.writers[kDiscarded].draw = draw;
+        wrong.frag_coord[kDiscarded] = {1.5F, 1.5F, 0.5F, 1};
+        wrong.depth[kDiscarded] = right.depth[kKept];
+        const Verdict verdict = judged(c, wrong);
+        ASSERT_EQ(verdict.findings.size(), 1U);
+        const Finding& finding = verdict.findings[0];
+        EXPECT_EQ(finding.kind, FindingKind::extra);
+        EXPECT_EQ(finding.rule, draw == 0 ? "discard.fragment" : "depth.compare");
+        EXPECT_TRUE(finding.why.starts_with("triangle 0 of draw " + std::to_string(draw)))
+            << finding.why;
+    }
+}
+
 }  // namespace
 }  // namespace diff

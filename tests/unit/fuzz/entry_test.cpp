@@ -209,6 +209,16 @@ TEST(ReduceCase, TellsWhatTheDeviceDoesNotDraw) {
                        testing::Not(testing::HasSubstr("not "))));
 }
 
+// What is needed is not said twice where it is known to pass so.
+TEST(NeedText, SaysNothingTwice) {
+    Entry entry;
+    entry.needs = {"not with 1 sample", "not with one draw"};
+    entry.passes = {"with 1 sample in place of 4"};
+    EXPECT_EQ(need_text(entry),
+              "# It passes, or fails otherwise, with one draw.\n"
+              "# It passes with 1 sample in place of 4.\n");
+}
+
 TEST(Essentials, KnowATriangleThatIsThinOnTheGrid) {
     const auto words = [](const std::string& draw) {
         return essentials_of(

@@ -163,9 +163,10 @@ TEST(Places, SampleShadingMovesInputs) {
     EXPECT_EQ(accepted(c, kWhole, v), "---");
 }
 
-// FragCoord.z of a fragment that stands for some of its samples: between the centre and the samples
-// at every profile but vulkan, whose text says nothing of its place. With two samples that list is
-// as long as that of the pixel's corners, where practice lets inputs be evaluated.
+// FragCoord.z of a fragment that stands for some of its samples: at the centre or one of the
+// samples at direct3d, between them at practice, anywhere at vulkan, whose text says nothing of its
+// place. With two samples that list is as long as that of the pixel's corners, where practice lets
+// inputs be evaluated.
 TEST(Places, FragCoordStaysAmongTheSamples) {
     for (const uint32_t samples : {2U, 4U}) {
         cases::Case c = pixels(8, 8, {{1, 1}, {7, 1}, {1, 7}}, samples);
@@ -186,6 +187,11 @@ TEST(Places, FragCoordStaysAmongTheSamples) {
             return v;
         };
         EXPECT_EQ(accepted(c, id, at(z(2.5, 2.5))), "vpd") << samples;
+        const double x = static_cast<double>(own.x) / 65536, y = static_cast<double>(own.y) / 65536;
+        EXPECT_EQ(accepted(c, id, at(z(x, y))), "vpd") << samples;
+        // Direct3D has it at a place: not between two of them, however near to one.
+        EXPECT_EQ(accepted(c, id, at(z((2.5 + x) / 2, (2.5 + y) / 2))), "vp-") << samples;
+        EXPECT_EQ(accepted(c, id, at(z((40 + x) / 17, (40 + y) / 17))), "vp-") << samples;
         EXPECT_EQ(accepted(c, id, at(z(3, 3))), "v--") << samples;
         EXPECT_EQ(accepted(c, id, at(z(2, 2))), "v--") << samples;
         EXPECT_EQ(accepted(c, id, at(z(4, 3))), "---") << samples;

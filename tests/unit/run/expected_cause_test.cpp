@@ -141,6 +141,8 @@ TEST(ExpectedCause, WrongDoorsAreRefused) {
               "'state-statik' is no door; did you mean 'state-static'?");
     EXPECT_EQ(refused("value:cover.inside=state-static@vulkan<=1"),
               "'cover.inside' is no rule of doors, so that no '=DOOR' follows it");
+    EXPECT_EQ(refused("value:door.index=state-static@vulkan<=1"),
+              "'state-static' is a door of 'door.state' and not of 'door.index'");
 }
 
 TEST(ExpectedCause, AFlakeThatWasADeathIsKnownByItsDeathAlone) {
