@@ -143,6 +143,8 @@ bool restrict_to(const Condition& condition, const cases::Case& c, const capture
     for (size_t k = 0; k < samples; ++k) {
         holds[k] = condition.holds({c, cases::sample_at(target, k), writer_of(right, drawn, k)});
     }
+    // What is counted follows from what is shown, and is not judged where that is wrong.
+    drawn.counted = right.counted;
     bool is_alike = true;
     capture::for_each_plane(
         [&](const capture::Plane& plane, const auto& from, auto& to) {
