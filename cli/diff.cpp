@@ -278,8 +278,7 @@ int diff_command(const Program& program, const DiffOptions& given) {
     if (!expected) {
         return stopped(o, expected.error());
     }
-    const fs::path folder =
-        o.output.empty() ? fs::path("out") / (utc_now(true) + "-captures") : fs::path(o.output);
+    const fs::path folder = o.output.empty() ? new_folder("out", "captures") : fs::path(o.output);
     OrStop<report::Journal> journal = open_journal(folder, header, false);
     if (!journal) {
         return report_stop(journal.error());

@@ -205,10 +205,9 @@ class FuzzCommand {
                               ledger_.device + ", " + ledger_.driver + "'"));
         }
         if (folder_.empty()) {
-            folder_ =
-                options_.run.output.empty()
-                    ? fs::path("out") / "fuzz" / (utc_now(true) + "-" + file_name_of(device.name))
-                    : fs::path(options_.run.output);
+            folder_ = options_.run.output.empty()
+                          ? new_folder("out/fuzz", file_name_of(device.name))
+                          : fs::path(options_.run.output);
             std::error_code none;
             if (fs::exists(folder_ / fuzz::kLedgerFile, none)) {
                 return tl::unexpected(stop_with(

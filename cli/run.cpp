@@ -147,7 +147,7 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
         }
     }
     if (p.folder.empty()) {
-        p.folder = fs::path("out") / (utc_now(true) + "-" + file_name_of(device.name));
+        p.folder = new_folder("out", file_name_of(device.name));
     }
     OrStop<report::Journal> journal = open_journal(p.folder, p.header, resumed);
     if (!journal) {

@@ -427,4 +427,14 @@ std::string utc_now(bool compact) {
     return text.data();
 }
 
+std::filesystem::path new_folder(const std::filesystem::path& parent, const std::string& name) {
+    const std::filesystem::path first = parent / (utc_now(true) + "-" + name);
+    std::filesystem::path out = first;
+    std::error_code none;
+    for (int n = 2; std::filesystem::exists(out, none); ++n) {
+        out = first.string() + "-" + std::to_string(n);
+    }
+    return out;
+}
+
 }  // namespace cli

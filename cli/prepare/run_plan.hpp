@@ -60,4 +60,8 @@ report::Device to_report(const vk_harness::DeviceInfo& device);
 // built again; for file names "20261121T050000Z", always the time of the day.
 std::string utc_now(bool compact);
 
+// A folder of this time of the day below `parent` that is not there yet:
+// "out/20261121T050000Z-llvmpipe", or with "-2" and so on where another one began in that second.
+std::filesystem::path new_folder(const std::filesystem::path& parent, const std::string& name);
+
 }  // namespace cli

@@ -48,6 +48,9 @@ std::vector<OtherCoord> other_coords(const Primitive& primitive, const Basis<mpq
             points.push_back(place.frag_coord.front());
         }
     }
+    if (points.size() == 1 && !(is_frag_coord_z(q) && primitive.draw->depth.bias)) {
+        return out;
+    }
     mpq_class first;
     for (const Point<mpq_class>& point : points) {
         Evaluation<mpq_class> there = places.front();
