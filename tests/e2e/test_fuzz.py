@@ -282,7 +282,7 @@ class Starts(FuzzTest):
         self.assertRegex(done.stdout, r"\Afuzzing .* from \d+ cases on, with seed 1 at profile direct3d")
         self.assertRegex(done.stdout, r"; \d+ changes that made no case\n")
         self.assertEqual((ledger["selectors"], ledger["unjudged_cases"]), (["ties/**"], 0))
-        self.assertEqual(self.numbers(ledger), 6144)
+        self.assertEqual(self.numbers(ledger), 4096)
         self.assertGreater(ledger["refused_changes"], 0)
         self.assertEqual(self.accounted(ledger), ledger["failed_cases"])
         self.assertTrue([c for c in ledger["causes"] if c["essentials"] == ["draw.scissor", "draw.scissor beyond 32767"]], done.stdout)
