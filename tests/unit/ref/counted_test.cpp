@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <random>
 
 #include "cases/model/sample.hpp"
 #include "tests/unit/ref/same_expectations.hpp"
@@ -18,19 +17,10 @@ namespace ref::test {
 namespace {
 
 using cases::Profile;
-
-class CountedRandom {
-  public:
-    explicit CountedRandom(uint64_t seed) : engine_(seed) {}
-    uint32_t below(uint32_t n) { return static_cast<uint32_t>(engine_() % n); }
-    bool one_in(uint32_t n) { return below(n) == 0; }
-
-  private:
-    std::mt19937_64 engine_;
-};
+using value_test::Random;
 
 cases::Case random_counted_case(uint64_t seed) {
-    CountedRandom random(seed);
+    Random random(seed);
     cases::Case c;
     c.id = "random queries";
     c.target = {8, 8, random.one_in(3) ? 4U : 1U};

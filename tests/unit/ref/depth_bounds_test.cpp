@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "cases/model/sample.hpp"
 #include "ref/expectation/expectation.hpp"
@@ -19,20 +18,10 @@ namespace {
 
 using cases::DepthBounds;
 using cases::DepthFormat;
-
-class BoundsRandom {
-  public:
-    explicit BoundsRandom(uint64_t seed) : engine_(seed) {}
-    uint32_t below(uint32_t n) { return static_cast<uint32_t>(engine_() % n); }
-    bool one_in(uint32_t n) { return below(n) == 0; }
-    float eighth() { return static_cast<float>(below(9)) / 8.0F; }
-
-  private:
-    std::mt19937_64 engine_;
-};
+using value_test::Random;
 
 cases::Case random_bounds_case(uint64_t seed) {
-    BoundsRandom random(seed);
+    Random random(seed);
     cases::Case c;
     c.id = "random bounds";
     c.target = {8, 8, random.one_in(3) ? 4U : 1U};

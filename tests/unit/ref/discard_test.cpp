@@ -5,8 +5,6 @@
 // discards that must come to the same.
 #include <gtest/gtest.h>
 
-#include <random>
-
 #include "cases/model/sample.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "tests/unit/ref/same_expectations.hpp"
@@ -16,16 +14,7 @@ namespace ref::test {
 namespace {
 
 using cases::Discard;
-
-class Random {
-  public:
-    explicit Random(uint64_t seed) : engine_(seed) {}
-    uint32_t below(uint32_t n) { return static_cast<uint32_t>(engine_() % n); }
-    bool one_in(uint32_t n) { return below(n) == 0; }
-
-  private:
-    std::mt19937_64 engine_;
-};
+using value_test::Random;
 
 // Triangles of some draws, half of which discard; `early`: whether shaders may have early tests.
 cases::Case random_case(uint64_t seed, bool early) {

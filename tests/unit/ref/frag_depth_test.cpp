@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "cases/model/sample.hpp"
 #include "ref/expectation/expectation.hpp"
@@ -20,19 +19,9 @@ namespace {
 
 using cases::DepthFormat;
 using cases::FragDepth;
+using value_test::Random;
 
-class FragDepthRandom {
-  public:
-    explicit FragDepthRandom(uint64_t seed) : engine_(seed) {}
-    uint32_t below(uint32_t n) { return static_cast<uint32_t>(engine_() % n); }
-    bool one_in(uint32_t n) { return below(n) == 0; }
-    float eighth() { return static_cast<float>(below(9)) / 8.0F; }
-
-  private:
-    std::mt19937_64 engine_;
-};
-
-FragDepth random_frag_depth(FragDepthRandom& random) {
+FragDepth random_frag_depth(Random& random) {
     FragDepth out;
     if (random.one_in(3)) {
         out.is_coord = true;
@@ -47,7 +36,7 @@ FragDepth random_frag_depth(FragDepthRandom& random) {
 }
 
 cases::Case random_frag_depth_case(uint64_t seed) {
-    FragDepthRandom random(seed);
+    Random random(seed);
     cases::Case c;
     c.id = "random frag depth";
     c.target = {8, 8, random.one_in(3) ? 4U : 1U};
@@ -125,7 +114,7 @@ TEST(FragDepth, EarlyTestsIgnoreIt) {
 
 // Squares over the whole target, whose own depths are what the first ones write.
 TEST(FragDepth, OutcomesAreThoseOfPlanesWithTheseDepths) {
-    FragDepthRandom random(5);
+    Random random(5);
     uint64_t hits = 0;
     for (uint32_t k = 0; k < 200; ++k) {
         cases::Case written;

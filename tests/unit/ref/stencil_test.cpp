@@ -66,11 +66,9 @@ TEST(Stencil, TheReferenceStandsOnTheLeft) {
     EXPECT_FALSE(stencil::passes(face, 0xa5));
 }
 
-class RandomQuestions {
+class RandomQuestions : public value_test::Random {
   public:
-    explicit RandomQuestions(uint64_t seed) : engine_(seed) {}
-    uint32_t below(uint32_t n) { return static_cast<uint32_t>(engine_() % n); }
-    bool one_in(uint32_t n) { return below(n) == 0; }
+    using Random::Random;
 
     StencilFace face() {
         StencilFace out;
@@ -114,14 +112,14 @@ class RandomQuestions {
             }
         }
         if (one_in(3)) {
-            const uint64_t salt = engine_();
+            const uint64_t salt = bits();
             out.bounds = [salt](int stored, uint32_t m) {
                 std::mt19937_64 of(salt + m * 64 + static_cast<uint64_t>(stored + 1));
                 return static_cast<DepthOutcome>(of() % 3);
             };
         }
         if (!one_in(3)) {
-            const uint64_t salt = engine_();
+            const uint64_t salt = bits();
             out.depth = [salt](int stored, uint32_t m) {
                 std::mt19937_64 of(salt + m * 64 + static_cast<uint64_t>(stored + 1));
                 return static_cast<DepthOutcome>(of() % 3);
@@ -136,7 +134,6 @@ class RandomQuestions {
         return one_in(4) ? below(256) : kEnds.at(below(8));
     }
     uint32_t mask() { return one_in(2) ? 0xffU : one_in(4) ? below(1U << 12U) : value(); }
-    std::mt19937_64 engine_;
 };
 
 TEST(Stencil, OperationsAgreeWithTheOracle) {

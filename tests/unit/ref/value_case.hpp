@@ -52,10 +52,22 @@ inline glm::vec4 clip_of(double x, double y, double z, double w, uint32_t size) 
             static_cast<float>(z * w), static_cast<float>(w)};
 }
 
+// Small random numbers of a seed, the same on every machine.
+class Random {
+  public:
+    explicit Random(uint64_t seed) : engine_(seed) {}
+    uint64_t bits() { return engine_(); }
+    uint32_t below(uint32_t n) { return static_cast<uint32_t>(engine_() % n); }
+    bool one_in(uint32_t n) { return below(n) == 0; }
+    float eighth() { return static_cast<float>(below(9)) / 8.0F; }  // 0 to 1
+
+  private:
+    std::mt19937_64 engine_;
+};
+
 // Adds one to three triangles to a draw over a square target, each at one of five depths; their
 // vertices lie on corners of pixels or, as often, on 1/units of a pixel.
-template <class Random>
-void add_random_triangles(cases::Draw& draw, Random& random, uint32_t size, uint32_t units) {
+inline void add_random_triangles(cases::Draw& draw, Random& random, uint32_t size, uint32_t units) {
     const auto place = [&](bool is_coarse) {
         return is_coarse ? random.below(size + 1)
                          : random.below(size * units + 1) / static_cast<double>(units);
