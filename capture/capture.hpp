@@ -86,8 +86,8 @@ struct Planes {
     bool has_half_hits = false;  // hits were added up in binary16, not in binary32
     uint32_t attribute_count = 0;
     // What the draws' occlusion queries counted, one number a draw, 0 where a draw has none:
-    // samples where the query is precise, else 0 or 1 for any. Empty if no draw of the case has a
-    // query.
+    // samples where the query is precise, else 0 or 1 for any, kNotCounted where it never had a
+    // result. Empty if no draw of the case has a query.
     std::vector<uint64_t> counted;
 
     Store<glm::vec4> hits;        // front hits, back hits, kHitGuard, kHitGuard + hits

@@ -128,8 +128,11 @@ void Attribution::attribute_hits(Finding& finding, uint32_t front, uint32_t back
     }
     finding.got = hits_text(front, back, by_face);
 
-    // The case bounds how many draws there are, not what a broken device says.
-    const uint32_t draw = last.wrote && last.draw < case_.draws.size() ? last.draw : ~uint32_t{0};
+    // The writer is asked where there is a hit too many. The case bounds how many draws there are,
+    // not what a broken device says.
+    const bool is_blamed =
+        front + back > asked.total_max && last.wrote && last.draw < case_.draws.size();
+    const uint32_t draw = is_blamed ? last.draw : ~uint32_t{0};
     const std::string key =
         fmt::format("{} {} {} {}|{}", static_cast<int>(finding.kind),
                     static_cast<int>(finding.level), draw, finding.expected, finding.got);
@@ -147,7 +150,7 @@ void Attribution::attribute_hits(Finding& finding, uint32_t front, uint32_t back
         finding.why = "as at " + cases::pixel_text(case_.target, sample_of(*earlier));
         return;
     }
-    explain_hits(finding, asked, front + back, last);
+    explain_hits(finding, asked, front + back, is_blamed ? last : LastHit{});
     ++explained_;
     like_.insert_or_assign(key, finding);
     alike_.insert_or_assign(rough, finding);
@@ -166,7 +169,7 @@ void Attribution::explain_hits(Finding& finding, const ref::HitBounds& asked, ui
         }
         return;
     }
-    if (total > asked.total_max && last.wrote) {
+    if (last.wrote) {
         if (const std::optional<Cause> hit = causes.of_last_hit(last.wrote)) {
             tell(finding, *hit);
             return;

@@ -21,8 +21,8 @@ struct Difference {
     uint64_t sample = 0;    // index in the capture
     uint32_t plane = 0;     // its number (capture.hpp), below kPlanes, or kCounts
     uint32_t word = 0;      // of the sample in its plane
-    uint32_t expected = 0;  // bits of the case itself, changed as the variation demands
-    uint32_t got = 0;
+    uint64_t expected = 0;  // bits of the case itself, changed as the variation demands
+    uint64_t got = 0;
     static void fields(auto&& visit, auto&... d) {
         visit("sample", d.sample...);
         visit("plane", d.plane...);
@@ -34,8 +34,7 @@ struct Difference {
 };
 // The planes that are compared: those of samples, as far as the case itself draws them.
 inline constexpr uint32_t kPlanes = capture::kColorPlane + 1;
-// In place of a plane's number: the lowest 32 bits of what the query of draw `word` counted, which
-// belongs to no sample.
+// In place of a plane's number: what the query of draw `word` counted, which belongs to no sample.
 inline constexpr uint32_t kCounts = kPlanes;
 inline constexpr size_t kMaxDifferences = 64;
 
@@ -72,6 +71,9 @@ void vary(capture::Capture& capture, const cases::Variation& variation);
 // the rules. `found` holds one result a derivation.
 void add_differences(const cases::Case& c, std::span<const cases::Derivation> derivations,
                      std::span<const Consistency> found, Verdict& verdict);
+
+// What a query gave: "64", "no result".
+std::string count_text(uint64_t counted);
 
 // "attribute 1.z", "hits.x", ...
 std::string plane_name(uint32_t plane, uint32_t word);

@@ -414,6 +414,7 @@ std::vector<std::string> not_judged(const cases::Case& c, const capture::Deliver
         }
     };
     if (!c.blit) {
+        add(planes.detail == capture::HitDetail::none, "coverage plane");
         add(planes.detail == capture::HitDetail::none ||
                 planes.detail == capture::HitDetail::coverage,
             "number of hits");
@@ -448,19 +449,16 @@ capture::Delivered judged_planes(const cases::Case& c, const capture::Capture& p
     }
     out.frag_coord = is_judged("FragCoord") ? picture.frag_coord : out.frag_coord;
     out.depth = is_judged("depth") ? picture.depth : out.depth;
-    bool has_values = !out.frag_coord.empty() || !out.depth.empty() || !out.draws.empty();
     for (uint32_t a = 0; a < cases::attributes_of(c); ++a) {
         if (is_judged(fmt::format("attribute {}", a))) {
             out.attributes.at(a) = picture.attributes.at(a);
-            has_values = true;
         }
     }
     out.color = is_judged("color") ? picture.color : out.color;
-    // Without a number of hits there may have been a plane of coverage; values say the same.
-    out.detail = is_judged("faces")                 ? capture::HitDetail::faces
-                 : is_judged("number of hits")      ? capture::HitDetail::total
-                 : has_values || !out.color.empty() ? capture::HitDetail::none
-                                                    : capture::HitDetail::coverage;
+    out.detail = is_judged("faces")            ? capture::HitDetail::faces
+                 : is_judged("number of hits") ? capture::HitDetail::total
+                 : is_judged("coverage plane") ? capture::HitDetail::coverage
+                                               : capture::HitDetail::none;
     for (const glm::vec4& h : picture.hits) {
         const auto front = static_cast<uint32_t>(h.x), back = static_cast<uint32_t>(h.y);
         if (out.detail == capture::HitDetail::faces) {

@@ -162,7 +162,9 @@ class EvidenceMaker {
         const ref::SampleExplanation all = explainer_->explain(id);
         for (const ref::TriangleExplanation& t : all.triangles) {
             const bool may_hit = t.decision.coverage != ref::Coverage::must_not;
-            const bool is_taken = t.is_suppressed() && t.why() != ref::ReasonKind::other_layer;
+            const bool is_discarded = t.why() == ref::ReasonKind::discarded ||
+                                      t.why() == ref::ReasonKind::fragment_discarded ||
+                                      t.why() == ref::ReasonKind::discarded_late;
             const std::string name =
                 fmt::format("triangle {} of draw {}", t.triangle.primitive, t.triangle.draw);
             const auto say = [&](const std::string& sentence) {
@@ -170,7 +172,7 @@ class EvidenceMaker {
                     e.courses.emplace_back(name, sentence);
                 }
             };
-            say(is_taken ? t.sentence : "");
+            say(is_discarded ? t.sentence : "");
             say(t.bounds_text);
             say(t.stencil_text);
             say(t.depth ? t.depth_text : "");

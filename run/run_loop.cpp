@@ -517,10 +517,10 @@ void RunLoop::finish(size_t k, CaseRecord record) {
     if (died || !record.findings.empty()) {
         // The program draws the plain picture: what only doors show it would not.
         const bool is_of_doors = !died && std::ranges::all_of(record.groups, [](const auto& group) {
-            return group.rule.starts_with("door.");
+            return !group.door.empty();
         });
         record.reproducer = is_of_doors ? "" : cases_[k].reproducer;
-        record.no_reproducer = is_of_doors ? "doors" : cases_[k].no_reproducer;
+        record.no_reproducer = is_of_doors ? report::kDoorsAlone : cases_[k].no_reproducer;
     }
     if (journal_ != nullptr) {
         check(journal_->write_end(record));

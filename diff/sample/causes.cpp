@@ -18,6 +18,14 @@ std::string name_of(const TriangleExplanation& t) {
     return fmt::format("triangle {} of draw {}", t.triangle.primitive, t.triangle.draw);
 }
 
+// Whether a triangle's fragment cannot pass the test, and reaches no later one.
+bool fails_bounds(const TriangleExplanation& t) {
+    return t.fate && t.fate->fails_bounds && !t.fate->is_tested();
+}
+bool fails_stencil(const TriangleExplanation& t) {
+    return t.fate && t.fate->fails && !t.fate->passes && !t.fate->fails_depth;
+}
+
 }  // namespace
 
 const TriangleExplanation* Causes::first_that(const Fits& fits) const {
@@ -114,7 +122,7 @@ Cause Causes::of_depth_of(const TriangleExplanation& t) const {
 
 std::optional<Cause> Causes::of_last_hit(
     const std::function<bool(const cases::Triangle&)>& wrote) const {
-    const TriangleExplanation* last = nullptr;
+    const TriangleExplanation* first = nullptr;
     for (const TriangleExplanation& t : reasons_.triangles) {
         if (!wrote(t.triangle)) {
             continue;
@@ -125,24 +133,22 @@ std::optional<Cause> Causes::of_last_hit(
         if (may_hit) {
             return std::nullopt;
         }
-        last = last == nullptr ? &t : last;
+        first = first == nullptr ? &t : first;
     }
-    if (last == nullptr) {
+    if (first == nullptr) {
         return std::nullopt;
     }
-    const TriangleExplanation& t = *last;
+    const TriangleExplanation& t = *first;
     if (t.decision.coverage == Coverage::must_not) {
         // A looser profile lets it cover the sample: that is a question of positions.
         const bool is_told = level_ == cases::Profile::vulkan && t.why() != ReasonKind::other_layer;
         return is_told ? std::optional<Cause>(of(t)) : std::nullopt;
     }
-    if (t.fate && !t.fate->passes) {
-        if (t.fate->fails_bounds && !t.fate->is_tested()) {
-            return of_bounds_of(t);
-        }
-        if (t.fate->fails && !t.fate->fails_depth) {
-            return of_stencil_of(t);
-        }
+    if (fails_bounds(t)) {
+        return of_bounds_of(t);
+    }
+    if (fails_stencil(t)) {
+        return of_stencil_of(t);
     }
     return t.depth == ref::DepthOutcome::fails ? std::optional<Cause>(of_depth_of(t))
                                                : std::nullopt;
@@ -171,8 +177,7 @@ std::optional<Cause> Causes::of_bounds(bool is_missing) const {
     const auto it =
         std::find_if(triangles.rbegin(), triangles.rend(), [&](const TriangleExplanation& t) {
             return t.fate && case_.target.has_depth && case_.draws[t.triangle.draw].depth.bounds &&
-                   (is_missing ? t.fate->always_passes()
-                               : t.fate->fails_bounds && !t.fate->is_tested());
+                   (is_missing ? t.fate->always_passes() : fails_bounds(t));
         });
     if (it == triangles.rend()) {
         return std::nullopt;
@@ -190,8 +195,7 @@ std::optional<Cause> Causes::of_stencil(bool is_missing) const {
     const auto it =
         std::find_if(triangles.rbegin(), triangles.rend(), [&](const TriangleExplanation& t) {
             return t.fate && is_tested(t) &&
-                   (is_missing ? t.fate->always_passes()
-                               : t.fate->fails && !t.fate->passes && !t.fate->fails_depth);
+                   (is_missing ? t.fate->always_passes() : fails_stencil(t));
         });
     if (it == triangles.rend()) {
         return std::nullopt;

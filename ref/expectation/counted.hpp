@@ -10,8 +10,10 @@
 // from practice on.
 //
 // The fragments that show at a sample are as many as its hits. So where the hits of a device are
-// known, its counts have to go with them, and of a sample that is open nothing is left open that
-// one draw alone may have hit.
+// known, the count of each draw has to go with them, and of a sample that is open nothing is left
+// open that one draw alone may have hit. More is left open than need be in two places: the counts
+// of several draws that may own one hit are not held against each other, and of fragments that are
+// discarded after early tests each is open by itself, also where a shared edge has exactly one.
 #pragma once
 
 #include <cstdint>

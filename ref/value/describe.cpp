@@ -51,7 +51,7 @@ std::vector<OtherCoord> other_coords(const Primitive& primitive, const Basis<mpq
     if (points.size() == 1 && !(is_frag_coord_z(q) && primitive.draw->depth.bias)) {
         return out;
     }
-    mpq_class first;
+    std::vector<mpq_class> told;
     for (const Point<mpq_class>& point : points) {
         Evaluation<mpq_class> there = places.front();
         there.attributes = {point};
@@ -64,11 +64,11 @@ std::vector<OtherCoord> other_coords(const Primitive& primitive, const Basis<mpq
         const bool is_centre =
             point.x - floor_of(point.x) == half && point.y - floor_of(point.y) == half;
         const std::string where = is_centre ? "at the centre" : "at a sample";
-        first = is_first ? v.value : first;
+        if (std::ranges::find(told, v.value) != told.end()) {
+            continue;
+        }
+        told.push_back(v.value);
         if (!is_first) {
-            if (v.value == first) {
-                continue;
-            }
             out.push_back({v.value.get_d(), where});
         }
         if (is_frag_coord_z(q) && primitive.draw->depth.bias) {

@@ -102,12 +102,13 @@ ValueRange told(const value::AcceptedRange<T>& accepted) {
 
 // Whether FragCoord.z and w are those of one of several places, and never anything between.
 bool are_coord_places_single(std::span<const value::Evaluation<Ball>> places) {
-    const auto& first = places.front().frag_coord;
-    return first.size() == 1 && !std::ranges::all_of(places, [&](const auto& place) {
-               const value::Point<Ball>& p = place.frag_coord.front();
-               return value::is_identical(p.x, first.front().x) &&
-                      value::is_identical(p.y, first.front().y);
-           });
+    const auto is_single = [](const auto& place) { return place.frag_coord.size() == 1; };
+    const auto is_first = [&](const auto& place) {
+        const value::Point<Ball>&p = place.frag_coord.front(),
+              &first = places.front().frag_coord.front();
+        return value::is_identical(p.x, first.x) && value::is_identical(p.y, first.y);
+    };
+    return std::ranges::all_of(places, is_single) && !std::ranges::all_of(places, is_first);
 }
 
 }  // namespace

@@ -112,7 +112,7 @@ function commandsSection(record) {
     settings ? el("div", {class: "command"}, el("span", {class: "quiet"}, "settings"), el("div", {}, el("code", {}, settings.trim()), el("div", {class: "quiet small"}, "in front of " + (record.debug ? "rerun and debug, copied with them" : "rerun, copied with it")))) : null,
     command("rerun", record.rerun, settings), command("debug", record.debug, settings), command("explain", record.explain), command("reproducer", record.reproducer),
     record.no_reproducer ? el("div", {class: "command"}, el("span", {class: "quiet"}, record.reproducer ? "" : "reproducer"), el("div", {class: record.reproducer ? "quiet small" : ""},
-      record.reproducer ? "The case has " + record.no_reproducer + ", perhaps too many for one program; the command says so." : "none: the case has " + record.no_reproducer + ", which such a program cannot draw")) : null);
+      record.reproducer ? "The case has " + record.no_reproducer + ", perhaps too many for one program; the command says so." : record.no_reproducer === "doors alone" ? "none: only doors show the failure, and such a program draws without them" : "none: the case has " + record.no_reproducer + ", which such a program cannot draw")) : null);
 }
 
 const SHOWN_SHAPES = 64;

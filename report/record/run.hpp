@@ -169,6 +169,9 @@ struct PlannedCase {
     }
 };
 
+// CaseRecord::no_reproducer, where only doors show the failure and the program would draw without.
+inline constexpr char kDoorsAlone[] = "doors alone";
+
 struct CaseRecord : PlannedCase, diff::Outcome {
     Status status = Status::not_run;
     std::optional<Status> expected;  // of an expectation file
@@ -200,8 +203,8 @@ struct CaseRecord : PlannedCase, diff::Outcome {
     Reference reference;  // of a case that passes and whose pictures were not kept
     std::string explain;  // command line that explains the first wrong sample; empty if none
     // Of a failure: the command line that writes the case as a program for a bug report; and, if it
-    // is empty, what of the case such a program cannot draw ("a blit"), else what may be too much
-    // for one ("many values"), which the command finds out.
+    // is empty, what of the case such a program cannot draw ("a blit") or kDoorsAlone, else what
+    // may be too much for one ("many values"), which the command finds out.
     std::string reproducer, no_reproducer;
     Geometry geometry;                     // with pictures or the reference
     std::vector<SampleEvidence> evidence;  // of wrong samples and some of their neighbours

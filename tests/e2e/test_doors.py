@@ -49,7 +49,7 @@ class Doors(ProgramTest):
         # A program that draws the plain picture would not show it.
         ends = [json.loads(line) for line in (self.folder / "out" / "journal.jsonl").read_text().splitlines()[1:]]
         ends = {end["id"]: end for end in ends if end.get("record") == "end"}
-        self.assertEqual((ends["a/one"]["reproducer"], ends["a/one"]["no_reproducer"]), ("", "doors"))
+        self.assertEqual((ends["a/one"]["reproducer"], ends["a/one"]["no_reproducer"]), ("", "doors alone"))
 
     def test_a_broken_door_does_not_hide_another(self):
         done, results = self.run_doors("--doors", "index-16,index-32", "--retries", "0", "-v", check=1, fault="flip-derived@a/one")

@@ -19,9 +19,9 @@ namespace {
 // and not VK_QUERY_RESULT_WAIT_BIT, so that one that never is, is no hang.
 constexpr std::chrono::milliseconds kLongestWait{500};
 
-// What the query gives, or kNotCounted if it never does.
-Result<uint64_t> read_one(const Device& device, VkQueryPool pool, uint32_t query) {
-    const auto end = std::chrono::steady_clock::now() + kLongestWait;
+// What the query gives, or kNotCounted if it does not until `end`.
+Result<uint64_t> read_one(const Device& device, VkQueryPool pool, uint32_t query,
+                          std::chrono::steady_clock::time_point end) {
     for (;;) {
         std::array<uint64_t, 2> result{};  // the number, and whether it is there
         const VkResult read = device.vk().vkGetQueryPoolResults(
@@ -79,12 +79,13 @@ void Queries::end(VkCommandBuffer commands, uint32_t draw) const {
 
 Result<std::vector<uint64_t>> Queries::read() const {
     std::vector<uint64_t> counted(case_->draws.size(), 0);
+    const auto end = std::chrono::steady_clock::now() + kLongestWait;  // of all of them
     for (uint32_t k = 0; k < counted.size(); ++k) {
         const Query query = case_->draws[k].query;
         if (query == Query::none) {
             continue;
         }
-        auto result = read_one(*device_, pool_.get(), k);
+        auto result = read_one(*device_, pool_.get(), k, end);
         if (!result) {
             return fail(result.error());
         }

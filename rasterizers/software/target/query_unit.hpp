@@ -27,7 +27,7 @@ class QueryUnit {
   public:
     // Both must outlive this object.
     QueryUnit(const cases::Case& c, const Device& device);
-    // `is_first`: no sample of the same fragment was counted before.
+    // `is_first`: no sample of the same fragment was covered before.
     void count(uint32_t draw, Ending ending, bool is_first);
     // As capture::Planes::counted.
     std::vector<uint64_t> results() const;

@@ -210,6 +210,21 @@ TEST(Delivered, AMissingPlaneIsNamed) {
     EXPECT_FALSE(take(f.right, kDepth).is_empty());
 }
 
+// Another picture is judged on the same planes as the delivered one, coverage alone included.
+TEST(Delivered, APictureIsCutToThePlanesThatWereDelivered) {
+    const Fixture f;
+    for (const uint32_t planes : std::initializer_list<uint32_t>{kCoverage, kTotal, kCoverage | kDepth, kDepth | kAttribute1,
+                                  kWriter, kEnd - 1 - kCoverage - kTotal}) {
+        const capture::Delivered delivered = take(f.right, planes);
+        const std::vector<std::string> words = diff::not_judged(f.c, delivered);
+        const capture::Delivered cut = diff::judged_planes(f.c, f.right, words);
+        EXPECT_EQ(diff::not_judged(f.c, cut), words) << planes;
+        EXPECT_EQ(cut.detail, delivered.detail) << planes;
+        EXPECT_EQ(cut.front, delivered.front) << planes;
+        EXPECT_TRUE(diff::compare_delivered(f.c, f.e, cut).ok()) << planes;
+    }
+}
+
 TEST(Delivered, DepthThatIsNotWrittenTellsNothing) {
     Fixture f;
     f.c.draws[0].depth.write = false;

@@ -96,6 +96,40 @@ TEST(QueryJudge, ACaptureWithoutCountsIsNoPass) {
     EXPECT_EQ(verdict_of(c, capture).error, "the capture lacks what the case's queries counted");
 }
 
+TEST(QueryJudge, AQueryWithoutAResultIsWrong) {
+    for (const Query query : {Query::occlusion, Query::occlusion_precise}) {
+        for (const size_t draw : {size_t{1}, size_t{2}}) {
+            const Finding finding = finding_with(asked(query), draw, capture::kNotCounted);
+            EXPECT_EQ(finding.rule, "query.occlusion");
+            EXPECT_EQ(finding.level, Profile::vulkan);
+            EXPECT_EQ(finding.got, "no result");
+        }
+    }
+}
+
+// Whether fragments that are discarded after early tests count may differ from pipeline to
+// pipeline at vulkan.
+TEST(QueryJudge, OtherPipelinesMayCountWhatIsDiscardedEarly) {
+    cases::Case c = asked(Query::occlusion_precise);
+    c.draws[2].discard = cases::Discard::checker;
+    c.draws[2].early_tests = true;
+    c.relations.push_back({cases::RelationKind::write_masks});
+    c.relations.push_back({cases::RelationKind::same_twice});
+    const capture::Capture base = rasterizers::draw_by_reference(c);
+    for (const cases::Derivation& derivation : cases::derivations(c)) {
+        capture::Capture other = base;
+        other.counted[2] = 32;
+        const std::vector<Consistency> found = {compare_bits(base, other, derivation)};
+        for (const Profile profile : cases::kProfiles) {
+            Verdict verdict = verdict_of(c, base, profile);
+            add_differences(c, std::span(&derivation, 1), found, verdict);
+            const bool is_demanded =
+                derivation.kind == cases::RelationKind::same_twice || profile != Profile::vulkan;
+            EXPECT_EQ(verdict.findings.size(), is_demanded ? 1U : 0U) << derivation.name;
+        }
+    }
+}
+
 TEST(QueryJudge, OtherRenderingsCountAsMany) {
     cases::Case c = asked(Query::occlusion_precise);
     c.relations.push_back({});

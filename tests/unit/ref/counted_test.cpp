@@ -137,7 +137,7 @@ TEST(Counted, TwoTrianglesShareTheirEdge) {
     }
 }
 
-// 14 of the 28 pixels have an odd x or an odd y, but not both: 7 - 2k of row k are covered.
+// Of the 28 pixels with x + y < 7, 2 + 4 + 6 have an odd x + y.
 TEST(Counted, WhatIsDiscardedEarlyIsCountedFromPracticeOn) {
     cases::Case c = triangle_of_8();
     c.draws[0].discard = cases::Discard::checker;

@@ -206,6 +206,20 @@ TEST(Places, OwnLocationsDecide) {
     EXPECT_EQ(accepted(c, kWhole, fragment(kWhole, {2.875, 2.375}, {2.875, 2.375})), "---");
 }
 
+// Where a sample lies at the centre there is one place to tell of.
+TEST(Places, ASampleAtTheCentreIsNoOtherPlace) {
+    cases::Case c = triangle(Auxiliary::none);
+    c.target.sample_locations = {{1, 2}, {14, 3}, {2, 13}, {8, 8}};
+    const auto z = [](uint32_t sample, cases::Profile profile, const cases::Case& of) {
+        return ValueReference(of, Limits{}, profile)
+            .range(0, {2, 2, sample}, QuantityId::of_frag_coord(2));
+    };
+    for (const cases::Profile profile : cases::kProfiles) {
+        EXPECT_FALSE(z(3, profile, c).is_of_places);
+        EXPECT_EQ(z(0, profile, c).is_of_places, profile == cases::Profile::direct3d);
+    }
+}
+
 TEST(SampleMask, LeavesOnlyItsSamplesInBothImplementations) {
     cases::Case c = pixels(8, 8, {{1, 1}, {7, 1}, {1, 7}, {7, 1}, {7, 7}, {1, 7}}, 4);
     c.draws.push_back(c.draws[0]);

@@ -59,6 +59,7 @@ TEST(Evidence, TellsDiscardsTestsAndStencils) {
 
     // Nothing of it where nothing is tested or discarded.
     const report::CaseRecord plain = drawn_with("attributes/depth", "", software::Fault::affine);
+    ASSERT_FALSE(plain.evidence.empty());
     for (const report::SampleEvidence& e : plain.evidence) {
         EXPECT_TRUE(e.courses.empty() && e.stencil.empty());
     }

@@ -111,6 +111,13 @@ TEST(Message, DifferencesComeBackAndImpossibleOnesAreRefused) {
     EXPECT_TRUE(refuses({2, 1, {{1, diff::kCounts, 0, 1, 2}}, {}, {}})) << "no such plane";
     EXPECT_TRUE(refuses({2, 1, {{1, 0, 4, 1, 2}}, {}, {}})) << "no such word";
     EXPECT_TRUE(refuses({2, 1, {{1, 0, 0, 2, 2}}, {}, {}})) << "no difference";
+    // Counts are whole: the lowest 32 bits of these are the same.
+    result.rendered.capture.counted = {64};
+    result.consistency = {{3, 1, {{0, diff::kCounts, 0, 64, 64 + (1ULL << 32)}}, {}, {}}};
+    const std::optional<CaseResult> counts = decode_result(encode_result(result));
+    ASSERT_TRUE(counts);
+    EXPECT_EQ(counts->consistency, result.consistency);
+    result.rendered.capture.counted.clear();
     result.consistency.assign(257, {2, 0, {}, {}, {}});
     EXPECT_FALSE(decode_result(encode_result(result))) << "too many";
 }
