@@ -15,7 +15,7 @@
 #include "ref/expectation/expectation.hpp"
 #include "ref/expectation/explain.hpp"
 #include "ref/reason/reason.hpp"
-#include "ref/stencil/values_text.hpp"
+#include "ref/stencil/values.hpp"
 #include "report/text/wrap.hpp"
 
 namespace cli {

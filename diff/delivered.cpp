@@ -15,6 +15,7 @@
 #include "diff/pixel_check.hpp"
 #include "ref/color/color.hpp"
 #include "ref/stencil/outcome.hpp"
+#include "ref/stencil/values.hpp"
 
 namespace diff {
 
@@ -74,12 +75,7 @@ cases::Case with_color_only(const cases::Case& c) {
 // A stencil that a sample may hold, with these hits if they are known.
 uint32_t likely_stencil(const ref::Expectation& expectation, size_t index,
                         std::optional<std::pair<uint32_t, uint32_t>> hits) {
-    const ref::stencil::Values values = stencils_at(expectation, expectation.samples[index], hits);
-    uint32_t value = 0;
-    while (!values[value]) {
-        ++value;
-    }
-    return value;
+    return ref::stencil::least_of(stencils_at(expectation, expectation.samples[index], hits));
 }
 
 // Fills in what was not delivered.

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "ref/exercise/changes.hpp"
-#include "ref/stencil/values_text.hpp"
+#include "ref/stencil/values.hpp"
 
 namespace diff {
 

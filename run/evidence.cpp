@@ -12,10 +12,10 @@
 #include "diff/last_fragment.hpp"
 #include "ref/expectation/explain.hpp"
 #include "ref/stencil/outcome.hpp"
-#include "ref/stencil/values_text.hpp"
+#include "ref/stencil/values.hpp"
 #include "ref/value/value.hpp"
-#include "run/depth_picture.hpp"
 #include "run/picture.hpp"
+#include "run/plane_pictures.hpp"
 
 namespace run {
 

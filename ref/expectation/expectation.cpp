@@ -14,7 +14,7 @@
 #include "ref/expectation/narrowing.hpp"
 #include "ref/expectation/onlooker.hpp"
 #include "ref/expectation/scene.hpp"
-#include "ref/stencil/values_text.hpp"
+#include "ref/stencil/values.hpp"
 
 namespace ref {
 

@@ -11,7 +11,7 @@
 #include "ref/coverage/exact.hpp"
 #include "ref/expectation/reason_text.hpp"
 #include "ref/position/clip.hpp"
-#include "ref/stencil/values_text.hpp"
+#include "ref/stencil/values.hpp"
 
 namespace ref {
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "ref/position/clip.hpp"
-#include "ref/stencil/values_text.hpp"
+#include "ref/stencil/values.hpp"
 
 namespace ref {
 

@@ -213,8 +213,9 @@ TEST(Delivered, AMissingPlaneIsNamed) {
 // Another picture is judged on the same planes as the delivered one, coverage alone included.
 TEST(Delivered, APictureIsCutToThePlanesThatWereDelivered) {
     const Fixture f;
-    for (const uint32_t planes : std::initializer_list<uint32_t>{kCoverage, kTotal, kCoverage | kDepth, kDepth | kAttribute1,
-                                  kWriter, kEnd - 1 - kCoverage - kTotal}) {
+    for (const uint32_t planes : std::initializer_list<uint32_t>{
+             kCoverage, kTotal, kCoverage | kDepth, kDepth | kAttribute1, kWriter,
+             kEnd - 1 - kCoverage - kTotal}) {
         const capture::Delivered delivered = take(f.right, planes);
         const std::vector<std::string> words = diff::not_judged(f.c, delivered);
         const capture::Delivered cut = diff::judged_planes(f.c, f.right, words);

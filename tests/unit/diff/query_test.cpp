@@ -118,6 +118,7 @@ TEST(QueryJudge, OtherPipelinesMayCountWhatIsDiscardedEarly) {
     const capture::Capture base = rasterizers::draw_by_reference(c);
     for (const cases::Derivation& derivation : cases::derivations(c)) {
         capture::Capture other = base;
+        vary(other, derivation.variation);
         other.counted[2] = 32;
         const std::vector<Consistency> found = {compare_bits(base, other, derivation)};
         for (const Profile profile : cases::kProfiles) {

@@ -204,7 +204,7 @@ TEST(ReduceCase, TellsWhatTheDeviceDoesNotDraw) {
     EXPECT_THAT(entry->needs, testing::Not(testing::Contains("not with 2 samples")));
     EXPECT_THAT(need_text(*entry),
                 testing::AllOf(testing::HasSubstr("# The device draws nothing with 2 samples.\n"),
-                               testing::HasSubstr(" with 1 sample"),
+                               testing::HasSubstr("# It passes with 1 sample in place of 4.\n"),
                                testing::Not(testing::HasSubstr("not "))));
 }
 

@@ -58,7 +58,8 @@ TEST(Evidence, TellsDiscardsTestsAndStencils) {
     EXPECT_THAT(p.device_stencils, testing::Each(testing::Ge(1)));
 
     // Nothing of it where nothing is tested or discarded.
-    const report::CaseRecord plain = drawn_with("attributes/depth", "", software::Fault::affine);
+    const report::CaseRecord plain =
+        drawn_with("ties/diagonal-edge", "rotation=0", software::Fault::ties_top_right);
     ASSERT_FALSE(plain.evidence.empty());
     for (const report::SampleEvidence& e : plain.evidence) {
         EXPECT_TRUE(e.courses.empty() && e.stencil.empty());

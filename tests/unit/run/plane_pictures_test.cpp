@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Depths of the reference beside those of a device.
-#include "run/depth_picture.hpp"
+#include "run/plane_pictures.hpp"
 
 #include <gtest/gtest.h>
 

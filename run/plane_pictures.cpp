@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "run/depth_picture.hpp"
+#include "run/plane_pictures.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "cases/model/sample.hpp"
+#include "diff/resolve.hpp"
 #include "ref/stencil/outcome.hpp"
+#include "ref/stencil/values.hpp"
 #include "ref/value/value.hpp"
 
 namespace run {
@@ -120,16 +122,12 @@ void add_stencils(report::Pictures& pictures, const PictureWindow& window, const
         const ref::SampleExpectation& sample = expectation.samples[k];
         if (ref::stencil::is_needed(c)) {
             const ref::stencil::Values values = stencils_at(expectation, sample, std::nullopt);
-            size_t value = 0;
-            while (!values[value]) {
-                ++value;
-            }
-            expected.push_back(values.count() == 1 ? static_cast<double>(value) : kNone);
-        } else {  // it counts front faces up and back faces down
             expected.push_back(
-                sample.hits.is_decided()
-                    ? static_cast<double>((sample.hits.front_min - sample.hits.back_min) & 0xffU)
-                    : kNone);
+                values.count() == 1 ? static_cast<double>(ref::stencil::least_of(values)) : kNone);
+        } else {  // it counts front faces up and back faces down
+            const glm::vec4 hits(sample.hits.front_min, sample.hits.back_min, 0, 0);
+            expected.push_back(
+                sample.hits.is_decided() ? static_cast<double>(diff::stencil_of(hits)) : kNone);
         }
     });
     const std::optional<Span> span = span_of(device, expected);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ref/stencil/values_text.hpp"
+#include "ref/stencil/values.hpp"
 
 #include <fmt/format.h>
 
@@ -26,6 +26,14 @@ Values values_of(std::span<const Outcome> outcomes, bool is_free, uint32_t clear
         out.set(clear);
     }
     return out;
+}
+
+uint32_t least_of(const Values& values) {
+    uint32_t value = 0;
+    while (!values[value]) {
+        ++value;
+    }
+    return value;
 }
 
 std::string to_text(const Values& values, std::string_view between, size_t most) {

@@ -22,6 +22,9 @@ namespace ref::stencil {
 Values values_of(std::span<const Outcome> outcomes, bool is_free, uint32_t clear,
                  const std::optional<std::pair<uint32_t, uint32_t>>& hits);
 
+// The least of at least one value.
+uint32_t least_of(const Values& values);
+
 // The values in ascending order with `between` between them, "3 or 4"; of more than `most` the
 // first ones and how many there are besides, "0 or 1 and 14 others".
 std::string to_text(const Values& values, std::string_view between, size_t most);

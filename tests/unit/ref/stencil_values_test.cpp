@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "ref/stencil/values_text.hpp"
+#include "ref/stencil/values.hpp"
 
 namespace ref::stencil {
 namespace {
