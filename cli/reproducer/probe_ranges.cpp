@@ -243,9 +243,6 @@ bool ProbeRanges::add(uint32_t t, cases::SampleId sample, size_t attribute,
         return true;
     }
     const auto set = ref::value::make_candidates<T>(primitive, all, limits_, profile_);
-    if (!set.is_known) {
-        return false;
-    }
     ref::value::Fragment fragment;
     fragment.id = sample;
     fragment.target = &case_.target;

@@ -155,9 +155,6 @@ struct DepthTest::Impl {
         if (!set) {
             set = value::make_candidates<T>(primitive, {&depth, 1}, limits, profile);
         }
-        if (!set->is_known) {
-            return std::nullopt;
-        }
         std::optional<value::Range<T>> range;
         for (const value::Point<T>& at_p : points_of<T>(t, p)) {
             const auto reach = value::reach_of_depth(*set, depth, primitive.is_projectable, at_p);

@@ -130,6 +130,12 @@ inline Ball from_exact<Ball>(const mpq_class& a) {
     return {v, sgn(a) == 0 ? 0.0 : std::fabs(v) * 0x1p-51 + ball::kTiny};
 }
 
+// The nearest Ball to an exact number, without an error where binary64 has the number.
+inline Ball tight_ball(const mpq_class& a) {
+    const double v = a.get_d();
+    return std::isfinite(v) && mpq_class(v) == a ? Ball(v) : from_exact<Ball>(a);
+}
+
 // Gives the value of a finite binary32 as T, exactly.
 template <class T>
 T from_float(float f) {

@@ -177,12 +177,8 @@ void ValueReference::add_ranges(uint32_t t, cases::SampleId sample, std::span<co
     value::Asked asked{all, primitive.is_projectable};
     asked.only = only;
     const auto& balls = impl_->candidates<Ball>(t, impl_->profile);
-    value::AcceptedRange<Ball> unknown;
-    unknown.is_known = false;
-    std::vector<value::AcceptedRange<Ball>> wide(only.size(), unknown);
-    if (balls.is_known) {
-        wide = value::accepted_ranges(balls, impl_->places_of_range(t, sample), asked);
-    }
+    const std::vector<value::AcceptedRange<Ball>> wide =
+        value::accepted_ranges(balls, impl_->places_of_range(t, sample), asked);
     for (size_t k = 0; k < only.size(); ++k) {
         ValueRange& range = out.at(component_of[k]);
         if (wide[k].is_known) {

@@ -178,15 +178,14 @@ std::vector<size_t> ValueReference::Impl::failing_at(uint32_t t, cases::SampleId
                 return rejected;
             }
         }
-        const value::CandidateSet<Ball>& set = candidates<Ball>(t, at);
-        if (set.is_known) {
-            auto failing = failing_separately(
+        auto failing = ask_balls(t, at, [&](const value::CandidateSet<Ball>& set) {
+            return failing_separately(
                 set, places,
                 {quantities_of(t), load(t).primitive.is_projectable, &place, &device, only});
-            if (failing) {
-                failing->insert(failing->end(), rejected.begin(), rejected.end());
-                return *std::move(failing);
-            }
+        });
+        if (failing) {
+            failing->insert(failing->end(), rejected.begin(), rejected.end());
+            return *std::move(failing);
         }
     }
     return wide(t, id, device, at).failing;

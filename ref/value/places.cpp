@@ -76,7 +76,7 @@ std::vector<Evaluation<T>> evaluations(const Fragment& f, Profile profile) {
     const Spot own = spot_of(f, f.id.sample);
     const Point<T> sample = point_of<T>(own);
     if (f.target->samples == 1 && centre == own) {
-        return {{{sample}, {}, sample, {sample}, false}};
+        return {{{sample}, {}, sample, {sample}, {}}};
     }
     const ShadingRate rate = shading_rate(*f.draw, f.target->samples);
     std::vector<Spot> undecorated = {centre};
@@ -125,7 +125,7 @@ std::vector<Evaluation<T>> evaluations(const Fragment& f, Profile profile) {
     for (const Spot& u : undecorated) {
         for (const Spot& c : centroid) {
             for (const std::vector<Point<T>>& z : coord_places) {
-                all.push_back({{point_of<T>(u)}, z, sample, {point_of<T>(c)}, false});
+                all.push_back({{point_of<T>(u)}, z, sample, {point_of<T>(c)}, {}});
             }
         }
     }
@@ -134,7 +134,7 @@ std::vector<Evaluation<T>> evaluations(const Fragment& f, Profile profile) {
     }
     if (f.target->samples == 1) {
         const std::vector<Point<T>> both = {point_of<T>(centre), sample};
-        all.push_back({both, {}, sample, both, false});
+        all.push_back({both, {}, sample, both, {}});
         return all;
     }
     // Anywhere: a linear function, and a quotient of two where the denominator stays positive, is
@@ -154,7 +154,16 @@ std::vector<Evaluation<T>> evaluations(const Fragment& f, Profile profile) {
     if (anywhere.centroid.empty()) {
         anywhere.centroid = {sample};
     }
-    anywhere.is_one_point = profile == Profile::practice;
+    if (profile == Profile::practice) {
+        const mpq_class low_x(x);
+        const mpq_class low_y(y);
+        const mpq_class high_x(x + 1);
+        const mpq_class high_y(y + 1);
+        anywhere.one_point = {
+            {{low_x, low_y}, {high_x, low_y}, {high_x, high_y}, {low_x, high_y}},
+            f.region.empty() ? std::vector<Point<mpq_class>>{{mpq_class(own.x), mpq_class(own.y)}}
+                             : f.region};
+    }
     all.push_back(std::move(anywhere));
     return all;
 }

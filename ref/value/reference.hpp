@@ -58,6 +58,11 @@ class CandidateCache {
         return entries_.back().set;
     }
 
+    void forget(uint32_t t, cases::Profile profile) {
+        std::erase_if(entries_,
+                      [&](const Entry& e) { return e.triangle == t && e.profile == profile; });
+    }
+
   private:
     struct Entry {
         uint32_t triangle;
@@ -310,6 +315,19 @@ struct ValueReference::Impl {
         });
     }
 
+    // What the Balls of the triangle's set tell or, if they cannot, those of the exact set, which
+    // are kept from then on; the last answer if neither can.
+    template <class Ask>
+    auto ask_balls(uint32_t t, Profile at, Ask ask) {
+        auto answer = ask(candidates<Ball>(t, at));
+        if (answer || candidates<Ball>(t, at).exact) {
+            return answer;
+        }
+        auto& cache = std::get<value::CandidateCache<Ball>>(candidate_caches);
+        cache.forget(t, at);
+        return ask(cache.get(t, at, [&] { return value::rounded(candidates<mpq_class>(t, at)); }));
+    }
+
     // By Balls, and by rationals where these do not tell; `exact_only`: the oracle, by rationals
     // alone.
     // One candidate explains a fragment, or one explains what depends on the plane of depth
@@ -339,16 +357,17 @@ struct ValueReference::Impl {
         const value::Asked asked{quantities_of(t), load(t).primitive.is_projectable, &place,
                                  &device, only};
         const auto judge_by = [&]<class T>(const value::CandidateSet<T>& set) {
-            return judge_candidates(set, value::evaluations<T>(fragment(t, id, at, exact_only), at),
-                                    asked);
+            value::CandidateVerdict verdict = judge_candidates(
+                set, value::evaluations<T>(fragment(t, id, at, exact_only), at), asked);
+            return verdict.is_known ? std::optional(std::move(verdict)) : std::nullopt;
         };
-        if (!exact_only && candidates<Ball>(t, at).is_known) {
-            value::CandidateVerdict verdict = judge_by(candidates<Ball>(t, at));
-            if (verdict.is_known) {
-                return verdict;
+        if (!exact_only) {
+            auto verdict = ask_balls(t, at, judge_by);
+            if (verdict) {
+                return *std::move(verdict);
             }
         }
-        return judge_by(candidates<mpq_class>(t, at));
+        return *judge_by(candidates<mpq_class>(t, at));
     }
 
     // Bounds on all that a profile admits for the triangle.

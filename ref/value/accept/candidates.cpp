@@ -273,12 +273,13 @@ std::vector<Range<T>> hulls_of(const Primitive& primitive, const std::vector<Pla
     return out;
 }
 
-}  // namespace
-
+// Nothing if T cannot tell an orientation.
 template <class T>
-CandidateSet<T> make_candidates(const Primitive& primitive, std::span<const Quantity> quantities,
-                                const Limits& limits, cases::Profile profile) {
+std::optional<CandidateSet<T>> try_candidates(const Primitive& primitive,
+                                              std::span<const Quantity> quantities,
+                                              const Limits& limits, cases::Profile profile) {
     CandidateSet<T> set;
+    bool is_known = true;
     set.factor = from_exact<T>(exact_budget_factor(profile));
     set.margin = T(std::ldexp(1.0, -limits.subpixel_bits));
     set.any_of_all = profile == cases::Profile::vulkan;
@@ -308,7 +309,7 @@ CandidateSet<T> make_candidates(const Primitive& primitive, std::span<const Quan
     }
 
     Basis<T> unsnapped = make_basis(ideal, inputs, kBudgetFactor);
-    set.is_known = unsnapped.orientation != 2;
+    is_known = unsnapped.orientation != 2;
     const bool has_area = unsnapped.orientation == 1 || unsnapped.orientation == -1;
     if (has_area) {
         set.candidates.push_back({ref::BasisKind::unsnapped, {std::move(unsnapped)}, false, false});
@@ -316,20 +317,20 @@ CandidateSet<T> make_candidates(const Primitive& primitive, std::span<const Quan
     const auto snapped = snapped_positions(primitive, limits);
     if (snapped) {
         Basis<T> basis = make_basis(moved_vertices<T>(primitive, *snapped), inputs, kBudgetFactor);
-        set.is_known = set.is_known && basis.orientation != 2;
+        is_known = is_known && basis.orientation != 2;
         if (basis.orientation == 1 || basis.orientation == -1) {
             set.candidates.push_back({ref::BasisKind::snapped, {std::move(basis)}, false, false});
         }
     }
-    set.is_known = set.is_known && add_corner_triangles(primitive, inputs, limits, profile, set);
+    is_known = is_known && add_corner_triangles(primitive, inputs, limits, profile, set);
     if (primitive.needs_clipping) {
         if (profile == cases::Profile::vulkan) {
             // "a convex combination": the hull of the clipped polygon's vertices is all that the
             // text demands.
             set.candidates.push_back({ref::BasisKind::clipped_piece, {}, true, false});
         } else if (has_area) {
-            set.is_known = set.is_known && add_pieces(inputs, polygon, T{}, true, set) &&
-                           add_pieces(inputs, polygon, set.margin, false, set);
+            is_known = is_known && add_pieces(inputs, polygon, T{}, true, set) &&
+                       add_pieces(inputs, polygon, set.margin, false, set);
         }
     }
     const bool may_gain_area =
@@ -345,7 +346,21 @@ CandidateSet<T> make_candidates(const Primitive& primitive, std::span<const Quan
     if (set.candidates.empty()) {
         set.candidates.push_back({ref::BasisKind::unsnapped, {}, true, false});
     }
-    return set;
+    return is_known ? std::optional(std::move(set)) : std::nullopt;
+}
+
+}  // namespace
+
+template <class T>
+CandidateSet<T> make_candidates(const Primitive& primitive, std::span<const Quantity> quantities,
+                                const Limits& limits, cases::Profile profile) {
+    auto set = try_candidates<T>(primitive, quantities, limits, profile);
+    if constexpr (std::is_same_v<T, Ball>) {
+        return set ? *std::move(set)
+                   : rounded(make_candidates<mpq_class>(primitive, quantities, limits, profile));
+    } else {
+        return std::move(set).value();
+    }
 }
 
 template CandidateSet<Ball> make_candidates<Ball>(const Primitive&, std::span<const Quantity>,

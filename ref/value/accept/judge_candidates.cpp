@@ -39,31 +39,36 @@ std::vector<size_t> inputs_at(const Asked& asked, bool at_centroid) {
 
 // Whether one place explains all inputs that are decorated alike. Each of them alone has been
 // found to fit somewhere; with a single one that is enough.
-Answer has_one_point(const CandidateSet<Ball>&, const Candidate<Ball>&, const Evaluation<Ball>&,
-                     const Asked& asked, size_t&) {
-    const bool is_single = inputs_at(asked, false).size() < 2 && inputs_at(asked, true).size() < 2;
-    return is_single ? Answer::yes : Answer::unknown;  // polygons are cut in rationals
-}
-
-Answer has_one_point(const CandidateSet<mpq_class>& set, const Candidate<mpq_class>& candidate,
-                     const Evaluation<mpq_class>& where, const Asked& asked, size_t& blamed) {
-    if (candidate.bases.size() != 1 || candidate.is_unbounded) {
-        return Answer::yes;  // anywhere between several planes: each value alone
-    }
-    for (const bool at_centroid : {false, true}) {
-        const std::vector<size_t> which = inputs_at(asked, at_centroid);
-        if (which.size() < 2) {
-            continue;
+// Polygons are cut in rationals: unknown of Balls that are no exact set's.
+template <class T>
+Answer has_one_point(const CandidateSet<T>& set, size_t index, const OnePoint& where,
+                     const Asked& asked, size_t& blamed) {
+    if constexpr (std::is_same_v<T, Ball>) {
+        const bool is_single =
+            inputs_at(asked, false).size() < 2 && inputs_at(asked, true).size() < 2;
+        return is_single   ? Answer::yes
+               : set.exact ? has_one_point(*set.exact, index, where, asked, blamed)
+                           : Answer::unknown;
+    } else {
+        const Candidate<T>& candidate = set.candidates[index];
+        if (candidate.bases.size() != 1 || candidate.is_unbounded) {
+            return Answer::yes;  // anywhere between several planes: each value alone
         }
-        const auto wrong = first_unexplained(candidate.bases.front(), set.factor,
-                                             at_centroid ? where.centroid : where.attributes,
-                                             asked.quantities, which, *asked.device);
-        if (wrong) {
-            blamed = *wrong;
-            return Answer::no;
+        for (const bool at_centroid : {false, true}) {
+            const std::vector<size_t> which = inputs_at(asked, at_centroid);
+            if (which.size() < 2) {
+                continue;
+            }
+            const auto wrong = first_unexplained(candidate.bases.front(), set.factor,
+                                                 at_centroid ? where.centroid : where.attributes,
+                                                 asked.quantities, which, *asked.device);
+            if (wrong) {
+                blamed = *wrong;
+                return Answer::no;
+            }
         }
+        return Answer::yes;
     }
-    return Answer::yes;
 }
 
 // How many values do not fit, and the largest error in budgets.
@@ -171,9 +176,9 @@ CandidateVerdict judge_candidates(const CandidateSet<T>& set,
             }
             CandidateVerdict verdict =
                 verdict_of(fits, judged, probes, score, set.candidates[c].name);
-            if (verdict.ok && where.is_one_point) {
+            if (verdict.ok && where.one_point) {
                 size_t blamed = 0;
-                switch (has_one_point(set, set.candidates[c], where, asked, blamed)) {
+                switch (has_one_point(set, c, *where.one_point, asked, blamed)) {
                     case Answer::unknown:
                         return unknown;
                     case Answer::no:
@@ -202,7 +207,7 @@ template <class T>
 AcceptedRange<T> reach_of_depth(const CandidateSet<T>& set, const Quantity& depth,
                                 bool is_projectable, const Point<T>& sample) {
     AcceptedRange<T> out;
-    const Evaluation<T> where{{sample}, {}, sample, {sample}, false};
+    const Evaluation<T> where{{sample}, {}, sample, {sample}, {}};
     std::vector<Reach<T>> reaches(1);
     for (const Candidate<T>& candidate : set.candidates) {
         if (candidate.is_piece) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -33,7 +34,6 @@ struct Candidate {
 
 template <class T>
 struct CandidateSet {
-    bool is_known = true;  // false: T could not tell an orientation; use rationals
     std::vector<Candidate<T>> candidates;
     std::vector<Range<T>> hulls;  // of the vertex values, by quantity (numeric ones only)
     T factor{};                   // K
@@ -41,12 +41,24 @@ struct CandidateSet {
     T least_inv_w{};              // of the visible part of the triangle
     DepthPath<T> depth;           // from interpolated to stored depth
     bool any_of_all = false;      // profile vulkan: each value alone, any candidate, their hull
+    // What the numbers are the roundings of; null if they were made as they are.
+    std::shared_ptr<const CandidateSet<mpq_class>> exact;
 };
 
-// The set for a profile. `factor` is K of docs/precision.md for that profile.
+// The set for a profile. `factor` is K of docs/precision.md for that profile. Balls that cannot
+// tell an orientation give way to the exact set, rounded.
 template <class T>
 CandidateSet<T> make_candidates(const Primitive& primitive, std::span<const Quantity> quantities,
                                 const Limits& limits, cases::Profile profile);
+
+// The exact set with each number as the nearest Ball: tighter than the set that is made in Balls
+// where roundings pile up in the set-up of a triangle (next to no area, clipped, unequal w).
+CandidateSet<Ball> rounded(const CandidateSet<mpq_class>& exact);
+
+// The corners of the two lists of points that follow, exactly.
+struct OnePoint {
+    std::vector<Point<mpq_class>> attributes, centroid;
+};
 
 // Where the values may be evaluated, which is anywhere in the hull of the points.
 template <class T>
@@ -57,8 +69,8 @@ struct Evaluation {
     Point<T> sample;  // depth, and inputs decorated with Sample
     std::vector<Point<T>> centroid;
     // One point of `attributes` explains all inputs that are evaluated there, one of `centroid`
-    // all of those. Otherwise each value may have its own.
-    bool is_one_point = false;
+    // all of those. Without this each value may have its own.
+    std::optional<OnePoint> one_point;
 };
 
 // All that a quantity may be.

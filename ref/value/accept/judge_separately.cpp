@@ -27,7 +27,7 @@ std::optional<std::vector<size_t>> failing_separately(const CandidateSet<T>& set
     bool is_tie = false;
     const Evaluation<T>* before = nullptr;
     for (const Evaluation<T>& where : evaluations) {
-        if (where.is_one_point || !set.any_of_all) {
+        if (where.one_point || !set.any_of_all) {
             return std::nullopt;
         }
         const Shared<T> shared(asked, std::exchange(before, &where), where);

@@ -89,7 +89,7 @@ SetBounds::SetBounds(const CandidateSet<Ball>& set, const PixelBox& box)
                 is_first ? depth_budget : std::min(least_depth_budget_, depth_budget);
         }
     }
-    is_usable_ = first != nullptr && set.is_known && !is_free;
+    is_usable_ = first != nullptr && !is_free;
     if (is_usable_) {
         first_ = make_filter(*first);
     }
