@@ -53,7 +53,7 @@ endforeach()
 # Fragment shaders: attributes x the combinations of features below, one letter each:
 # p probes, l lod, b barycentrics, m mask in, s sample, o mask out, k discard, z depth, c colour (float), u colour (uint),
 # n no instruments, t split instruments, d split with attributes in pairs (at most 8 colour attachments).
-set(plain_features "-" o c u co uo cn un con uon k kc ku kcn kun z zc zu zn zcn zun kz kzc kzu kzcn)
+set(plain_features "-" o c u co uo cn un con uon k kc ku kcn kun z zc zu zn zcn zun kz kzc kzu kzcn kzun)
 set(attribute_features p pl b m ms mo mso pb pm pms po bms bm)
 set(fragment_table "")
 foreach(count RANGE 4)

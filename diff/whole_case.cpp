@@ -89,7 +89,7 @@ void add_stray_writes(const cases::Case& c, std::span<const capture::StrayWrite>
 
 void judge_queries(const cases::Case& c, const capture::CaptureView& capture,
                    Attribution& attribution, Verdict& verdict) {
-    if (!cases::asks_queries(c) || has_wrong_hits(verdict)) {
+    if (!cases::asks_queries(c)) {
         return;
     }
     const auto hits = [&](size_t index) -> std::optional<uint32_t> {
@@ -105,12 +105,15 @@ void judge_queries(const cases::Case& c, const capture::CaptureView& capture,
         return c.draws[k].query == cases::Query::none ||
                (got != capture::kNotCounted && got >= bounds.least && got <= bounds.most);
     };
-    // What is right at a profile is right at the looser ones, too: theirs tell the level alone.
+    // What is right at a profile is right at the looser ones, too: theirs tell the level alone. But
+    // hits that are wrong here and right there leave less open there.
     std::vector<bool> is_settled(c.draws.size(), true);
+    const bool is_open = has_wrong_hits(verdict);
     const std::vector<CountBounds> asked =
         ref::count_bounds(attribution.at(verdict.profile), c.draws.size(), hits);
     for (size_t k = 0; k < c.draws.size(); ++k) {
-        is_settled[k] = is_right(k, asked[k]);
+        is_settled[k] =
+            c.draws[k].query == cases::Query::none || (!is_open && is_right(k, asked[k]));
     }
     for (const cases::Profile profile : cases::kProfiles) {
         if (profile > verdict.profile || std::ranges::find(is_settled, false) == is_settled.end()) {

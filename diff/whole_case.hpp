@@ -19,8 +19,8 @@ void add_stray_writes(const cases::Case& c, std::span<const capture::StrayWrite>
                       Verdict& verdict);
 
 // Adds one finding for each draw whose query is wrong. Such a number belongs to no sample: the
-// finding stands at the first sample of the target. Nothing is judged where hits are wrong, since
-// what is counted follows from them.
+// finding stands at the first sample of the target. Where hits are wrong, as many may be counted
+// as there are or ought to be, or fewer.
 void judge_queries(const cases::Case& c, const capture::CaptureView& capture,
                    Attribution& attribution, Verdict& verdict);
 

@@ -95,12 +95,27 @@ float fragment_depth(float z, float bias, const cases::Draw& draw, cases::DepthF
     return stored_depth(z, format, device);
 }
 
+// A depth in 11 bits: binary16, but for its subnormal numbers.
+static float as_half(float z) {
+    int exponent = 0;
+    const float fraction = std::frexp(z, &exponent);
+    return std::ldexp(std::nearbyint(std::ldexp(fraction, 11)), exponent - 11);
+}
+
 bool lies_within(float z, const cases::DepthBounds& bounds, const Device& device) {
     switch (device.fault) {
         case Fault::bounds_ignored:
             return true;
         case Fault::bounds_exclusive:
             return z > bounds.min && z < bounds.max;
+        case Fault::bounds_max_exclusive:
+            return z >= bounds.min && z < bounds.max;
+        case Fault::bounds_inverted:
+            return z < bounds.min || z > bounds.max;
+        case Fault::bounds_as_half:
+            return z >= as_half(bounds.min) && z <= as_half(bounds.max);
+        case Fault::bounds_without_min:
+            return z <= bounds.max;
         case Fault::bounds_without_max:
             return z >= bounds.min;
         case Fault::bounds_halved:

@@ -101,7 +101,13 @@ DrawCommand::DrawCommand(const cases::Case& c, uint32_t number, const Device& de
       out_(out),
       attachments_(attachments),
       rect_(draw_rect(draw_, c.target, device)),
-      samples_(sample_offsets(c.target, device)) {}
+      samples_(sample_offsets(c.target, device)) {
+    if (device.fault == Fault::bounds_at_draw_start) {
+        other_depth_ = out.depth;
+    } else if (device.fault == Fault::bounds_of_clear) {
+        other_depth_.assign(out.depth.size(), c.target.depth_clear);
+    }
+}
 
 void DrawCommand::run() {
     if (draw_.rasterizer_discard && device_.fault != Fault::discard_ignored) {

@@ -80,6 +80,7 @@ class DrawCommand {
     cases::Discard first_discard_;                    // of the first draw,
     std::optional<cases::DepthBounds> first_bounds_;  // as these
     std::optional<cases::FragDepth> first_depth_;
+    std::vector<float> other_depth_;  // what faults of the depth bounds take for the stored one
     const Device& device_;
     capture::Capture& out_;
     Attachments& attachments_;

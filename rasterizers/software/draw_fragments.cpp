@@ -198,8 +198,11 @@ bool DrawCommand::is_in_bounds(float z, size_t at) const {
     const Fault fault = device_.fault;
     const std::optional<cases::DepthBounds>& bounds =
         fault == Fault::bounds_of_first_draw ? first_bounds_ : draw_.depth.bounds;
-    if (!bounds) {
+    if (!bounds || (fault == Fault::bounds_off_with_written_depth && draw_.frag_depth)) {
         return true;
+    }
+    if (fault == Fault::bounds_at_draw_start || fault == Fault::bounds_of_clear) {
+        return lies_within(other_depth_[at], *bounds, device_);
     }
     const size_t tested = fault == Fault::bounds_of_sample_zero ? at - at % samples_.size() : at;
     return lies_within(fault == Fault::bounds_of_fragment ? z : out_.depth[tested], *bounds,

@@ -32,6 +32,9 @@ bool move_samples_to_first(cases::Case& c);
 bool discard_nothing(cases::Case& c);
 bool test_late(cases::Case& c);
 
+// Whatever a query must not count: draws that have one lose their tests, discards, masks and culling.
+bool show_all_to_queries(cases::Case& c);
+
 // Depth.
 bool toggle_depth_clip(cases::Case& c);
 bool toggle_volume(cases::Case& c);

@@ -264,7 +264,9 @@ constexpr ExerciseRow kRows[] = {
      "that would come out otherwise if a fragment that fails the depth test did what one does that "
      "passes it, or that fails the stencil test",
      {by(take_depth_fail_as_pass), by(take_depth_fail_as_fail)}},
-    {rule::query_occlusion, "that the query of a draw must count", {at_all(is_counted_by_query)}},
+    {rule::query_occlusion,
+     "that the query of a draw must count, or must not count though a triangle is there",
+     {at_all(is_counted_by_query), by(show_all_to_queries)}},
     {rule::resolve_select,
      "of a pixel that is drawn to and resolved so",
      {at_all(is_resolved<Resolve::sample_zero, Resolve::min, Resolve::max>)}},

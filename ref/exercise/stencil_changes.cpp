@@ -65,6 +65,25 @@ bool pass_every_stencil(Case& c) {
     return change_faces(c, [](StencilFace& face) { face.compare = CompareOp::always; });
 }
 
+bool show_all_to_queries(Case& c) {
+    bool has_any = false;
+    for (cases::Draw& draw : c.draws) {
+        if (draw.query == cases::Query::none) {
+            continue;
+        }
+        has_any = true;
+        draw.cull = cases::CullMode::none;
+        draw.discard = cases::Discard::none;
+        draw.rasterizer_discard = false;
+        draw.multisample.sample_mask = UINT32_MAX;
+        draw.multisample.shader_mask.reset();
+        draw.depth.compare = CompareOp::always;
+        draw.depth.bounds.reset();
+        draw.stencil.front.compare = draw.stencil.back.compare = CompareOp::always;
+    }
+    return has_any;
+}
+
 bool turn_stencil_compare(Case& c) {
     return change_faces(c, [](StencilFace& face) { face.compare = turned(face.compare); });
 }

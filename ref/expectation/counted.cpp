@@ -52,17 +52,32 @@ CountBounds counted_at(std::span<const CountedDraw> draws, size_t k, uint32_t le
 std::vector<CountBounds> count_bounds(const Expectation& expectation, size_t draws,
                                       const HitsAt& hits) {
     std::vector<CountBounds> out(draws);
+    std::vector<uint64_t> triangles(draws);
+    for (const cases::Triangle& triangle : expectation.triangles) {
+        ++triangles[triangle.draw];
+    }
     for (size_t index = 0; index < expectation.samples.size(); ++index) {
         const SampleExpectation& sample = expectation.samples[index];
         const std::span<const CountedDraw> counted = expectation.counted_of(sample);
-        if (counted.empty()) {
-            continue;
+        const HitBounds& expected = sample.hits;
+        std::optional<uint32_t> shown;
+        if (hits) {
+            shown = hits(index);
+            if (!shown || *shown < expected.total_min || *shown > expected.total_max) {
+                const uint64_t most = shown ? std::max(*shown, expected.total_max) : UINT64_MAX;
+                for (size_t draw = 0; draw < draws; ++draw) {
+                    out[draw].most += std::min(triangles[draw], most);
+                }
+                for (const CountedDraw& d : counted) {
+                    out[d.draw].most += d.hidden_most;
+                }
+                continue;
+            }
         }
-        const std::optional<uint32_t> shown = hits(index);
         for (size_t k = 0; k < counted.size(); ++k) {
             const CountBounds bounds =
-                counted_at(counted, k, shown.value_or(sample.hits.total_min),
-                           shown.value_or(sample.hits.total_max), expectation.profile);
+                counted_at(counted, k, shown.value_or(expected.total_min),
+                           shown.value_or(expected.total_max), expectation.profile);
             out[counted[k].draw].least += bounds.least;
             out[counted[k].draw].most += bounds.most;
         }

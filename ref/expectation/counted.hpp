@@ -14,6 +14,9 @@
 // open that one draw alone may have hit. More is left open than need be in two places: the counts
 // of several draws that may own one hit are not held against each other, and of fragments that are
 // discarded after early tests each is open by itself, also where a shared edge has exactly one.
+//
+// Where a device's hits are wrong, or not known, any triangle of a draw may have been counted, but
+// no more than have hit or ought to have: the samples that are right still bound the whole number.
 #pragma once
 
 #include <cstdint>
@@ -41,6 +44,7 @@ CountBounds counted_at(std::span<const CountedDraw> draws, size_t k, uint32_t le
 using HitsAt = std::function<std::optional<uint32_t>(size_t index)>;
 
 // What the queries of a case may count, one entry a draw, with the hits that a device shows.
+// `hits` empty: whatever a device may show.
 std::vector<CountBounds> count_bounds(const Expectation& expectation, size_t draws,
                                       const HitsAt& hits);
 

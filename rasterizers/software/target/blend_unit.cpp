@@ -348,6 +348,12 @@ ColorAttachment::ColorAttachment(const cases::Case& c, const Device& device)
             case Fault::logic_of_first_draw:
                 output.logic = first.logic;
                 break;
+            case Fault::logic_off_with_early_tests:
+                output.logic = draw.early_tests ? std::nullopt : output.logic;
+                break;
+            case Fault::logic_off_with_written_depth:
+                output.logic = draw.frag_depth ? std::nullopt : output.logic;
+                break;
             case Fault::write_mask_of_first_draw:
                 output.write_mask = first.write_mask;
                 break;

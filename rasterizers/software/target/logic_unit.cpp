@@ -43,7 +43,8 @@ bool BlendUnit::has_logic(size_t k) const {
 }
 
 uint32_t BlendUnit::operated(cases::LogicOp op, uint32_t source, uint32_t before, size_t k) const {
-    auto table = static_cast<uint32_t>(op);
+    auto table =
+        static_cast<uint32_t>(device_.fault == Fault::logic_copies ? cases::LogicOp::copy : op);
     if (device_.fault == Fault::logic_operands_exchanged) {
         table = exchanged(table);
     }

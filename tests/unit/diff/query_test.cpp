@@ -4,6 +4,7 @@
 // Wrong numbers planted in what occlusion queries counted.
 #include <gtest/gtest.h>
 
+#include "cases/model/rule_ids.hpp"
 #include "diff/consistency.hpp"
 #include "diff/verdict.hpp"
 #include "rasterizers/captures.hpp"
@@ -87,6 +88,36 @@ TEST(QueryJudge, CountsFollowFromWhatTheDeviceShows) {
     const Verdict strict = verdict_of(c, capture);
     ASSERT_EQ(strict.finding_total(), 1U);
     EXPECT_EQ(strict.findings[0].rule, "tie.top-left");
+}
+
+// A known failure must not hide what queries count wrongly: ten of the 64 samples are hit once
+// more.
+TEST(QueryJudge, SamplesThatAreRightBoundTheCountsBesideWrongHits) {
+    const cases::Case c = asked(Query::occlusion_precise);
+    capture::Capture capture = rasterizers::draw_by_reference(c);
+    for (size_t index = 40; index < 50; ++index) {
+        set_hits(capture, index, 0, 2);
+    }
+    const auto wrong_queries = [&](uint64_t first, uint64_t last) {
+        capture.counted = {first, 0, last};
+        const Verdict verdict = verdict_of(c, capture);
+        std::vector<std::string> out;
+        for (const Finding& finding : verdict.findings) {
+            if (finding.rule == cases::rule::query_occlusion) {
+                out.push_back(finding.quantity + ": " + finding.expected);
+            } else {
+                EXPECT_EQ(finding.kind, FindingKind::double_hit);
+            }
+        }
+        return out;
+    };
+    EXPECT_TRUE(wrong_queries(10, 54).empty());
+    EXPECT_TRUE(wrong_queries(10, 64).empty());
+    EXPECT_EQ(wrong_queries(10, 53),
+              (std::vector<std::string>{"occlusion query of draw 2: 54 to 64"}));
+    EXPECT_EQ(wrong_queries(9, 27),
+              (std::vector<std::string>{"occlusion query of draw 0: 10 to 20",
+                                        "occlusion query of draw 2: 54 to 64"}));
 }
 
 TEST(QueryJudge, ACaptureWithoutCountsIsNoPass) {

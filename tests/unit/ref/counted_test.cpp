@@ -50,7 +50,7 @@ cases::Case random_counted_case(uint64_t seed) {
 }
 
 std::vector<CountBounds> without_hits(const Expectation& e, const cases::Case& c) {
-    return count_bounds(e, c.draws.size(), [](size_t) { return std::nullopt; });
+    return count_bounds(e, c.draws.size(), {});
 }
 
 TEST(Counted, ExpectationsAgreeWithTheOracle) {

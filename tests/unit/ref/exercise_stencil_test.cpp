@@ -51,5 +51,19 @@ TEST(Exercise, ADiscardIsToldByTheStencilThatGoesWithTheHits) {
     EXPECT_EQ(samples_of(silent, "discard.fragment"), 0U);
 }
 
+// The six centres inside may not be counted, by a test, a mask, a discard or culling, and four on a
+// right edge have nothing to count.
+TEST(Exercise, AQueryOfWhatIsHiddenCountsNothingThere) {
+    const std::string target = "[target]\nsize = [4, 4]\n";
+    const std::string plain = "[[draw]]\nvertices = [[0,0], [4,0], [0,4]]\n";
+    const std::string asked = plain + "query = \"occlusion-precise\"\n";
+    EXPECT_EQ(samples_of(target + asked, "query.occlusion"), 6U);
+    for (const char* hidden : {"depth = { compare = \"never\" }\n", "sample_mask = 0\n",
+                               "cull = \"front-and-back\"\n", "rasterizer_discard = true\n"}) {
+        EXPECT_EQ(samples_of(target + asked + hidden + plain, "query.occlusion"), 6U) << hidden;
+        EXPECT_EQ(samples_of(target + plain + hidden + plain, "query.occlusion"), 0U) << hidden;
+    }
+}
+
 }  // namespace
 }  // namespace ref
