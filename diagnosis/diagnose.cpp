@@ -345,8 +345,11 @@ class Diagnoser {
             }
             ++tally.passed_tried;
             work_ += work_of_picture(*c);
-            const std::optional<capture::Capture> drawn = draw(known_[tally.hypothesis], *c);
+            std::optional<capture::Capture> drawn = draw(known_[tally.hypothesis], *c);
             const std::optional<Subject>& subject = drawn ? passed_subject(*c) : nothing_;
+            if (subject && subject->with_instruments) {
+                drawn = draw(known_[tally.hypothesis], *subject->data);
+            }
             if (subject && is_against(*subject, *drawn)) {
                 ++tally.passed_against;
             }

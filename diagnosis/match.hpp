@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string_view>
 
@@ -39,6 +40,8 @@ struct Match {
 // A case ready to be compared with: what may be drawn of it, and what a right device draws.
 struct Subject {
     const cases::Case* data = nullptr;
+    // What `data` is if the case, as a driver draws it, has not all planes that were delivered.
+    std::shared_ptr<const cases::Case> with_instruments;
     const report::CaseRecord* record = nullptr;  // of the device
     ref::Expectation expectation;
     capture::Capture right;

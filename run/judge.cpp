@@ -159,6 +159,7 @@ void judge(CaseRecord& record, const cases::Case& c, const capture::CaptureView&
 
 void judge_delivered(CaseRecord& record, const cases::Case& c, const capture::Delivered& planes,
                      const ref::Limits& limits, cases::Profile profile, KeepPictures pictures) {
+    record.is_delivered = true;
     try {
         diff::Verdict verdict;
         ref::Expectation expectation;

@@ -58,7 +58,7 @@ diff::FindingKind decode_word(const Json& json, const char* key, diff::FindingKi
 // Whether a field that may be left out is as constructed.
 template <class T>
 bool is_empty(const T& value) {
-    if constexpr (cases::is_optional<T>) {
+    if constexpr (cases::is_optional<T> || std::is_same_v<T, bool>) {
         return !value;
     } else if constexpr (cases::HasFields<T> && std::equality_comparable<T>) {
         return value == T{};

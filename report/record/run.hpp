@@ -185,9 +185,11 @@ struct CaseRecord : PlannedCase, diff::Outcome {
     // alone.
     std::string bits, hit_bits;
     std::string reason;  // why unsupported, skipped, error, lost, crashed; one sentence
-    std::vector<std::string> not_judged;  // of a renderer elsewhere: planes that are not there
-    std::string step;                     // last step of the worker before it died ("submit", ...)
-    std::string signal;                   // "SIGSEGV", ... of a crash
+    // Planes of a renderer elsewhere were judged, and which of the case's are not there.
+    bool is_delivered = false;
+    std::vector<std::string> not_judged;
+    std::string step;    // last step of the worker before it died ("submit", ...)
+    std::string signal;  // "SIGSEGV", ... of a crash
     // Of a death that no case repeated alone, and that is charged to this one as a flake: the cases
     // that were drawn together, this one among them.
     std::vector<std::string> suspects;
@@ -221,6 +223,7 @@ struct CaseRecord : PlannedCase, diff::Outcome {
         visit({"bits", cases::kOlderLackIt}, r.bits...);
         visit({"hit_bits", cases::kOlderLackIt}, r.hit_bits...);
         visit("reason", r.reason...);
+        visit({"delivered", cases::kLeftOutIfEmpty}, r.is_delivered...);
         visit({"not_judged", cases::kLeftOutIfEmpty}, r.not_judged...);
         visit("step", r.step...);
         visit("signal", r.signal...);

@@ -166,6 +166,36 @@ TEST(Diagnose, ComparesOnlyWhatWasDelivered) {
     }
 }
 
+// Of a case that a driver draws with its colour alone, a renderer elsewhere delivers hits and
+// writers, too.
+TEST(Diagnose, ComparesPlanesThatADriverWouldNotDraw) {
+    const Hypothesis& fault = named("logic_operands_exchanged");
+    report::Run run;
+    run.device.subpixel_bits = kBits;
+    const std::string root = test_support::source_dir() + "/cases/suite";
+    const auto cases = cases::load_file(root + "/logic/operations.toml", root).value();
+    for (const cases::Case& c : cases) {
+        cases::Case whole = c;
+        whole.target.has_instruments = true;
+        const std::optional<capture::Capture> drawn = diagnosis::draw(fault, whole);
+        ASSERT_TRUE(drawn);
+        report::CaseRecord record = run::make_record(c);
+        run::judge_delivered(record, c, diff::judged_planes(c, *drawn, {"stencil"}), {kBits},
+                             run.profile, run::KeepPictures::failed);
+        run.cases.push_back(std::move(record));
+    }
+    const std::vector<report::Diagnosis> list =
+        diagnosis::diagnose(run,
+                            [&](const std::string& id) {
+                                const auto found = std::ranges::find(cases, id, &cases::Case::id);
+                                return found == cases.end() ? nullptr : &*found;
+                            },
+                            {});
+    ASSERT_FALSE(list.empty());
+    EXPECT_THAT(list.front().names, testing::Contains("logic_operands_exchanged"));
+    EXPECT_EQ(list.front().unexplained.size(), 0U);
+}
+
 TEST(Diagnose, SizesAreFitted) {
     Hypothesis moved;
     moved.moved_x = -0.1875F;
