@@ -25,7 +25,7 @@ ref::ColorReference& ColorComparison::reference(cases::Profile profile) {
 std::optional<ref::ColorWitness> ColorComparison::witness_of(size_t index,
                                                              std::optional<uint32_t> writer) const {
     if (!case_.target.has_instruments) {
-        return std::nullopt;
+        return witnesses_.empty() ? std::nullopt : std::optional(witnesses_[index]);
     }
     ref::ColorWitness witness;
     witness.hits = static_cast<uint32_t>(capture_.hits[index].x) +

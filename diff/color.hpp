@@ -17,13 +17,16 @@ namespace diff {
 
 class ColorComparison {
   public:
-    // All must outlive this object; the case has a colour target.
+    // All must outlive this object; the case has a colour target. `witnesses`: of targets without
+    // instruments, as compare_colors() has them.
     ColorComparison(const cases::Case& c, const ref::Expectation& expectation,
-                    const capture::CaptureView& capture, Attribution& attribution)
+                    const capture::CaptureView& capture, Attribution& attribution,
+                    std::span<const ref::ColorWitness> witnesses)
         : case_(c),
           expectation_(expectation),
           capture_(capture),
           attribution_(attribution),
+          witnesses_(witnesses),
           unit_{c.target.color->format, expectation.profile},
           cleared_(unit_.cleared(*c.target.color)) {}
 
@@ -51,6 +54,7 @@ class ColorComparison {
     const ref::Expectation& expectation_;
     const capture::CaptureView& capture_;
     Attribution& attribution_;
+    std::span<const ref::ColorWitness> witnesses_;
     ref::color::Unit unit_;
     ref::color::Color cleared_;
     std::array<std::unique_ptr<ref::ColorReference>, 3> references_;  // by profile

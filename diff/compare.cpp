@@ -28,7 +28,8 @@ class Comparison {
   public:
     Comparison(const cases::Case& c, const ref::Expectation& expectation,
                const capture::CaptureView& capture, const ref::ValueSelection& selection,
-               bool is_by_sample, std::span<const SampleMark> marks = {})
+               bool is_by_sample, std::span<const SampleMark> marks = {},
+               std::span<const ref::ColorWitness> witnesses = {})
         : case_(c),
           expectation_(expectation),
           capture_(capture),
@@ -48,7 +49,7 @@ class Comparison {
         values_.tell_only(
             [this](const ref::ValueMismatch& m) { return last_fragment_.is_told(m, verdict_); });
         if (c.target.color) {
-            color_.emplace(c, expectation, capture_, attribution_);
+            color_.emplace(c, expectation, capture_, attribution_, witnesses);
         }
         if (ref::stencil::is_needed(c)) {
             stencil_.emplace(c, expectation, capture_, attribution_);
@@ -374,10 +375,13 @@ Verdict compare(const cases::Case& c, const ref::Expectation& expectation,
 }
 
 Verdict compare_colors(const cases::Case& c, const ref::Expectation& expectation,
-                       const capture::CaptureView& capture, std::span<const SampleMark> marks) {
+                       const capture::CaptureView& capture, std::span<const SampleMark> marks,
+                       std::span<const ref::ColorWitness> witnesses) {
     const bool has_wrong = std::ranges::any_of(
         marks, [](SampleMark mark) { return mark > SampleMark::either; });  // in no run of samples
-    return Comparison(c, expectation, capture, {}, has_wrong, marks).run();
+    return Comparison(c, expectation, capture, {}, has_wrong || !witnesses.empty(), marks,
+                      witnesses)
+        .run();
 }
 
 Verdict compare_by_sample(const cases::Case& c, const ref::Expectation& expectation,

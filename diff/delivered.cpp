@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <map>
 #include <optional>
+#include <utility>
 
 #include "capture/blank_capture.hpp"
 #include "cases/model/derive.hpp"
@@ -304,9 +306,43 @@ Verdict compare_instruments(const cases::Case& c, const ref::Expectation& expect
     return compare(plain, expectation, capture, selection_of(planes));
 }
 
+// What other planes tell of the fragments behind the colours, if those are the numbers of hits and
+// the writers; else nothing. Of a writer that is none of the draws' the marks tell.
+std::vector<ref::ColorWitness> witnesses_of(const cases::Case& c,
+                                            const ref::Expectation& expectation,
+                                            const capture::Delivered& planes) {
+    const bool has_counts =
+        planes.detail == capture::HitDetail::faces || planes.detail == capture::HitDetail::total;
+    if (!has_counts || planes.draws.empty()) {
+        return {};
+    }
+    std::map<std::pair<uint32_t, uint32_t>, uint32_t> numbers;
+    for (uint32_t t = 0; t < expectation.triangles.size(); ++t) {
+        numbers.emplace(
+            std::pair(expectation.triangles[t].draw, expectation.triangles[t].primitive), t);
+    }
+    std::vector<ref::ColorWitness> out(planes.draws.size());
+    for (size_t index = 0; index < out.size(); ++index) {
+        ref::ColorWitness& witness = out[index];
+        witness.hits = planes.front[index] + (planes.back.empty() ? 0 : planes.back[index]);
+        const auto found = numbers.find({planes.draws[index], planes.primitives[index]});
+        if (found == numbers.end()) {
+            continue;
+        }
+        witness.writer = found->second;
+        const int32_t attribute = c.draws[planes.draws[index]].color.attribute;
+        if (witness.hits > 0 && attribute >= 0 &&
+            !planes.attributes.at(static_cast<size_t>(attribute)).empty()) {
+            witness.written = &planes.attributes.at(static_cast<size_t>(attribute))[index];
+        }
+    }
+    return out;
+}
+
 Verdict compare_color(const cases::Case& c, const ref::Expectation& expectation,
                       const std::vector<capture::ColorCodes>& color,
-                      std::span<const SampleMark> marks) {
+                      std::span<const SampleMark> marks,
+                      std::span<const ref::ColorWitness> witnesses) {
     const cases::Case plain = with_color_only(c);
     capture::Capture capture;
     capture.target = plain.target;
@@ -315,7 +351,7 @@ Verdict compare_color(const cases::Case& c, const ref::Expectation& expectation,
     for (size_t k = 0; plain.target.has_stencil && k < expectation.samples.size(); ++k) {
         capture.stencil.push_back(likely_stencil(expectation, k, std::nullopt));
     }
-    return compare_colors(plain, expectation, capture, marks);
+    return compare_colors(plain, expectation, capture, marks, witnesses);
 }
 
 // Adds what the colour showed to what the other planes did.
@@ -379,10 +415,11 @@ Verdict compare_planes(const cases::Case& c, const ref::Expectation& expectation
         return compare_instruments(c, expectation, planes);
     }
     if (!has_instrument_planes(planes)) {
-        return compare_color(c, expectation, planes.color, {});
+        return compare_color(c, expectation, planes.color, {}, {});
     }
     Verdict verdict = compare_instruments(c, expectation, planes);
-    join(verdict, compare_color(c, expectation, planes.color, verdict.marks));
+    join(verdict, compare_color(c, expectation, planes.color, verdict.marks,
+                                witnesses_of(c, expectation, planes)));
     return verdict;
 }
 
@@ -451,7 +488,8 @@ capture::Delivered judged_planes(const cases::Case& c, const capture::Capture& p
         }
     }
     out.color = is_judged("color") ? picture.color : out.color;
-    out.detail = is_judged("faces")            ? capture::HitDetail::faces
+    out.detail = picture.hits.empty()          ? capture::HitDetail::none
+                 : is_judged("faces")          ? capture::HitDetail::faces
                  : is_judged("number of hits") ? capture::HitDetail::total
                  : is_judged("coverage plane") ? capture::HitDetail::coverage
                                                : capture::HitDetail::none;

@@ -17,6 +17,7 @@
 #include "cases/model/case.hpp"
 #include "cases/model/profile.hpp"
 #include "cases/model/sample.hpp"
+#include "ref/color/color.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/position/limits.hpp"
 #include "ref/value/value.hpp"
@@ -178,9 +179,11 @@ struct Verdict : Outcome {
 Verdict compare(const cases::Case& c, const ref::Expectation& expectation,
                 const capture::CaptureView& capture, const ref::ValueSelection& selection = {});
 // Judges the colours alone of a target without instruments, but for samples whose hits or writer
-// are wrong by the marks of another verdict, as compare() does where it sees both.
+// are wrong by the marks of another verdict, as compare() does where it sees both. `witnesses`:
+// what is known of each sample besides; empty if nothing is.
 Verdict compare_colors(const cases::Case& c, const ref::Expectation& expectation,
-                       const capture::CaptureView& capture, std::span<const SampleMark> marks);
+                       const capture::CaptureView& capture, std::span<const SampleMark> marks,
+                       std::span<const ref::ColorWitness> witnesses);
 // The same, one sample after another: the oracle of compare(), which judges runs of samples that
 // are plainly right at once.
 Verdict compare_by_sample(const cases::Case& c, const ref::Expectation& expectation,

@@ -275,6 +275,33 @@ TEST(Delivered, ContradictionsAreFound) {
     EXPECT_EQ(v.findings[0].rule, "write.consistent");
 }
 
+// A colour that is the clear one says that nothing was drawn, unless hits and writer know better.
+TEST(Delivered, HitsAndWriterTellWhatIsBehindAColour) {
+    Fixture f;
+    const capture::Delivered known = take(f.right, kTotal | kWriter);
+    f.c.target.color = cases::ColorTarget{cases::ColorFormat::rgba8_unorm, {0, 0, 0, 0}};
+    f.c.draws[0].color.value = {1, 0, 0, 1};
+    f.e = ref::expect(f.c, ref::Limits{8}, Profile::direct3d);
+    capture::Delivered planes;
+    for (const ref::SampleExpectation& sample : f.e.samples) {
+        planes.color.push_back(sample.hits.total_min > 0 ? capture::ColorCodes{255, 0, 0, 255}
+                                                         : capture::ColorCodes{});
+    }
+    planes.color[3 * 8 + 3] = {};
+    const auto kind_of = [&] {
+        const diff::Verdict verdict = diff::compare_delivered(f.c, f.e, planes);
+        EXPECT_EQ(verdict.findings.size(), 1U);
+        return verdict.findings.at(0).kind;
+    };
+    EXPECT_EQ(kind_of(), diff::FindingKind::missing);
+    planes.detail = known.detail;
+    planes.front = known.front;
+    EXPECT_EQ(kind_of(), diff::FindingKind::missing);
+    planes.draws = known.draws;
+    planes.primitives = known.primitives;
+    EXPECT_EQ(kind_of(), diff::FindingKind::value);
+}
+
 TEST(Delivered, ColourAloneIsJudged) {
     Fixture f;
     f.c.target.color = cases::ColorTarget{cases::ColorFormat::rgba8_unorm, {0, 0, 0, 0}};
