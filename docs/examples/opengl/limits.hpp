@@ -28,7 +28,6 @@ inline std::string draw_refusal(const Json& draw, GLint samples) {
 // Why the case is left out; empty if it is drawn.
 inline std::string refusal(const Context& gl, const Json& c) {
     static const std::map<std::string, std::string> never = {
-        {"blit", "this program draws no blits"},
         {"barycentrics", "OpenGL has no barycentric coordinates"},
         {"depth-bias-control", "OpenGL has no other representation of depth bias"}};
     static const std::map<std::string, std::string> extensions = {

@@ -26,6 +26,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "blit.hpp"
 #include "context.hpp"
 #include "limits.hpp"
 #include "shaders.hpp"
@@ -233,6 +234,13 @@ std::string draw_case(const Context& gl, Json c, const fs::path& folder, const O
     const Targets targets(gl, target, attributes, clear);
     if (std::string reason = targets.refusal(); !reason.empty()) {
         return reason;
+    }
+    if (!c["blit"].is_null()) {
+        reset_state();
+        targets.clear();
+        draw_blit(c["blit"], color_location(attributes));
+        write_plane(folder / "color.u32", targets.read_color());
+        return {};
     }
     bool has_logic = false;
     for (Json& draw : c["draws"]) {

@@ -27,7 +27,7 @@ struct ColorFormat {
     std::array<GLint, 4> bits;
 };
 
-inline const ColorFormat* color_format(const Json& target) {
+inline const ColorFormat& color_format_of(const Json& word) {
     static const std::array<ColorFormat, 12> formats = {
         {{"rgba8-unorm", GL_RGBA8, Codes::unorm, {8, 8, 8, 8}},
          {"bgra8-unorm", GL_RGBA8, Codes::unorm, {8, 8, 8, 8}},  // planes are red first anyway
@@ -41,15 +41,17 @@ inline const ColorFormat* color_format(const Json& target) {
          {"r32-float", GL_R32F, Codes::bits, {32, 0, 0, 0}},
          {"r32-uint", GL_R32UI, Codes::whole, {32, 0, 0, 0}},
          {"rgba8-uint", GL_RGBA8UI, Codes::whole, {8, 8, 8, 8}}}};
-    if (target["color"].is_null()) {
-        return nullptr;
-    }
     for (const ColorFormat& format : formats) {
-        if (target["color"]["format"] == format.word) {
-            return &format;
+        if (word == format.word) {
+            return format;
         }
     }
     fail("the case has a colour format that this program does not know");
+}
+
+// Null without a colour target.
+inline const ColorFormat* color_format(const Json& target) {
+    return target["color"].is_null() ? nullptr : &color_format_of(target["color"]["format"]);
 }
 
 // 0 if OpenGL has none.
