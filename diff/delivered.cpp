@@ -488,6 +488,7 @@ capture::Delivered judged_planes(const cases::Case& c, const capture::Capture& p
         }
     }
     out.color = is_judged("color") ? picture.color : out.color;
+    // A picture of the colour alone has no hits, though a renderer may have delivered some.
     out.detail = picture.hits.empty()          ? capture::HitDetail::none
                  : is_judged("faces")          ? capture::HitDetail::faces
                  : is_judged("number of hits") ? capture::HitDetail::total

@@ -10,6 +10,7 @@
 
 #include "cases/load/loader.hpp"
 #include "perfect_capture.hpp"
+#include "rasterizers/captures.hpp"
 #include "rasterizers/strength/strength.hpp"
 
 namespace {
@@ -226,6 +227,22 @@ TEST(Delivered, APictureIsCutToThePlanesThatWereDelivered) {
     }
 }
 
+// Renderers elsewhere deliver hits of every case, and pictures of colour alone have none.
+TEST(Delivered, APictureOfTheColourAloneHasNoHits) {
+    Fixture f;
+    f.c.target.color = {cases::ColorFormat::rgba8_unorm, {0, 0, 0, 0}};
+    f.c.draws[0].color.value = {1, 1, 1, 1};
+    f.c.target.has_instruments = false;
+    const capture::Capture picture = rasterizers::draw_by_reference(f.c);
+    ASSERT_TRUE(picture.hits.empty());
+    const capture::Delivered cut = diff::judged_planes(f.c, picture, {"stencil"});
+    EXPECT_EQ(cut.detail, capture::HitDetail::none);
+    EXPECT_FALSE(cut.color.empty());
+    const auto e = ref::expect(f.c, ref::Limits{8}, Profile::direct3d);
+    const diff::Verdict v = diff::compare_delivered(f.c, e, cut);
+    EXPECT_TRUE(v.ok()) << v.error;
+}
+
 TEST(Delivered, DepthThatIsNotWrittenTellsNothing) {
     Fixture f;
     f.c.draws[0].depth.write = false;
@@ -283,7 +300,8 @@ TEST(Delivered, HitsAndWriterTellWhatIsBehindAColour) {
     f.c.draws[0].color.value = {1, 0, 0, 1};
     f.e = ref::expect(f.c, ref::Limits{8}, Profile::direct3d);
     capture::Delivered planes;
-    for (const ref::SampleExpectation& sample : f.e.samples) {
+    for (size_t k = 0; k < f.e.samples.size(); ++k) {
+        const auto sample = f.e.samples[k];
         planes.color.push_back(sample.hits.total_min > 0 ? capture::ColorCodes{255, 0, 0, 255}
                                                          : capture::ColorCodes{});
     }
