@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <malloc.h>
 
+#include <cstdio>
+#include <cstdlib>
 #include <functional>
 #include <map>
 
 #include "cli/commands.hpp"
 #include "cli/options/parse.hpp"
 #include "cli/prepare/outputs.hpp"
+#include "run/process/pool.hpp"
 #include "run/worker/worker.hpp"
 
 namespace cli {
@@ -54,7 +57,13 @@ int edgecase_main(int argc, const char* const* argv) {
         {"version", [] { return version_command(); }},
         {"help", [] { return 0; }},
     };
-    return finish_output(table.at(*parsed)());
+    const int code = finish_output(table.at(*parsed)());
+    if (run::Pool::has_abandoned()) {
+        // Threads that still judge use what the end of main() would destroy.
+        std::fflush(nullptr);
+        std::_Exit(code);
+    }
+    return code;
 }
 
 }  // namespace cli

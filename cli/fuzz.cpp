@@ -316,7 +316,12 @@ class FuzzCommand {
             }
             return !entry.is_reduced;
         });
-        Hunt hunter(hunt, session, std::move(ledger_.entries), ledger_.waiting,
+        hunt.left = ledger_.left;
+        const Hunt::Draw draw = [&session](std::vector<cases::Case> cases,
+                                           const auto& on_progress) {
+            return session.draw(std::move(cases), on_progress);
+        };
+        Hunt hunter(hunt, draw, std::move(ledger_.entries), ledger_.waiting,
                     [this](const fuzz::HuntCounts& counts, size_t causes) {
                         status_.show(counts, causes);
                     });
@@ -357,6 +362,7 @@ class FuzzCommand {
             return kept;
         }
         ledger_.waiting = hunter.waiting();
+        ledger_.left = hunter.left();
         ledger_.counts = sum_of(before, hunter.counts());
         ledger_.seconds = seconds_before_ + status_.seconds();
         ledger_.is_finished = is_finished;
@@ -409,6 +415,11 @@ class FuzzCommand {
                 fmt::format("not reduced, and explained by no cause: {}; go on with 'edgecase fuzz "
                             "--resume {}'\n",
                             counted(ledger_.waiting.size(), "failing case"), folder_.string()));
+        }
+        if (!ledger_.left.empty()) {
+            say(fmt::format(
+                "not judged, as the hunt ended before: {}, which --resume draws first\n",
+                counted(ledger_.left.size(), "case")));
         }
         size_t number = 0;
         for (const std::string& text : hunter.unrepeated()) {

@@ -202,9 +202,12 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
         teller->begin(ids);
     }
     const run::Clock::time_point begin = run::Clock::now();
-    run::RunLoop loop(config, p.plan, &*journal, signals, on_record,
+    // The plan outlives the loop, which waits for all judgements.
+    const run::RunLoop::Plan plan(std::shared_ptr<void>(), &p.plan);
+    run::RunLoop loop(config, plan, &*journal, signals, on_record,
                       [&](size_t done, size_t unconfirmed) {
                           progress.show(done, unexpected.count() + unconfirmed);
+                          return true;
                       });
     std::vector<run::WorkerClient> workers;
     workers.push_back(std::move(first->client));

@@ -12,7 +12,7 @@ namespace fuzz {
 
 using report::CaseRecord;
 using report::Status;
-using Clock = std::chrono::steady_clock;
+using Clock = HuntOptions::Clock;
 
 namespace {
 
@@ -35,6 +35,11 @@ bool is_empty(const CaseRecord& record) {
     return record.reason.find("a black picture would pass") != std::string::npos;
 }
 
+// Whether the end came before the case's result did.
+bool is_left(const CaseRecord& record) {
+    return record.status == Status::not_run || record.status == Status::skip;
+}
+
 // Not every combination of what a fragment carries has a shader: such a case is nobody's failure.
 bool has_no_shader(const CaseRecord& record) {
     return record.reason.find("that no shader was built for") != std::string::npos;
@@ -47,24 +52,60 @@ std::string text_of_case(Source& source, uint64_t number) {
     return source.make(number).text;
 }
 
-Hunt::Hunt(HuntOptions options, run::Session& session, std::vector<Entry> known,
+Hunt::Hunt(HuntOptions options, Draw draw, std::vector<Entry> known,
            const std::vector<Waiting>& waiting, OnProgress on_progress)
-    : options_(options),
-      session_(session),
+    : options_(std::move(options)),
+      draw_(std::move(draw)),
       on_progress_(std::move(on_progress)),
-      source_(options.source()),
+      source_(options_.source()),
       entries_(std::move(known)),
       is_behind_(!waiting.empty()) {
     counts_.next_case = options_.first_case;
-    std::map<uint64_t, Waiting> by_number;
+    take_up(waiting);
+}
+
+// What an earlier hunt has not done. Groups are entered in their order.
+void Hunt::take_up(const std::vector<Waiting>& waiting) {
+    std::map<uint64_t, std::optional<Waiting>> by_number;
+    for (const uint64_t number : options_.left) {
+        by_number[number];
+    }
     for (const Waiting& one : waiting) {
         by_number[one.number] = one;
     }
+    Chunk left;
+    const uint64_t size = source_->group_size();
+    std::optional<uint64_t> group;
     for (auto& [number, one] : by_number) {
-        std::string text = text_of_case(*source_, number);
-        std::set<std::string> words = essentials_of(text);
-        open_.push_back({std::move(one), std::move(text), std::move(words), {}});
+        if (group != number / size) {
+            group = number / size;
+            source_->enter(*group);
+        }
+        Source::Made made = source_->make(number);
+        if (one) {
+            std::set<std::string> words = essentials_of(made.text);
+            open_.push_back({std::move(*one), std::move(made.text), std::move(words), {}});
+        } else if (made.data) {
+            left.made.push_back({std::move(made.text), number});
+            left.cases.push_back(std::move(*made.data));
+        }
     }
+    if (!left.made.empty()) {
+        left.next_case = options_.first_case;
+        left.poses = (options_.first_case + size - 1) / size;
+        left.pairs = source_->pairs();
+        again_ = std::move(left);
+    }
+}
+
+std::vector<uint64_t> Hunt::left() const {
+    std::vector<uint64_t> all = left_;
+    if (again_) {
+        for (const Made& made : again_->made) {
+            all.push_back(made.number);
+        }
+    }
+    return all;
 }
 
 std::vector<Waiting> Hunt::waiting() const {
@@ -101,7 +142,7 @@ std::vector<Entry> Hunt::not_reduced() const {
 }
 
 bool Hunt::is_over() const {
-    return options_.deadline && Clock::now() >= *options_.deadline;
+    return options_.deadline && options_.now() >= *options_.deadline;
 }
 
 Hunt::Chunk Hunt::make_chunk() {
@@ -137,9 +178,9 @@ Hunt::Chunk Hunt::make_chunk() {
 }
 
 run::Session::Results Hunt::draw(std::vector<cases::Case> cases) {
-    run::Session::Results results = session_.draw(std::move(cases), [this](size_t) {
+    run::Session::Results results = draw_(std::move(cases), [this](size_t) {
         on_progress_(counts_, entries_.size());
-        return true;
+        return !is_over();
     });
     is_interrupted_ = is_interrupted_ || results.interrupted;
     if (failure_.empty()) {
@@ -150,7 +191,9 @@ run::Session::Results Hunt::draw(std::vector<cases::Case> cases) {
 
 Hunt::State Hunt::step() {
     is_behind_ = !open_.empty() && (is_behind_ || open_.size() >= kMostOpen);
-    if (!is_behind_) {
+    if (!is_behind_ && again_) {
+        draw_chunk(*std::exchange(again_, std::nullopt));
+    } else if (!is_behind_) {
         if (!ahead_.valid()) {
             ahead_ = std::async(std::launch::async, [this] { return make_chunk(); });
         }
@@ -193,11 +236,15 @@ void Hunt::draw_chunk(Chunk chunk) {
     }
     const run::Session::Results results = draw(std::move(chunk.cases));
     counts_.drawing_seconds += seconds_since(begin);
-    if (is_interrupted_ || !failure_.empty()) {
+    if (!failure_.empty()) {
         return;
     }
     for (size_t k = 0; k < results.records.size(); ++k) {
         const CaseRecord& record = results.records[k];
+        if (is_left(record)) {
+            left_.push_back(chunk.made[k].number);
+            continue;
+        }
         if (!record.messages.empty()) {
             // Every case is to be valid Vulkan: nothing that a driver does with another counts.
             keep_unjudged(chunk.made[k].text,
@@ -296,15 +343,21 @@ void Hunt::reduce_open() {
 void Hunt::reduce_one(Open& open) {
     const Symptom symptom = open.waiting.symptoms.front();
     ++counts_.reductions;
+    bool is_cut = false;  // by the end of the time: it waits for another hunt
     std::optional<Entry> fresh = reduce_case(
         open.text, symptom,
-        [this](const std::vector<cases::Case>& cases) {
+        [&](const std::vector<cases::Case>& cases) {
+            is_cut = is_cut || is_over();
+            if (is_cut || is_interrupted_ || !failure_.empty()) {
+                return std::vector<CaseRecord>(cases.size());
+            }
             counts_.reduction_cases += cases.size();
-            return is_interrupted_ || !failure_.empty() ? std::vector<CaseRecord>(cases.size())
-                                                        : draw(cases).records;
+            std::vector<CaseRecord> records = draw(cases).records;
+            is_cut = std::any_of(records.begin(), records.end(), is_left);
+            return records;
         },
         options_.most_rounds);
-    if (is_interrupted_ || !failure_.empty()) {
+    if (is_cut || is_interrupted_ || !failure_.empty()) {
         return;
     }
     open.waiting.symptoms.erase(open.waiting.symptoms.begin());

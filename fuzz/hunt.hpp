@@ -23,10 +23,13 @@
 namespace fuzz {
 
 struct HuntOptions {
-    MakeSource source;        // of the cases
-    uint64_t first_case = 0;  // numbers below are not made: a hunt that goes on
-    uint64_t most_cases = 0;  // numbers from here on are not made; 0: no end
-    std::optional<std::chrono::steady_clock::time_point> deadline;
+    using Clock = std::chrono::steady_clock;
+    MakeSource source;           // of the cases
+    uint64_t first_case = 0;     // numbers below are not made: a hunt that goes on
+    uint64_t most_cases = 0;     // numbers from here on are not made; 0: no end
+    std::vector<uint64_t> left;  // numbers below first_case that are drawn first
+    std::optional<Clock::time_point> deadline;
+    std::function<Clock::time_point()> now = Clock::now;
     uint32_t shard = 1, shards = 1;  // groups of numbers are dealt out in turn
     size_t most_rounds = 400;        // of one reduction: batches of candidates
 };
@@ -60,13 +63,17 @@ class Hunt {
   public:
     // Called at least five times a second.
     using OnProgress = std::function<void(const HuntCounts&, size_t entries)>;
+    // As run::Session::draw.
+    using Draw = std::function<run::Session::Results(std::vector<cases::Case> cases,
+                                                     const std::function<bool(size_t done)>&)>;
     // `known`: entries of earlier hunts, and of this one if it goes on, as is what waits.
-    Hunt(HuntOptions options, run::Session& session, std::vector<Entry> known,
+    Hunt(HuntOptions options, Draw draw, std::vector<Entry> known,
          const std::vector<Waiting>& waiting, OnProgress on_progress);
 
     enum class State { goes_on, done, interrupted, failed };
     // Draws some poses with their geometries, and reduces what is new; draws none while too much
-    // waits for its reduction. Done when the time is over, or, by number, when nothing waits.
+    // waits for its reduction. Done when the time is over, or, by number, when nothing waits. Ends
+    // at once when the time is over, or by a signal: what has no result by then is left().
     // `failed`: failure() says why.
     State step();
     // What is reduced. With waiting() and counts().unrepeated each failing case counts once.
@@ -74,7 +81,10 @@ class Hunt {
     std::vector<Entry>& entries() { return entries_; }
     // The failing cases that no entry explains: a hunt that goes on reduces them first.
     std::vector<Waiting> waiting() const;
-    // Of these the smallest of each gravest symptom, as it was drawn, and how many have it.
+    // Numbers of cases that were made and are neither judged nor counted: a hunt that goes on draws
+    // them first.
+    std::vector<uint64_t> left() const;
+    // Of what waits the smallest of each gravest symptom, as it was drawn, and how many have it.
     std::vector<Entry> not_reduced() const;
     const HuntCounts& counts() const { return counts_; }
     const std::string& failure() const { return failure_; }
@@ -104,6 +114,7 @@ class Hunt {
         bool is_unrepeated = false;
     };
 
+    void take_up(const std::vector<Waiting>& waiting);
     Chunk make_chunk();
     bool is_over() const;
     void draw_chunk(Chunk chunk);
@@ -115,11 +126,13 @@ class Hunt {
     run::Session::Results draw(std::vector<cases::Case> cases);
 
     HuntOptions options_;
-    run::Session& session_;
+    Draw draw_;
     OnProgress on_progress_;
     std::unique_ptr<Source> source_;
     uint64_t next_case_ = 0;  // of the source, which is a chunk ahead
     std::future<Chunk> ahead_;
+    std::optional<Chunk> again_;  // of what an earlier hunt has left
+    std::vector<uint64_t> left_;
     std::vector<Entry> entries_;
     std::vector<Open> open_;
     bool is_behind_ = false;  // what is open is reduced before another case is drawn

@@ -147,7 +147,8 @@ std::string to_json(const Ledger& ledger) {
                        {"drawing_seconds", c.drawing_seconds},
                        {"reducing_seconds", c.reducing_seconds},
                        {"causes", std::move(entries)},
-                       {"waiting", std::move(waiting)}};
+                       {"waiting", std::move(waiting)},
+                       {"left", ledger.left}};
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -209,6 +210,7 @@ cases::Expected<Ledger> load_ledger(const fs::path& folder) {
         for (const Json& waiting : json.at("waiting")) {
             ledger.waiting.push_back(waiting_of(waiting));
         }
+        ledger.left = json.value("left", std::vector<uint64_t>());
         return ledger;
     } catch (const std::exception& e) {
         return cases::failure("{} is malformed: {}", file.string(), cases::printable(e.what()));

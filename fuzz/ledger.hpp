@@ -36,6 +36,7 @@ struct Ledger {
     // With their files' texts, which stand in files of their own. What is not reduced comes last.
     std::vector<Entry> entries;
     std::vector<Waiting> waiting;
+    std::vector<uint64_t> left;  // numbers of cases that were made and not judged
 };
 
 inline constexpr const char* kLedgerFile = "fuzz.json";

@@ -204,6 +204,14 @@ capture::Capture draw_by_reference(const cases::Case& c) {
         drawn.frag_coord =
             glm::vec4(static_cast<float>(id.x) + 0.5F, static_cast<float>(id.y) + 0.5F, 0.0F, 1.0F);
         drawn.depth = capture.depth[index];
+        // Of a place behind the eye no value is the nearest one; a vertex's is among those allowed.
+        for (size_t a = 0; a < c.draws[triangle.draw].attributes.size(); ++a) {
+            const cases::Attribute& attribute = c.draws[triangle.draw].attributes[a];
+            if (attribute.source == cases::Source::vertex &&
+                attribute.probe == cases::Probe::value) {
+                drawn.attributes[a] = attribute.values[triangle.vertex[0]];
+            }
+        }
         for (const ref::ExpectedValue& value : writer.values) {
             if (value.part.empty() && (writes_depth || !value.quantity.is_depth())) {
                 number_of(drawn, value.quantity) = static_cast<float>(value.nearest);

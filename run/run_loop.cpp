@@ -65,17 +65,18 @@ double seconds_since(Clock::time_point begin) {
 
 }  // namespace
 
-RunLoop::RunLoop(LoopConfig config, const std::vector<PlannedCase>& cases, report::Journal* journal,
-                 SignalFd& signals, OnRecord on_record, OnProgress on_progress)
+RunLoop::RunLoop(LoopConfig config, Plan plan, report::Journal* journal, SignalFd& signals,
+                 OnRecord on_record, OnProgress on_progress)
     : config_(std::move(config)),
-      cases_(cases),
+      plan_(std::move(plan)),
+      cases_(*plan_),
       journal_(journal),
       signals_(signals),
       on_record_(std::move(on_record)),
       on_progress_(std::move(on_progress)),
-      schedule_(all_bytes(cases), config_.schedule),
+      schedule_(all_bytes(cases_), config_.schedule),
       pool_(cases::cores()),
-      is_finished_(cases.size(), false) {}
+      is_finished_(cases_.size(), false) {}
 
 RunLoop::End RunLoop::run(std::vector<WorkerClient> workers, const vk_harness::DeviceInfo& device) {
     device_ = device;
@@ -120,7 +121,7 @@ RunLoop::End RunLoop::run(std::vector<WorkerClient> workers, const vk_harness::D
             advance(slot);
         }
         pool_.collect();
-        on_progress_(settled_, unconfirmed_.size());
+        is_stopped_ = !on_progress_(settled_, unconfirmed_.size()) || is_stopped_;
     }
     if (!config_.keeps_workers) {  // the system takes a while to free what a worker holds
         ending_ = std::async(std::launch::async,
@@ -331,11 +332,13 @@ void RunLoop::on_result(Slot& slot, CaseResult& result) {
             record->bits = cases::hex(result.bits);
             const uint64_t bytes = capture::capture_bytes(cases_[k].data);
             judging_bytes_ += bytes;
+            // It may outlive the loop (abandon_judgements), so all that it uses is its own.
             pool_.submit(
-                [this, k, view = result.view, consistency = std::move(result.consistency),
-                 strays = std::move(rendered.stray_writes), record] {
-                    judge(*record, cases_[k].data, view, {consistency, strays}, config_.limits,
-                          config_.profile, config_.pictures);
+                [plan = plan_, k, view = result.view, consistency = std::move(result.consistency),
+                 strays = std::move(rendered.stray_writes), record, limits = config_.limits,
+                 profile = config_.profile, pictures = config_.pictures] {
+                    judge(*record, (*plan)[k].data, view, {consistency, strays}, limits, profile,
+                          pictures);
                 },
                 [this, k, bytes, record, keep = result.keep] {
                     judging_bytes_ -= bytes;

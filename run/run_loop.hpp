@@ -9,6 +9,7 @@
 #include <functional>
 #include <future>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -63,12 +64,14 @@ class RunLoop {
     // that have no result by then are skipped.
     using OnRecord = std::function<bool(const report::CaseRecord&)>;
     // Called at least five times a second: cases settled, and those that are to be drawn again
-    // because they have failed: whatever comes of that is no expected result.
-    using OnProgress = std::function<void(size_t settled, size_t unconfirmed)>;
+    // because they have failed: whatever comes of that is no expected result. False ends the run as
+    // on_record does.
+    using OnProgress = std::function<bool(size_t settled, size_t unconfirmed)>;
+    using Plan = std::shared_ptr<const std::vector<PlannedCase>>;
 
     // Without a journal the records go to `on_record` alone.
-    RunLoop(LoopConfig config, const std::vector<PlannedCase>& cases, report::Journal* journal,
-            SignalFd& signals, OnRecord on_record, OnProgress on_progress);
+    RunLoop(LoopConfig config, Plan plan, report::Journal* journal, SignalFd& signals,
+            OnRecord on_record, OnProgress on_progress);
 
     struct End {
         bool interrupted = false;
@@ -79,6 +82,9 @@ class RunLoop {
     End run(std::vector<WorkerClient> workers, const vk_harness::DeviceInfo& device);
     // After run() with keeps_workers: those that wait for work, for another run.
     std::vector<WorkerClient> take_workers();
+    // After a run() that has ended early: judgements that go on are not waited for. They may take
+    // minutes, of a case that needs rationals; the process ends as Pool::has_abandoned() says.
+    void abandon_judgements() { pool_.abandon(); }
 
   private:
     struct Slot {
@@ -113,7 +119,8 @@ class RunLoop {
     void fail(const std::string& why);
 
     LoopConfig config_;
-    const std::vector<PlannedCase>& cases_;
+    Plan plan_;
+    const std::vector<PlannedCase>& cases_;  // of plan_
     report::Journal* journal_;
     SignalFd& signals_;
     OnRecord on_record_;
@@ -129,7 +136,7 @@ class RunLoop {
     std::set<size_t> unconfirmed_;  // of judged_: unexpected failures
     size_t settled_ = 0;
     std::vector<bool> is_finished_;  // [k] has its final record
-    bool is_stopped_ = false;        // by on_record_
+    bool is_stopped_ = false;        // by on_record_ or on_progress_
     uint32_t start_failures_ = 0;    // in a row
     Clock::time_point next_start_;   // no worker is started before
     double seconds_per_byte_ = 0;    // of captures, while one batch is drawn; 0: not known yet

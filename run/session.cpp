@@ -3,6 +3,7 @@
 #include "run/session.hpp"
 
 #include <map>
+#include <memory>
 #include <utility>
 
 #include "capture/copy.hpp"
@@ -19,12 +20,12 @@ Session::Session(LoopConfig config, WorkerClient first, vk_harness::DeviceInfo d
 Session::Results Session::draw(std::vector<cases::Case> cases,
                                const std::function<bool(size_t)>& on_progress) {
     Results results;
-    std::vector<PlannedCase> plan(cases.size());
+    const auto plan = std::make_shared<std::vector<PlannedCase>>(cases.size());
     std::map<std::string, size_t> index;
     for (size_t k = 0; k < cases.size(); ++k) {
         results.records.push_back(make_record(cases[k]));
         index.emplace(cases[k].id, k);
-        plan[k].data = std::move(cases[k]);
+        (*plan)[k].data = std::move(cases[k]);
     }
     bool goes_on = true;
     RunLoop loop(
@@ -33,9 +34,15 @@ Session::Results Session::draw(std::vector<cases::Case> cases,
             results.records[index.at(record.id)] = record;
             return goes_on;
         },
-        [&](size_t done, size_t) { goes_on = goes_on && (!on_progress || on_progress(done)); });
+        [&](size_t done, size_t) {
+            goes_on = goes_on && (!on_progress || on_progress(done));
+            return goes_on;
+        });
     const RunLoop::End end = loop.run(std::move(workers_), device_);
     workers_ = loop.take_workers();
+    if (end.interrupted || !goes_on) {
+        loop.abandon_judgements();
+    }
     results.interrupted = end.interrupted;
     results.failure = end.failure;
     return results;

@@ -30,7 +30,7 @@ class Session {
     };
     // The ids of the cases differ. `on_progress` is called at least five times a second with the
     // number of cases that are done; false ends the call, and what has no result by then is
-    // skipped.
+    // skipped. Judgements that an end finds at work are not waited for, nor is one by a signal.
     Results draw(std::vector<cases::Case> cases,
                  const std::function<bool(size_t done)>& on_progress = {});
 

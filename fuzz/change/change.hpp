@@ -23,6 +23,12 @@ Words change_state(Document& document, Dice& dice, const Document* other);
 // What does not: vertices and indices, viewports, scissors, numbers of any key.
 Words change_geometry(Document& document, Dice& dice, const Document* other);
 
+// --- parts of changes of a state: depth bounds, gl_FragDepth, logical operations, queries ---
+Words change_bounds(Document& document, Dice& dice);
+Words change_frag_depth(Document& document, Dice& dice);
+Words change_logic(Document& document, Dice& dice);
+Words change_query(Document& document, Dice& dice);
+
 // --- what the parts share ---
 // A draw of the document, or nullptr; its words are "draw 2 ", or nothing if it is the only one.
 Document* any_draw(Document& document, Dice& dice, Words& words);

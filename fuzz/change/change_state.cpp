@@ -30,7 +30,7 @@ constexpr std::array<std::string_view, 8> kBlends = {
 constexpr std::array<std::string_view, 6> kMasks = {"rgba", "rgb", "r", "g", "ba", "a"};
 constexpr std::array<std::string_view, 2> kFlags = {"false", "true"};
 
-constexpr std::array<WordKey, 22> kWordKeys = {{
+constexpr std::array<WordKey, 25> kWordKeys = {{
     {"target", "depth", cases::kWords<cases::DepthFormat>},
     {"target", "resolve", cases::kWords<cases::Resolve>},
     {"target", "depth_resolve", cases::kWords<cases::Resolve>},
@@ -43,6 +43,9 @@ constexpr std::array<WordKey, 22> kWordKeys = {{
     {"draw", "front_face", cases::kWords<cases::FrontFace>},
     {"draw", "provoking", cases::kWords<cases::ProvokingVertex>},
     {"draw", "depth_volume", cases::kVolumeWords},
+    {"draw", "discard", cases::kWords<cases::Discard>},
+    {"draw", "early_tests", kFlags},
+    {"draw", "rasterizer_discard", kFlags},
     {"depth", "compare", cases::kWords<cases::CompareOp>},
     {"depth", "write", kFlags},
     {"depth", "clamp", kFlags},
@@ -359,7 +362,7 @@ Words change_draws(Document& document, Dice& dice, const Document* other) {
 }  // namespace
 
 Words change_state(Document& document, Dice& dice, const Document* other) {
-    const uint64_t kind = dice.below(20);
+    const uint64_t kind = dice.below(24);
     return kind < 8    ? change_word(document, dice)
            : kind < 12 ? change_count(document, dice)
            : kind < 13 ? change_bias(document, dice)
@@ -367,7 +370,11 @@ Words change_state(Document& document, Dice& dice, const Document* other) {
            : kind < 15 ? add_color(document, dice)
            : kind < 17 ? add_input(document, dice)
            : kind < 18 ? add_relation(document, dice)
-                       : change_draws(document, dice, other);
+           : kind < 20 ? change_draws(document, dice, other)
+           : kind < 21 ? change_bounds(document, dice)
+           : kind < 22 ? change_frag_depth(document, dice)
+           : kind < 23 ? change_logic(document, dice)
+                       : change_query(document, dice);
 }
 
 }  // namespace fuzz

@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "cases/load/loader.hpp"
+#include "fuzz/generate/color.hpp"
 #include "fuzz/generate/dice.hpp"
+#include "fuzz/generate/fragment.hpp"
 #include "fuzz/generate/geometry.hpp"
 #include "fuzz/generate/stencil.hpp"
 
@@ -53,6 +55,7 @@ class CaseWriter {
         }
         samples_ = static_cast<uint32_t>(std::stoul(std::string(pose.value("samples"))));
         layers_ = static_cast<uint32_t>(std::stoul(std::string(pose.value("layers"))));
+        draws_ = std::stoul(std::string(pose.value("draws")));
         is_integer_ = pose.is("color", "r32-uint") || pose.is("color", "rgba8-uint");
     }
 
@@ -67,8 +70,7 @@ class CaseWriter {
             line("relations = [\"{}\"]", pose_.value("relation"));
         }
         write_target();
-        const auto draws = static_cast<size_t>(std::stoul(std::string(pose_.value("draws"))));
-        for (size_t k = 0; k < draws; ++k) {
+        for (size_t k = 0; k < draws_; ++k) {
             write_draw(k);
         }
         return std::move(text_);
@@ -96,8 +98,10 @@ class CaseWriter {
             line("layers = {}", layers_);
         }
         word("depth", "depth");
-        if (!pose_.is_default("compare")) {
-            line("depth_clear = {}", fraction(state_, 0, 8, 8));
+        if (!pose_.is_default("compare") || !pose_.is_default("depth-bounds")) {
+            const double clear = fraction(state_, 0, 8, 8);
+            line("depth_clear = {}", clear);
+            stored_ = StoredDepths(pose_, clear);
         }
         if (!pose_.is_default("sample-locations")) {
             std::vector<std::string> places;
@@ -120,18 +124,9 @@ class CaseWriter {
         if (!pose_.is_default("color")) {
             line("[target.color]\nformat = \"{}\"", pose_.value("color"));
             if (state_.one_in(2)) {
-                line("clear = {}", color(state_));
+                line("clear = {}", color_of(pose_, state_));
             }
         }
-    }
-
-    std::string color(Dice& dice) const {
-        std::vector<std::string> numbers;
-        for (int k = 0; k < 4; ++k) {
-            numbers.push_back(is_integer_ ? fmt::format("{}", dice.below(256))
-                                          : fmt::format("{}", fraction(dice, 0, 16, 16)));
-        }
-        return joined(numbers);
     }
 
     // The state of each draw comes from the pose, so that all its cases share pipelines; what is
@@ -160,18 +155,27 @@ class CaseWriter {
                                             : pose_.is("sample-shading", "full") ? 1.0
                                                                                  : 0.0);
         }
-        word("discard", "discard");
+        const bool is_last = number + 1 == draws_;
+        if (is_last || !state_.one_in(3)) {
+            word("discard", "discard");
+        }
+        if (number == 0 && !pose_.is_default("rasterizer-discard")) {
+            line("rasterizer_discard = true");
+        }
         if (!pose_.is_default("early-tests")) {
             line("early_tests = true");
         }
+        if (const std::string query = query_of(pose_, number, draws_, state_); !query.empty()) {
+            line("query = \"{}\"", query);
+        }
+        write_viewport();
         write_depth(number);
         if (const std::string stencil = stencil_of(pose_, number, stencil_clear_, state_);
             !stencil.empty()) {
             line("stencil = {}", stencil);
         }
-        write_viewport();
         write_scissor();
-        write_color();
+        write_color(number);
         const size_t vertices = write_vertices();
         write_distances(vertices);
         write_attributes(vertices);
@@ -207,6 +211,15 @@ class CaseWriter {
         if (!pose_.is_default("depth-clip")) {
             key(fmt::format("clip = {}", pose_.value("depth-clip")));
         }
+        const std::string written =
+            frag_depth_of(pose_, number, draws_, depths_, stored_, state_, dice_);
+        if (!written.empty()) {
+            line("frag_depth = {}", written);
+        }
+        if (const std::string bounds = bounds_of(pose_, number, draws_, stored_, dice_);
+            !bounds.empty()) {
+            key("bounds = " + bounds);
+        }
         if (!keys.empty()) {
             line("depth = {{ {} }}", fmt::join(keys, ", "));
         }
@@ -233,6 +246,7 @@ class CaseWriter {
         } else if (viewport == "depth") {
             const double far = fraction(dice_, 0, 8, 8), near = fraction(dice_, 0, 8, 8);
             line("viewport = {{ depth = [{}, {}] }}", near, far);
+            depths_ = {near, far};
         }
     }
 
@@ -253,34 +267,14 @@ class CaseWriter {
         }
     }
 
-    void write_color() {
+    void write_color(size_t number) {
         if (pose_.is_default("color")) {
             return;
         }
-        const bool by_attribute = !pose_.is_default("color-from");
-        std::string keys =
-            by_attribute ? "attribute = \"c\"" : fmt::format("value = {}", color(state_));
-        if (pose_.is("blend", "factors")) {
-            static constexpr std::array<std::string_view, 8> kFactors = {
-                "zero",      "one",           "src-color",
-                "dst-color", "src-alpha",     "one-minus-src-alpha",
-                "dst-alpha", "constant-color"};
-            static constexpr std::array<std::string_view, 5> kOps = {
-                "add", "subtract", "reverse-subtract", "min", "max"};
-            const std::string constants = color(state_);
-            const std::string_view op = state_.of(kOps);
-            const std::string_view destination = state_.of(kFactors), source = state_.of(kFactors);
-            keys += fmt::format(
-                ", blend = {{ source = \"{}\", destination = \"{}\", op = \"{}\" }}, constants = "
-                "{}",
-                source, destination, op, constants);
-        } else if (!pose_.is_default("blend")) {
-            keys += fmt::format(", blend = \"{}\"", pose_.value("blend"));
-        }
-        if (!pose_.is_default("write-mask")) {
-            keys += fmt::format(", write_mask = \"{}\"", pose_.value("write-mask"));
-        }
-        line("color = {{ {} }}", keys);
+        const std::string source = pose_.is_default("color-from")
+                                       ? fmt::format("value = {}", color_of(pose_, state_))
+                                       : "attribute = \"c\"";
+        line("color = {}", color_keys_of(pose_, number, draws_, source, state_));
     }
 
     // The number of vertices written.
@@ -296,12 +290,11 @@ class CaseWriter {
             line("space = \"clip\"");
         }
         const double common = fraction(dice_, 1, 64, 16);
+        const auto [near, far] = vertex_depths(pose_);
         std::vector<std::string> vertices;
         for (const Position& p : shape.vertices) {
             const double w = w_of(common);
-            const double z = pose_.is("z", "plane")    ? fraction(dice_, 0, 64, 64)
-                             : pose_.is("z", "beyond") ? fraction(dice_, -32, 96, 64)
-                                                       : 0.5;
+            const double z = fraction(dice_, std::llround(near * 64), std::llround(far * 64), 64);
             if (in_clip) {
                 const auto along = [w](double v, uint32_t side) {
                     return static_cast<double>(static_cast<float>((v * 2 / side - 1) * w));
@@ -369,13 +362,12 @@ class CaseWriter {
         }
     }
 
-    void write_values(size_t vertices, size_t components, bool is_whole) {
+    void write_values(size_t vertices, size_t components) {
         std::vector<std::string> values;
         for (size_t v = 0; v < vertices; ++v) {
             std::vector<std::string> one;
             for (size_t c = 0; c < components; ++c) {
-                one.push_back(is_whole ? fmt::format("{}", dice_.below(256))
-                                       : fmt::format("{}", fraction(dice_, 0, 32, 32)));
+                one.push_back(fmt::format("{}", fraction(dice_, 0, 32, 32)));
             }
             values.push_back(joined(one));
         }
@@ -390,7 +382,11 @@ class CaseWriter {
             } else {
                 write_interpolation(0);
             }
-            write_values(vertices, 4, is_integer_);
+            std::vector<std::string> colors;
+            for (size_t v = 0; v < vertices; ++v) {
+                colors.push_back(color_of(pose_, dice_));
+            }
+            line("values = {}", joined(colors));
         }
         const std::string_view count = pose_.value("attributes");
         const size_t attributes = count == "none"  ? 0U
@@ -421,7 +417,7 @@ class CaseWriter {
                     components = 2;
                 }
             }
-            write_values(vertices, components, false);
+            write_values(vertices, components);
         }
     }
 
@@ -439,7 +435,10 @@ class CaseWriter {
     const Pose& pose_;
     Dice state_, dice_;
     std::string text_;
+    size_t draws_ = 1;
     uint32_t width_ = 16, height_ = 16, samples_ = 1, layers_ = 1, stencil_clear_ = 0;
+    std::array<double, 2> depths_ = {0, 1};  // of the viewport of the draw that is written
+    StoredDepths stored_{pose_, static_cast<double>(cases::kDepthClear)};
     bool is_integer_ = false;
 };
 

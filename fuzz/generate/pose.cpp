@@ -27,7 +27,10 @@ struct Need {
     std::string_view feature, other;
     size_t value;
 };
-constexpr std::array<Need, 27> kNeeds = {{
+constexpr std::array<Need, 29> kNeeds = {{
+    {"logic", "attachments", 1},
+    {"depth-layout", "frag-depth", 1},
+    {"depth-bounds", "draws", 1},
     {"resolve", "samples", 1},
     {"resolve", "color", 1},
     {"depth-resolve", "samples", 1},
@@ -44,9 +47,8 @@ constexpr std::array<Need, 27> kNeeds = {{
     {"stencil-compare", "stencil", 1},
     {"stencil-compare", "draws", 1},
     {"stencil-clear", "stencil", 1},
-    {"early-tests", "discard", 1},
     {"compare", "draws", 1},
-    {"compare", "z", 1},
+    {"rasterizer-discard", "draws", 1},
     {"bias", "z", 1},
     {"depth-clamp", "z", 2},
     {"interpolation", "attributes", 1},
@@ -55,6 +57,21 @@ constexpr std::array<Need, 27> kNeeds = {{
     {"probe", "attributes", 1},
     {"provoking", "attributes", 1},
     {"viewport-index", "draws", 1},
+}};
+
+// What a feature has to meet to show most of what it does: one of these is on beside it, too.
+struct Company {
+    std::string_view feature;
+    std::array<std::string_view, 8> others;
+};
+constexpr std::array<Company, 3> kCompany = {{
+    {"query",
+     {"draws", "compare", "depth-bounds", "discard", "sample-mask", "stencil-compare", "frag-depth",
+      "cull"}},
+    {"frag-depth",
+     {"draws", "compare", "depth-bounds", "bias", "viewport", "depth-clamp", "samples",
+      "early-tests"}},
+    {"logic", {"draws", "write-mask", "blend", "color", "color", "color-from", "samples", "draws"}},
 }};
 
 }  // namespace
@@ -75,6 +92,11 @@ const std::vector<Feature>& features() {
           "max", "factors"}},
         {"color-from", {"value", "attribute"}},
         {"write-mask", {"rgba", "rgb", "r", "gb", "ra"}},
+        {"logic",
+         {"none", "clear", "and", "and-reverse", "copy", "and-inverted", "no-op", "xor", "or",
+          "nor", "equivalent", "invert", "or-reverse", "copy-inverted", "or-inverted", "nand",
+          "set"}},
+        {"query", {"none", "occlusion", "occlusion-precise"}},
         {"stencil", {"false", "true"}},
         {"stencil-clear", {"0", "given"}},
         {"stencil-compare",
@@ -94,8 +116,12 @@ const std::vector<Feature>& features() {
         {"provoking", {"first", "last"}},
         {"depth-volume", {"zero-to-one", "negative-one-to-one"}},
         {"compare",
-         {"always", "less", "less-or-equal", "greater", "greater-or-equal", "equal", "not-equal"}},
+         {"always", "less", "less-or-equal", "greater", "greater-or-equal", "equal", "not-equal",
+          "never"}},
         {"depth-write", {"true", "false"}},
+        {"depth-bounds", {"none", "ends", "below", "above", "one-depth", "whole"}},
+        {"frag-depth", {"none", "value", "odd-columns", "odd-rows", "checker", "frag-coord"}},
+        {"depth-layout", {"any", "greater", "less", "unchanged"}},
         {"bias", {"none", "constant", "slope", "both", "clamped"}},
         {"depth-clamp", {"false", "true"}},
         {"depth-clip", {"default", "true", "false"}},
@@ -104,6 +130,7 @@ const std::vector<Feature>& features() {
         {"sample-shading", {"off", "half", "full", "least"}},
         {"discard", {"none", "odd-columns", "odd-rows", "checker", "front", "back"}},
         {"early-tests", {"false", "true"}},
+        {"rasterizer-discard", {"none", "first-draw"}},
         {"attributes", {"none", "one", "two", "three"}},
         {"interpolation", {"smooth", "noperspective", "flat", "mixed"}},
         {"auxiliary", {"none", "centroid", "sample"}},
@@ -165,19 +192,55 @@ Pose Poses::draw(size_t candidate) const {
         const size_t feature = dice.below(features().size());
         pose.set(feature, dice.below(features()[feature].values.size()));
     }
+    const auto set = [&pose](std::string_view feature, size_t value) {
+        pose.set(index_of(feature), value);
+    };
+    for (const Company& company : kCompany) {
+        const std::string_view other = dice.of(company.others);
+        const size_t feature = index_of(other);
+        if (!pose.is_default(company.feature) && pose.is_default(other)) {
+            pose.set(feature, 1 + dice.below(features()[feature].values.size() - 1));
+        }
+    }
+    // Hits are counted by blending, which a logical operation switches off, and queries are judged
+    // by the hits.
+    if (!pose.is_default("query")) {
+        set("logic", 0);
+        set("attachments", 0);
+    }
+    if (!pose.is_default("early-tests") && pose.is_default("discard") &&
+        pose.is_default("frag-depth")) {
+        set(dice.one_in(2) ? "discard" : "frag-depth", 1);
+    }
+    // Depths that are equal are compared now and then.
+    if (!pose.is_default("compare") && pose.is_default("z") && pose.is_default("frag-depth") &&
+        !dice.one_in(4)) {
+        set("z", 1);
+    }
     for (const Need& need : kNeeds) {
         if (!pose.is_default(need.feature) && pose.is_default(need.other)) {
-            pose.set(index_of(need.other), need.value);
+            set(need.other, need.value);
         }
+    }
+    if (pose.is("depth-layout", "unchanged")) {
+        set("frag-depth", 5);  // gl_FragCoord.z, which alone is the fragment's own depth
+    }
+    // Of a fragment's own depth with a bias neither is known.
+    if (!pose.is_default("depth-layout") || pose.is("frag-depth", "frag-coord")) {
+        set("bias", 0);
+    }
+    if (pose.is("attachments", "color") &&
+        (!pose.is_default("depth-bounds") || !pose.is_default("frag-depth"))) {
+        set("attachments", 2);  // with a depth
     }
     // Colours of integers are resolved so, and no others.
     if (pose.is("resolve", "sample-zero") && !pose.value("color").ends_with("-uint")) {
         constexpr size_t kR32Uint = 11;
-        pose.set(index_of("color"), kR32Uint);
+        set("color", kR32Uint);
     }
     if (!pose.is_default("relation") && pose.value("relation").ends_with("-attributes") &&
         pose.is_default("attributes")) {
-        pose.set(index_of("attributes"), 1);
+        set("attributes", 1);
     }
     return pose;
 }

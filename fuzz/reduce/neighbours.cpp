@@ -20,6 +20,7 @@ using WordSpan = std::span<const std::string_view>;
 
 constexpr std::array<std::string_view, 8> kBlends = {
     "none", "alpha", "premultiplied", "additive", "multiply", "reverse-subtract", "min", "max"};
+constexpr std::array<std::string_view, 3> kPatterns = {"odd-columns", "odd-rows", "checker"};
 constexpr std::array<std::string_view, 3> kAttachments = {"all", "color", "color+depth"};
 constexpr std::array<double, 5> kSamples = {1, 2, 4, 8, 16};
 
@@ -28,7 +29,7 @@ struct WordKey {
     std::string_view key, phrase;  // "{}" in the phrase stands for the word
     WordSpan words;
 };
-constexpr std::array<WordKey, 15> kKeys = {{
+constexpr std::array<WordKey, 19> kKeys = {{
     {"cull", "cull = {}", cases::kWords<cases::CullMode>},
     {"front_face", "front_face = {}", cases::kWords<cases::FrontFace>},
     {"provoking", "the {} vertex as provoking one", cases::kWords<cases::ProvokingVertex>},
@@ -38,7 +39,11 @@ constexpr std::array<WordKey, 15> kKeys = {{
     {"depth_fail", "depth_fail = {}", cases::kWords<cases::StencilOp>},
     {"pass", "pass = {}", cases::kWords<cases::StencilOp>},
     {"discard", "discard = {}", cases::kWords<cases::Discard>},
+    {"query", "query = {}", cases::kWords<cases::Query>},
+    {"where", "where = {}", kPatterns},
+    {"layout", "layout = {}", cases::kWords<cases::DepthLayout>},
     {"blend", "blend = {}", kBlends},
+    {"logic", "logic = {}", cases::kWords<cases::LogicOp>},
     {"interpolation", "{} interpolation", cases::kWords<cases::Interpolation>},
     {"auxiliary", "auxiliary = {}", cases::kWords<cases::Auxiliary>},
     {"resolve", "resolve = {}", cases::kWords<cases::Resolve>},

@@ -29,9 +29,10 @@ struct Company {
     std::string_view key;
     std::array<std::string_view, 3> with;
 };
-constexpr std::array<Company, 2> kCompany = {{
+constexpr std::array<Company, 3> kCompany = {{
     {"blend", {"constants"}},
     {"probe", {"offset", "sample", "texture"}},
+    {"where", {"other"}},
 }};
 
 // How people say that these have their default; of all others it is "without" their name.

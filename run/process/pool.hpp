@@ -4,14 +4,10 @@
 // Threads beside a loop that waits on descriptors.
 #pragma once
 
-#include <condition_variable>
-#include <deque>
 #include <functional>
-#include <mutex>
+#include <memory>
 #include <thread>
 #include <vector>
-
-#include "run/process/process.hpp"
 
 namespace run {
 
@@ -19,7 +15,7 @@ namespace run {
 class Pool {
   public:
     explicit Pool(unsigned threads);
-    ~Pool();  // tasks not begun are dropped
+    ~Pool();  // tasks not begun are dropped, those that run are waited for
     Pool(const Pool&) = delete;
     Pool& operator=(const Pool&) = delete;
     // `work` runs on a thread, `finish` later on the thread that calls collect().
@@ -28,21 +24,22 @@ class Pool {
     void collect();
     // Tasks submitted and not yet collected.
     size_t outstanding() const { return outstanding_; }
-    int fd() const { return event_.get(); }
+    int fd() const;
     // Waits until a result can be collected.
     void wait() const;
+    // Leaves the tasks that run to themselves: nothing waits for them, and they are destroyed when
+    // their work is done. All that `work` uses must belong to it. Nothing can be submitted any
+    // more.
+    void abandon();
+    // Whether threads that were left to themselves are still at work. Such a process must not be
+    // ended by destroying what they use: std::_Exit does not.
+    static bool has_abandoned();
 
   private:
-    struct Task {
-        std::function<void()> work, finish;
-    };
-    void run();
-    Fd event_;
-    std::mutex mutex_;
-    std::condition_variable changed_;
-    std::deque<Task> waiting_, done_;
-    bool stop_ = false;
-    size_t outstanding_ = 0;  // of the submitting thread alone
+    struct State;
+    static void run(State& state);
+    std::shared_ptr<State> state_;  // the threads' own, too
+    size_t outstanding_ = 0;        // of the submitting thread alone
     std::vector<std::thread> threads_;
 };
 

@@ -4,6 +4,8 @@
 // Signals that end a run, and waiting for a worker without missing them.
 #pragma once
 
+#include <thread>
+
 #include "run/process/process.hpp"
 
 namespace run {
@@ -17,12 +19,16 @@ class SignalFd {
     SignalFd(const SignalFd&) = delete;
     SignalFd& operator=(const SignalFd&) = delete;
     int fd() const { return fd_.get(); }
-    // True once SIGINT, SIGTERM or SIGHUP has come.
+    // True once SIGINT, SIGTERM or SIGHUP has come. From the first call that says so on another
+    // one ends the process at once: whoever asks twice does not wait for what is being written.
     bool has_come();
 
   private:
-    Fd fd_;
+    void end_by_another() const;
+
+    Fd fd_, stop_;  // stop_: another one is not waited for any more
     bool come_ = false;
+    std::thread waits_for_another_;
 };
 
 }  // namespace run

@@ -109,7 +109,7 @@ TEST(ChangedSource, MakesTheSameCasesOnEveryMachine) {
     for (const Source::Made& made : all_of(source, 64)) {
         hash = cases::stable_hash(made.text, hash);
     }
-    EXPECT_EQ(cases::hex(hash), "3e5ffd3cc8c0eea8");
+    EXPECT_EQ(cases::hex(hash), "b99972e758dec544");
     ChangedSource other(2, starts());
     uint64_t hash_of_other = 0;
     for (const Source::Made& made : all_of(other, 64)) {
@@ -197,6 +197,15 @@ TEST(ChangedSource, ChangesReachStatesAndGeometries) {
                              "draw.depth.clip=false",
                              "draw.depth.bias.slope",
                              "draw.depth.bias.clamp",
+                             "draw.depth.bounds",
+                             "draw.frag_depth.value",
+                             "draw.frag_depth.where=checker",
+                             "draw.frag_depth.from=frag-coord",
+                             "draw.query=occlusion",
+                             "draw.query=occlusion-precise",
+                             "draw.color.logic=xor",
+                             "draw.discard=checker",
+                             "draw.early_tests=true",
                              "draw.sample_mask",
                              "draw.shader_mask",
                              "draw.layer",
@@ -220,6 +229,63 @@ TEST(ChangedSource, ChangesReachStatesAndGeometries) {
     // Of fourteen probes some.
     const auto probe = words.lower_bound("draw.attribute.probe=");
     EXPECT_TRUE(probe != words.end() && probe->starts_with("draw.attribute.probe="));
+}
+
+// What says what becomes of fragments is added, changed and left out.
+TEST(ChangedSource, ChangesWhatBecomesOfFragments) {
+    const std::string toml = R"(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [8, 8]
+attachments = "color+depth"
+depth_clear = 0.625
+[target.color]
+format = "rgba8-unorm"
+[[draw]]
+depth = { bounds = [0.25, 0.625] }
+frag_depth = { value = 0.25 }
+color = { value = [1, 1, 1, 1], logic = "xor" }
+vertices = [[0, 0, 0.125], [8, 0, 0.125], [0, 8, 0.125]]
+)";
+    auto loaded = cases::load_text(toml, "f", "f");
+    ASSERT_TRUE(loaded) << cases::to_string(loaded.error().front());
+    ChangedSource source(
+        1, std::make_shared<const std::vector<Start>>(std::vector<Start>{{loaded->front(), {}}}));
+    std::set<std::string> seen;
+    const auto see = [&](bool what, const char* words) {
+        if (what) {
+            seen.insert(words);
+        }
+    };
+    for (uint64_t group = 0; group < 4000; ++group) {
+        source.enter(group);
+        const Source::Made made = source.make(group * source.group_size());
+        if (!made.data || made.data->draws.size() != 1) {
+            continue;
+        }
+        const cases::Draw& draw = made.data->draws[0];
+        const auto& bounds = draw.depth.bounds;
+        see(!bounds, "no bounds");
+        see(bounds && bounds->max < 0.625F && bounds->max > 0.6249F,
+            "just without the clear value");
+        see(bounds && bounds->min <= bounds->max && bounds->max <= bounds->min, "one depth");
+        see(!draw.frag_depth, "no depth written");
+        see(draw.frag_depth && draw.frag_depth->is_coord, "its own depth written");
+        see(draw.frag_depth && draw.frag_depth->where == cases::Discard::odd_rows, "two depths");
+        see(draw.frag_depth && draw.frag_depth->value > 0.62F && draw.frag_depth->value < 0.63F,
+            "near the clear value");
+        see(draw.frag_depth && draw.frag_depth->layout != cases::DepthLayout::any, "a promise");
+        see(!draw.color.logic, "no logical operation");
+        see(draw.color.logic == cases::LogicOp::nand, "another operation");
+        see(draw.query != cases::Query::none, "a query");
+        see(draw.query != cases::Query::none && !made.data->target.has_instruments, "not counted");
+    }
+    EXPECT_THAT(seen,
+                testing::UnorderedElementsAre(
+                    "no bounds", "just without the clear value", "one depth", "no depth written",
+                    "its own depth written", "two depths", "near the clear value", "a promise",
+                    "no logical operation", "another operation", "a query"));
 }
 
 // A file that says what is open: that is varied, and nothing else.

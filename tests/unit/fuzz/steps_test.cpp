@@ -219,6 +219,37 @@ vertices = [[0, 0], [8, 0], [0, 8]]
     EXPECT_FALSE(load(to_text(after(document, "draw 0 without early tests"))).draws[0].early_tests);
 }
 
+TEST(ReduceStep, TakesAwayWhatBecomesOfFragments) {
+    const Document document = read(R"(
+format = 1
+description = "Depths that are written and tested, and colours that are combined."
+rules = ["cover.inside"]
+[target]
+size = [8, 8]
+attachments = "color+depth"
+[target.color]
+format = "rgba8-uint"
+[[draw]]
+frag_depth = { value = 0.25, other = 0.75, where = "checker" }
+color = { value = [1, 2, 3, 4], logic = "xor" }
+vertices = [[0, 0], [8, 0], [0, 8]]
+[[draw]]
+depth = { bounds = [0.25, 0.5] }
+color = { value = [1, 2, 3, 4], logic = "or" }
+vertices = [[0, 0], [8, 0], [0, 8]]
+)");
+    // A number for some pixels is nothing without the pattern that says which.
+    const cases::Case one = load(to_text(after(document, "draw 0 without frag depth where")));
+    ASSERT_TRUE(one.draws[0].frag_depth);
+    EXPECT_EQ(*one.draws[0].frag_depth, (cases::FragDepth{.value = 0.25F}));
+    EXPECT_FALSE(load(to_text(after(document, "draw 0 without frag depth"))).draws[0].frag_depth);
+    EXPECT_FALSE(
+        load(to_text(after(document, "draw 1 without depth bounds"))).draws[1].depth.bounds);
+    const cases::Case written = load(to_text(after(document, "draw 0 without color logic")));
+    EXPECT_FALSE(written.draws[0].color.logic);
+    EXPECT_TRUE(written.draws[1].color.logic);
+}
+
 // Vertices take their values along, so that each triangle keeps what it had.
 TEST(ReduceStep, LeavesOutVerticesWithTheirValues) {
     const Case c = load(to_text(after(read(kCrowded), "draw 0 without triangle 0")));

@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Changes of what becomes of fragments: depth bounds, depths that the shader writes, logical
+// operations, occlusion queries.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "cases/model/target.hpp"
+#include "cases/model/words.hpp"
+#include "fuzz/change/change.hpp"
+#include "fuzz/reduce/measure.hpp"
+
+namespace fuzz {
+
+namespace {
+
+template <class Change>
+void for_each_draw(Document& document, Change&& change) {
+    if (Document* draws = find(document, "draw")) {
+        std::ranges::for_each(draws->array, change);
+    }
+}
+
+void add_number(const Document* value, std::vector<double>& all) {
+    if (const auto number = value == nullptr ? std::nullopt : value_of(*value);
+        number && *number >= 0 && *number <= 1) {
+        all.push_back(*number);
+    }
+}
+
+// Depths, 0 to 1, that the document's attachment is cleared to or its draws may store.
+std::vector<double> depths_of(Document& document) {
+    std::vector<double> all = {static_cast<double>(cases::kDepthClear), 0.5};
+    if (const Document* target = find(document, "target")) {
+        add_number(target->find("depth_clear"), all);
+    }
+    for_each_draw(document, [&](Document& draw) {
+        if (const Document* written = draw.find("frag_depth")) {
+            add_number(written->find("value"), all);
+            add_number(written->find("other"), all);
+        }
+        const Document* vertices = draw.find("vertices");
+        if (vertices != nullptr && draw.find("space") == nullptr) {
+            for (const Document& vertex : vertices->array) {
+                add_number(vertex.array.size() > 2 ? &vertex.array[2] : nullptr, all);
+            }
+        }
+    });
+    return all;
+}
+
+// One of them, the next binary32, or any. Denormal numbers are taken for 0 here and there.
+double near_depth(const std::vector<double>& depths, Dice& dice) {
+    const auto depth = static_cast<float>(depths[dice.below(depths.size())]);
+    const uint64_t kind = dice.below(6);
+    const float near = kind == 0   ? static_cast<float>(dice.between(0, 8)) / 8
+                       : kind == 1 ? std::nextafter(depth, 2.0F)
+                       : kind == 2 ? std::nextafter(depth, -1.0F)
+                                   : depth;
+    const float within = std::clamp(near, 0.0F, 1.0F);
+    return static_cast<double>(
+        std::fpclassify(within) == FP_SUBNORMAL ? std::numeric_limits<float>::min() : within);
+}
+
+// Leaves the key out, if it is there and the dice say so.
+bool drops(Document* table, std::string_view key, Dice& dice) {
+    return table != nullptr && find(*table, key) != nullptr && dice.one_in(3) && erase(*table, key);
+}
+
+}  // namespace
+
+Words change_bounds(Document& document, Dice& dice) {
+    Words words;
+    Document* draw = any_draw(document, dice, words);
+    if (draw == nullptr) {
+        return {};
+    }
+    Document* depth = find(*draw, "depth");
+    if (drops(depth, "bounds", dice)) {
+        return words + "without depth bounds";
+    }
+    const std::vector<double> depths = depths_of(document);
+    const double one = near_depth(depths, dice);
+    // Both ends, one of them, a single depth.
+    const uint64_t kind = dice.below(5);
+    const double other = kind == 0 ? 0 : kind == 1 ? 1 : kind == 2 ? one : near_depth(depths, dice);
+    const auto [min, max] = std::minmax(one, other);
+    set(depth != nullptr ? *depth : set(*draw, "depth", table()), "bounds", numbers({min, max}));
+    return fmt::format("{}depth bounds {} to {}", words, min, max);
+}
+
+Words change_frag_depth(Document& document, Dice& dice) {
+    static constexpr std::array<std::string_view, 3> kPatterns = {"odd-columns", "odd-rows",
+                                                                  "checker"};
+    Words words;
+    Document* draw = any_draw(document, dice, words);
+    if (draw == nullptr) {
+        return {};
+    }
+    if (drops(draw, "frag_depth", dice)) {
+        return words + "without a written depth";
+    }
+    Document written = table();
+    Document* depth = find(*draw, "depth");
+    const std::vector<double> depths = depths_of(document);
+    if (dice.one_in(4)) {
+        set(written, "from", text("frag-coord"));
+        words += "writes gl_FragCoord.z";
+        if (depth != nullptr) {
+            erase(*depth, "bias");  // beside which neither is known
+        }
+    } else {
+        const double value = near_depth(depths, dice);
+        set(written, "value", number(value));
+        words += fmt::format("writes the depth {}", value);
+        if (dice.one_in(2)) {
+            const double other = near_depth(depths, dice);
+            set(written, "other", number(other));
+            set(written, "where", text(std::string(dice.of(kPatterns))));
+            words += fmt::format(" or {}", other);
+        }
+    }
+    if (dice.one_in(4)) {
+        const auto& layouts = cases::kWords<cases::DepthLayout>;
+        set(written, "layout", text(std::string(layouts[dice.below(layouts.size())])));
+    }
+    set(*draw, "frag_depth", std::move(written));
+    return words;
+}
+
+Words change_logic(Document& document, Dice& dice) {
+    Words words;
+    Document* draw = any_draw(document, dice, words);
+    Document* target = find(document, "target");
+    Document* color = draw == nullptr ? nullptr : find(*draw, "color");
+    if (color == nullptr || target == nullptr) {
+        return {};
+    }
+    if (drops(color, "logic", dice)) {
+        return words + "without a logical operation";
+    }
+    // Blending counts hits, and a logical operation switches it off; queries are judged by hits.
+    if (find(*target, "attachments") == nullptr) {
+        set(*target, "attachments", text(dice.one_in(2) ? "color" : "color+depth"));
+        for_each_draw(document, [](Document& one) { erase(one, "query"); });
+    }
+    const auto& ops = cases::kWords<cases::LogicOp>;
+    const std::string_view op = ops[dice.below(ops.size())];
+    // Found again: what was erased may have moved it.
+    set(*find(*draw, "color"), "logic", text(std::string(op)));
+    return fmt::format("{}the logical operation {}", words, op);
+}
+
+Words change_query(Document& document, Dice& dice) {
+    Words words;
+    Document* draw = any_draw(document, dice, words);
+    Document* target = find(document, "target");
+    if (draw == nullptr || target == nullptr) {
+        return {};
+    }
+    if (drops(draw, "query", dice)) {
+        return words + "without a query";
+    }
+    erase(*target, "attachments");
+    for_each_draw(document, [](Document& one) {
+        if (Document* color = find(one, "color")) {
+            erase(*color, "logic");
+        }
+    });
+    const std::string_view kind = dice.one_in(3) ? "occlusion" : "occlusion-precise";
+    set(*draw, "query", text(std::string(kind)));
+    return fmt::format("{}an {} query", words, kind);
+}
+
+}  // namespace fuzz

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "fuzz/generate/color.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "cases/format/color_format.hpp"
+#include "cases/model/words.hpp"
+
+namespace fuzz {
+
+namespace {
+
+const cases::ColorFormatRow& row_of(const Pose& pose) {
+    const auto row =
+        std::find_if(cases::kColorFormats.begin(), cases::kColorFormats.end(),
+                     [&](const cases::ColorFormatRow& r) { return pose.is("color", r.word); });
+    return row == cases::kColorFormats.end() ? cases::kColorFormats.front() : *row;
+}
+
+// A code of so many bits: patterns of bits, the ends, and any.
+uint64_t code_of(uint32_t bits, Dice& dice) {
+    const uint64_t largest = (uint64_t{1} << bits) - 1;
+    switch (dice.below(6)) {
+        case 0:
+            return 0x5555'5555U & largest;
+        case 1:
+            return 0xcccc'cccc'ccccU & largest;
+        case 2:
+            return largest;
+        case 3:
+            return uint64_t{1} << dice.below(bits);
+        default:
+            return dice.below(largest + 1);
+    }
+}
+
+std::string component(const cases::ColorFormatRow& row, uint32_t k, bool is_code, Dice& dice) {
+    const uint32_t bits = row.bits.at(k);
+    if (row.kind == cases::ComponentKind::uint) {
+        // binary32 has all whole numbers up to 2^24 (cases/load/color.cpp).
+        const uint32_t most = std::min(std::max(bits, 8U), 24U);
+        return fmt::format("{}", is_code          ? code_of(most, dice)
+                                 : dice.one_in(4) ? dice.below(uint64_t{1} << most)
+                                                  : dice.below(256));
+    }
+    if (is_code && row.kind == cases::ComponentKind::unorm && bits > 0) {
+        return fmt::format("\"{}/{}\"", code_of(bits, dice), (uint64_t{1} << bits) - 1);
+    }
+    // What lies beyond 0 to 1 is clamped by some formats, before or after blending, and not by
+    // others.
+    const bool is_beyond = dice.one_in(16);
+    return fmt::format(
+        "{}", static_cast<double>(is_beyond ? dice.between(-16, 48) : dice.between(0, 16)) / 16);
+}
+
+std::string factors(const Pose& pose, Dice& dice) {
+    const auto factor = [&dice] {
+        const auto& words = cases::kWords<cases::BlendFactor>;
+        return words[dice.below(words.size())];
+    };
+    const auto& ops = cases::kWords<cases::BlendOp>;
+    const std::string_view source = factor(), destination = factor();
+    const std::string_view op = ops[dice.below(ops.size())];
+    return fmt::format(
+        ", blend = {{ source = \"{}\", destination = \"{}\", op = \"{}\" }}, constants = {}",
+        source, destination, op, color_of(pose, dice));
+}
+
+// Of several draws the last one does what the pose says, and so that it has something to do it to,
+// an early one may just write, or do something else.
+std::string logic(const Pose& pose, bool is_last, Dice& dice) {
+    if (pose.is_default("logic") || (!is_last && dice.one_in(3))) {
+        return {};
+    }
+    const auto& words = cases::kWords<cases::LogicOp>;
+    const bool is_other = !is_last && dice.one_in(2);
+    return fmt::format(", logic = \"{}\"",
+                       is_other ? words[dice.below(words.size())] : pose.value("logic"));
+}
+
+}  // namespace
+
+std::string color_of(const Pose& pose, Dice& dice) {
+    const cases::ColorFormatRow& row = row_of(pose);
+    const bool is_code = !pose.is_default("logic");
+    std::vector<std::string> numbers;
+    for (uint32_t k = 0; k < 4; ++k) {
+        numbers.push_back(component(row, k, is_code, dice));
+    }
+    return fmt::format("[{}]", fmt::join(numbers, ", "));
+}
+
+std::string color_keys_of(const Pose& pose, size_t number, size_t draws, std::string_view source,
+                          Dice& dice) {
+    const bool is_last = number + 1 == draws;
+    std::string keys(source);
+    if (!pose.is_default("blend") && (is_last || !dice.one_in(3))) {
+        keys += pose.is("blend", "factors") ? factors(pose, dice)
+                                            : fmt::format(", blend = \"{}\"", pose.value("blend"));
+    }
+    keys += logic(pose, is_last, dice);
+    if (!pose.is_default("write-mask") && (is_last || !dice.one_in(3))) {
+        keys += fmt::format(", write_mask = \"{}\"", pose.value("write-mask"));
+    }
+    return fmt::format("{{ {} }}", keys);
+}
+
+}  // namespace fuzz

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The colours of a generated case, and what its draws do with those that are stored.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "fuzz/generate/dice.hpp"
+#include "fuzz/generate/pose.hpp"
+
+namespace fuzz {
+
+// Four numbers that the pose's format can hold. Operands of a logical operation are codes of the
+// format: any other number is rounded first, and where it lies half-way all bits are open.
+std::string color_of(const Pose& pose, Dice& dice);
+
+// The value of the key `color` of draw `number` of `draws`, which writes the colour `source`
+// ("value = [...]" or "attribute = ..."). Early draws may do without what the last one has.
+std::string color_keys_of(const Pose& pose, size_t number, size_t draws, std::string_view source,
+                          Dice& dice);
+
+}  // namespace fuzz

@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "fuzz/generate/fragment.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cases/format/depth_format.hpp"
+
+namespace fuzz {
+
+namespace {
+
+// Neither bounds nor what a shader writes are denormal, which a device may take for 0.
+double normal(float depth) {
+    return std::fpclassify(depth) == FP_SUBNORMAL
+               ? static_cast<double>(std::numeric_limits<float>::min())
+               : static_cast<double>(depth);
+}
+
+// The depths of fragments from a vertex's: as viewport and volume map it.
+double mapped(const Pose& pose, std::array<double, 2> viewport, double z) {
+    const auto [near, far] = viewport;
+    return pose.is_default("depth-volume") ? near + (far - near) * z
+                                           : (far + near) / 2 + (far - near) / 2 * z;
+}
+
+// Which layout the draw's numbers can keep: beyond all depths of its triangles by more than the
+// loader asks for (cases/load/load_depth.cpp).
+constexpr double kMargin = 0x1p-12;
+
+}  // namespace
+
+StoredDepths::StoredDepths(const Pose& pose, double clear) : depths_{clear} {
+    for (const cases::DepthFormatRow& row : cases::kDepthFormats) {
+        if (pose.is("depth", row.word) && row.steps > 0) {
+            step_ = 1 / row.steps;
+        }
+    }
+}
+
+double StoredDepths::any(Dice& dice) const {
+    return depths_[dice.below(depths_.size())];
+}
+
+double StoredDepths::beside(double depth, Dice& dice) const {
+    const bool is_up = dice.one_in(2);
+    if (step_ > 0 && dice.one_in(2)) {
+        // On a number of the format, where it rounds to, or beside it.
+        const double code =
+            std::round(depth / step_) + static_cast<double>(dice.below(2)) * (is_up ? 1.0 : -1.0);
+        return code * step_;
+    }
+    return static_cast<double>(std::nextafter(static_cast<float>(depth), is_up ? 2.0F : -1.0F));
+}
+
+double StoredDepths::near(Dice& dice) const {
+    double depth = any(dice);
+    const uint64_t kind = dice.below(4);
+    if (kind == 0) {
+        depth = static_cast<double>(dice.between(0, 16)) / 16;
+    } else if (kind == 1) {
+        depth = beside(depth, dice);
+    }
+    return normal(static_cast<float>(std::clamp(depth, 0.0, 1.0)));
+}
+
+std::string bounds_of(const Pose& pose, size_t number, size_t draws, const StoredDepths& stored,
+                      Dice& dice) {
+    // Early draws mostly store what later ones test.
+    if (pose.is_default("depth-bounds") || (number + 1 < draws && !dice.one_in(4))) {
+        return {};
+    }
+    double min = 0, max = 1;
+    if (pose.is("depth-bounds", "ends")) {
+        min = stored.near(dice);
+        max = stored.near(dice);
+        if (min > max) {
+            std::swap(min, max);
+        }
+    } else if (pose.is("depth-bounds", "below")) {
+        max = stored.near(dice);
+    } else if (pose.is("depth-bounds", "above")) {
+        min = stored.near(dice);
+    } else if (pose.is("depth-bounds", "one-depth")) {
+        min = max = stored.near(dice);
+    }
+    return fmt::format("[{}, {}]", min, max);
+}
+
+std::array<double, 2> vertex_depths(const Pose& pose) {
+    if (pose.is("z", "plane")) {
+        const bool is_promised =
+            pose.is("depth-layout", "greater") || pose.is("depth-layout", "less");
+        return is_promised ? std::array{0.25, 0.75} : std::array{0.0, 1.0};
+    }
+    return pose.is("z", "beyond") ? std::array{-0.5, 1.5} : std::array{0.5, 0.5};
+}
+
+std::string frag_depth_of(const Pose& pose, size_t number, size_t draws,
+                          std::array<double, 2> viewport, StoredDepths& stored, Dice& state,
+                          Dice& dice) {
+    const bool is_coord = pose.is("frag-depth", "frag-coord");
+    // An early draw may store its triangles' own depths.
+    const bool is_own = pose.is_default("frag-depth") || (number + 1 < draws && state.one_in(3));
+    if ((is_own || is_coord) && pose.is("z", "half")) {
+        stored.add(mapped(pose, viewport, 0.5));
+    }
+    if (is_own) {
+        return {};
+    }
+    const std::string_view layout = pose.value("depth-layout");
+    if (is_coord) {
+        return layout == "any"
+                   ? "{ from = \"frag-coord\" }"
+                   : fmt::format("{{ from = \"frag-coord\", layout = \"{}\" }}", layout);
+    }
+    const bool is_clamped = !pose.is_default("depth-clamp");
+    const auto [least, most] = std::minmax(viewport[0], viewport[1]);
+    // Without depth clamp it must lie within the viewport's depths; with it, it is moved there.
+    double low = is_clamped ? -1 : least, high = is_clamped ? 2 : most;
+    const std::array<double, 2> own = vertex_depths(pose);
+    const std::array<double, 2> ends = {mapped(pose, viewport, own[0]),
+                                        mapped(pose, viewport, own[1])};
+    // Nothing is promised of triangles behind the eye.
+    bool is_kept = layout != "any" && !pose.is("w", "behind");
+    if (is_kept && layout == "greater") {
+        is_kept = std::max(ends[0], ends[1]) + kMargin <= high;
+        low = is_kept ? std::max(ends[0], ends[1]) + kMargin : low;
+    } else if (is_kept) {
+        is_kept = std::min(ends[0], ends[1]) - kMargin >= low;
+        high = is_kept ? std::min(ends[0], ends[1]) - kMargin : high;
+    }
+    const auto depth = [&] {
+        const bool is_beyond = is_clamped && dice.one_in(3);
+        const double z =
+            is_beyond ? static_cast<double>(dice.between(-4, 8)) / 4 : stored.near(dice);
+        return normal(static_cast<float>(std::clamp(z, low, high)));
+    };
+    const double value = depth();
+    std::string keys = fmt::format("value = {}", value);
+    if (!pose.is("frag-depth", "value")) {
+        const double other = depth();
+        keys += fmt::format(", other = {}, where = \"{}\"", other, pose.value("frag-depth"));
+        stored.add(std::clamp(other, least, most));
+    }
+    stored.add(std::clamp(value, least, most));
+    if (is_kept) {
+        keys += fmt::format(", layout = \"{}\"", layout);
+    }
+    return fmt::format("{{ {} }}", keys);
+}
+
+std::string query_of(const Pose& pose, size_t number, size_t draws, Dice& dice) {
+    if (pose.is_default("query") || (number + 1 < draws && dice.one_in(3))) {
+        return {};
+    }
+    const bool is_other = number + 1 < draws && dice.one_in(4);
+    return pose.is("query", "occlusion") == is_other ? "occlusion-precise" : "occlusion";
+}
+
+}  // namespace fuzz

@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "fuzz/hunt.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "run/judge.hpp"
+
+namespace fuzz {
+namespace {
+
+using testing::IsEmpty;
+using testing::SizeIs;
+using Clock = HuntOptions::Clock;
+
+constexpr uint64_t kChunk = 1024;
+
+// A case for each number, all alike.
+class PlainSource : public Source {
+  public:
+    uint64_t group_size() const override { return 16; }
+    void enter(uint64_t) override {}
+    Made make(uint64_t number) const override {
+        Made made;
+        made.text =
+            "format = 1\ndescription = \"d\"\nrules = [\"cover.inside\"]\n[target]\nsize = [4, 4]\n"
+            "[[draw]]\nvertices = [[0, 0], [4, 0], [0, 4]]\n";
+        made.data = load_one(made.text, std::to_string(number));
+        return made;
+    }
+};
+
+// A device whose time is counted in cases that it has drawn; the last of a call come first.
+struct Device {
+    std::multiset<uint64_t> drawn;
+    size_t interrupted_at = SIZE_MAX;
+    std::set<uint64_t> failing;
+
+    Clock::time_point now() const { return Clock::time_point(std::chrono::seconds(drawn.size())); }
+    run::Session::Results draw(std::vector<cases::Case> cases,
+                               const std::function<bool(size_t)>& on_progress) {
+        run::Session::Results results;
+        bool goes_on = true;
+        for (const cases::Case& c : cases) {
+            results.records.push_back(run::make_record(c));
+        }
+        for (size_t k = cases.size(); k-- > 0;) {
+            results.interrupted = drawn.size() >= interrupted_at;
+            report::CaseRecord& record = results.records[k];
+            if (results.interrupted || !goes_on) {
+                record.status =
+                    results.interrupted ? report::Status::not_run : report::Status::skip;
+                continue;
+            }
+            const uint64_t number = std::stoull(cases[k].id);
+            drawn.insert(number);
+            record.status = report::Status::pass;
+            // Candidates of a reduction have small numbers, too.
+            if (failing.contains(number)) {
+                record.status = report::Status::fail;
+                diff::FindingGroup group;
+                group.rule = "cover.inside";
+                group.level = cases::Profile::vulkan;
+                group.count = 1;
+                record.groups.push_back(group);
+            }
+            goes_on = on_progress(drawn.size());
+        }
+        return results;
+    }
+};
+
+Hunt hunt_on(Device& device, HuntOptions options, const std::vector<Waiting>& waiting = {}) {
+    options.source = [] { return std::make_unique<PlainSource>(); };
+    options.now = [&device] { return device.now(); };
+    return Hunt(
+        options,
+        [&device](std::vector<cases::Case> cases, const auto& on_progress) {
+            return device.draw(std::move(cases), on_progress);
+        },
+        {}, waiting, [](const HuntCounts&, size_t) {});
+}
+
+// What a hunt has not judged when it ends, another one judges, and each case is judged once.
+void expect_resumed(Hunt& ended, Device& device, size_t judged) {
+    EXPECT_EQ(ended.counts().drawn, judged);
+    EXPECT_EQ(ended.counts().next_case, kChunk);
+    EXPECT_THAT(ended.left(), SizeIs(kChunk - judged));
+    HuntOptions rest;
+    rest.first_case = ended.counts().next_case;
+    rest.left = ended.left();
+    rest.most_cases = kChunk + 16;
+    Hunt second = hunt_on(device, rest);
+    EXPECT_EQ(second.left(), ended.left());
+    Hunt::State state = Hunt::State::goes_on;
+    while (state == Hunt::State::goes_on) {
+        state = second.step();
+    }
+    EXPECT_EQ(state, Hunt::State::done);
+    EXPECT_THAT(second.left(), IsEmpty());
+    EXPECT_EQ(second.counts().drawn, kChunk + 16 - judged);
+    ASSERT_THAT(device.drawn, SizeIs(kChunk + 16));
+    uint64_t next = 0;
+    for (const uint64_t number : device.drawn) {
+        EXPECT_EQ(number, next++);
+    }
+}
+
+TEST(Hunt, EndsWithinAChunkWhenItsTimeIsOver) {
+    Device device;
+    HuntOptions options;
+    options.deadline = Clock::time_point(std::chrono::seconds(100));
+    Hunt hunt = hunt_on(device, options);
+    EXPECT_EQ(hunt.step(), Hunt::State::done);
+    expect_resumed(hunt, device, 100);
+}
+
+TEST(Hunt, KeepsWhatWasJudgedBeforeASignal) {
+    Device device;
+    device.interrupted_at = 50;
+    Hunt hunt = hunt_on(device, {});
+    EXPECT_EQ(hunt.step(), Hunt::State::interrupted);
+    device.interrupted_at = SIZE_MAX;
+    expect_resumed(hunt, device, 50);
+}
+
+// Failures among what was judged are not lost, and a reduction ends in time, too.
+TEST(Hunt, AReductionThatIsCutWaits) {
+    Device device;
+    device.failing = {0, 1000};
+    HuntOptions options;
+    options.deadline = Clock::time_point(std::chrono::seconds(100));
+    Hunt first = hunt_on(device, options);
+    EXPECT_EQ(first.step(), Hunt::State::done);
+    EXPECT_EQ(first.counts().failed, 1U);
+    ASSERT_THAT(first.waiting(), SizeIs(1));
+    EXPECT_EQ(first.waiting()[0].number, 1000U);
+
+    device = {};
+    for (uint64_t number = 0; number < kChunk; ++number) {
+        device.failing.insert(number);  // those of the reduction, too
+    }
+    options.first_case = first.counts().next_case;
+    options.deadline = Clock::time_point(std::chrono::seconds(5));
+    Hunt second = hunt_on(device, options, first.waiting());
+    EXPECT_EQ(second.step(), Hunt::State::done);
+    EXPECT_EQ(second.counts().reductions, 1U);
+    EXPECT_THAT(device.drawn, SizeIs(5));
+    EXPECT_THAT(second.entries(), IsEmpty());
+    ASSERT_THAT(second.waiting(), SizeIs(1));
+    EXPECT_EQ(second.waiting()[0].number, 1000U);
+    EXPECT_EQ(second.counts().unrepeated, 0U);
+}
+
+}  // namespace
+}  // namespace fuzz
