@@ -230,6 +230,33 @@ bool explains(const Entry& entry, const Symptom& symptom,
     });
 }
 
+namespace {
+
+// Whether a case that is as small as it can be leads with what an earlier entry explains by
+// something special that the case needs: what it shows besides follows from that. A stencil that
+// counts where a scissor lets fragments through is the scissor's.
+bool is_consequence(const Entry& earlier, const Entry& fresh) {
+    const std::optional<Symptom> first =
+        fresh.shown_first.empty() ? std::nullopt : parse_symptom(fresh.shown_first);
+    return first && fresh.is_minimal &&
+           !without(without(earlier.essentials, kNumbers), kSamples).empty() &&
+           explains(earlier, *first, fresh.essentials);
+}
+
+// Whether a fresh entry shows the very same, needing all but one of several keys: that one was
+// needed for the earlier case's numbers alone.
+bool needs_one_less(const Entry& earlier, const Entry& fresh) {
+    constexpr size_t kSeveral = 3;
+    const std::set<std::string> keys = without(fresh.essentials, kNumbers);
+    const std::set<std::string> more = without(earlier.essentials, kNumbers);
+    return earlier.symptom.kind == fresh.symptom.kind &&
+           earlier.symptom.rule == fresh.symptom.rule &&
+           earlier.symptom.level == fresh.symptom.level && keys.size() >= kSeveral &&
+           more.size() == keys.size() + 1 && is_within(keys, more);
+}
+
+}  // namespace
+
 bool is_same_cause(const Entry& earlier, const Entry& fresh) {
     if (earlier.symptom.status != fresh.symptom.status ||
         earlier.symptom.signal != fresh.symptom.signal ||
@@ -239,8 +266,14 @@ bool is_same_cause(const Entry& earlier, const Entry& fresh) {
     if (fresh.symptom.status != Status::fail) {
         return earlier.essentials == fresh.essentials;
     }
+    if (is_consequence(earlier, fresh)) {
+        return true;
+    }
     if (is_value(earlier.symptom) != is_value(fresh.symptom)) {
         return false;
+    }
+    if (needs_one_less(earlier, fresh)) {
+        return true;
     }
     const bool is_same_rule =
         std::any_of(fresh.also.begin(), fresh.also.end(),

@@ -215,7 +215,16 @@ FragDepth read_frag_depth(LeafContext& context, const TomlValue& value) {
     context.known_keys(value, "frag_depth", {"value", "other", "where", "from", "layout"});
     read_written(context, value, "value", d.value);
     read_written(context, value, "other", d.other);
-    context.read(value, "where", d.where);
+    if (const TomlValue* where = value.find("where")) {
+        // A depth is written by the pixel, not by the face.
+        const std::span<const std::string_view> words(kWords<Discard>);
+        const auto pattern =
+            context.word(*where, "where", words.first(static_cast<size_t>(Discard::front)));
+        if (!pattern) {
+            return d;
+        }
+        d.where = static_cast<Discard>(*pattern);
+    }
     context.read(value, "layout", d.layout);
     if (const TomlValue* from = value.find("from")) {
         d.is_coord = true;
@@ -231,10 +240,6 @@ FragDepth read_frag_depth(LeafContext& context, const TomlValue& value) {
         context.error(value.where,
                       "other is written where the pattern `where` says: they need value and each "
                       "other");
-    } else if (d.where == Discard::front || d.where == Discard::back) {
-        context.error(value.find("where")->where,
-                      "a depth is written by the pixel; where is \"odd-columns\", \"odd-rows\" or "
-                      "\"checker\"");
     }
     return d;
 }

@@ -186,7 +186,13 @@ struct Matcher {
         if (!is_folder && std::filesystem::is_regular_file(word, ignored)) {
             return word + " is no case file (*.toml)";
         }
-        const std::string id = is_folder ? "" : nearest_name(word, ids);
+        // The parameters of a leaf with some left out mean the first leaf that has them.
+        const auto whole = std::ranges::find_if(ids, [&](const std::string& id) {
+            return id.starts_with(word) && id[word.size()] == ',';
+        });
+        const std::string id = is_folder            ? ""
+                               : whole != ids.end() ? *whole
+                                                    : nearest_name(word, ids);
         const std::string folder = is_folder ? bare : id.empty() ? nearest_name(bare, folders) : "";
         if (id.empty() && folder.empty() && word.find(':') != std::string::npos) {
             if (const std::string leaves = leaves_of(part_before_leaf(word)); !leaves.empty()) {

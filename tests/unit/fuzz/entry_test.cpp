@@ -77,6 +77,35 @@ TEST(SameCause, NumbersAreChanceBesideAKey) {
                       entry("value of fragcoord.w [vulkan]", {"several samples", "unequal w"})));
 }
 
+TEST(SameCause, WhatFollowsFromAKnownFailureIsNoNews) {
+    const Entry scissor =
+        entry("extra of scissor.half-open [vulkan]", {"draw.scissor", "several samples"});
+    Entry stencil = entry("value of stencil.operation [vulkan]",
+                          {"draw.scissor", "draw.stencil.pass", "several samples"});
+    stencil.is_minimal = true;
+    EXPECT_FALSE(is_same_cause(scissor, stencil));  // it does not show that failure
+    stencil.shown_first = "extra of scissor.half-open [vulkan]";
+    EXPECT_TRUE(is_same_cause(scissor, stencil));
+    const Entry plain = entry("extra of scissor.half-open [vulkan]", {"several samples"});
+    EXPECT_FALSE(is_same_cause(plain, stencil));  // which has nothing to blame
+    stencil.essentials.erase("draw.scissor");
+    EXPECT_FALSE(is_same_cause(scissor, stencil));  // it fails without the scissor
+}
+
+TEST(SameCause, OneKeyLessOfSeveralIsTheSame) {
+    const std::set<std::string> keys = {"draw.attribute", "draw.attribute.auxiliary=centroid",
+                                        "draw.depth.compare", "draw.sample_mask"};
+    const Entry masked = entry("value of interp.centroid [direct3d]", keys);
+    std::set<std::string> fewer = keys;
+    fewer.erase("draw.sample_mask");
+    fewer.insert("sloping depth");
+    EXPECT_TRUE(is_same_cause(masked, entry("value of interp.centroid [direct3d]", fewer)));
+    EXPECT_FALSE(is_same_cause(masked, entry("value of interp.centroid [practice]", fewer)));
+    EXPECT_FALSE(is_same_cause(masked, entry("value of interp.sample [direct3d]", fewer)));
+    fewer.erase("draw.depth.compare");
+    EXPECT_FALSE(is_same_cause(masked, entry("value of interp.centroid [direct3d]", fewer)));
+}
+
 TEST(SameCause, AKnownOneThatIsGraverIsNews) {
     Entry known = entry("value of depth.linear [practice]", {"several samples"});
     known.is_known = true;
