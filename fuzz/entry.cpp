@@ -232,27 +232,42 @@ bool explains(const Entry& entry, const Symptom& symptom,
 
 namespace {
 
-// Whether a case that is as small as it can be leads with what an earlier entry explains by
-// something special that the case needs: what it shows besides follows from that. A stencil that
-// counts where a scissor lets fragments through is the scissor's.
-bool is_consequence(const Entry& earlier, const Entry& fresh) {
-    const std::optional<Symptom> first =
-        fresh.shown_first.empty() ? std::nullopt : parse_symptom(fresh.shown_first);
-    return first && fresh.is_minimal &&
-           !without(without(earlier.essentials, kNumbers), kSamples).empty() &&
-           explains(earlier, *first, fresh.essentials);
+// Whether a word says which fragments there are: a state of a draw, not what it writes.
+bool decides_hits(const std::string& word) {
+    return word.starts_with("draw.") && !word.starts_with("draw.attribute") &&
+           !word.starts_with("draw.color");
 }
 
-// Whether a fresh entry shows the very same, needing all but one of several keys: that one was
-// needed for the earlier case's numbers alone.
-bool needs_one_less(const Entry& earlier, const Entry& fresh) {
-    constexpr size_t kSeveral = 3;
+// Whether an earlier entry hits too much or too little by something special that the fresh one
+// needs, too: whatever hits write, and later draws find, is wrong with them. A stencil that counts
+// where a scissor lets fragments through is the scissor's.
+bool is_consequence(const Entry& earlier, const Entry& fresh) {
+    const std::set<std::string> keys = without(earlier.essentials, kNumbers);
+    return !is_value(earlier.symptom) && std::ranges::any_of(keys, decides_hits) &&
+           is_within(keys, fresh.essentials);
+}
+
+// "draw.discard" of "draw.discard=front".
+std::set<std::string> names_of(const std::set<std::string>& words) {
+    std::set<std::string> names;
+    for (const std::string& word : words) {
+        names.insert(word.substr(0, word.find('=')));
+    }
+    return names;
+}
+
+// Whether a fresh entry shows the very same by the same keys with other words, or by all but one of
+// several: that one was needed for the earlier case's numbers alone.
+bool shows_the_same(const Entry& earlier, const Entry& fresh) {
     const std::set<std::string> keys = without(fresh.essentials, kNumbers);
-    const std::set<std::string> more = without(earlier.essentials, kNumbers);
-    return earlier.symptom.kind == fresh.symptom.kind &&
-           earlier.symptom.rule == fresh.symptom.rule &&
-           earlier.symptom.level == fresh.symptom.level && keys.size() >= kSeveral &&
-           more.size() == keys.size() + 1 && is_within(keys, more);
+    const std::set<std::string> others = without(earlier.essentials, kNumbers);
+    if (earlier.symptom.kind != fresh.symptom.kind || earlier.symptom.rule != fresh.symptom.rule ||
+        earlier.symptom.level != fresh.symptom.level) {
+        return false;
+    }
+    const bool is_one_less =
+        keys.size() >= 3 && others.size() == keys.size() + 1 && is_within(keys, others);
+    return is_one_less || (keys.size() >= 2 && names_of(keys) == names_of(others));
 }
 
 }  // namespace
@@ -272,7 +287,7 @@ bool is_same_cause(const Entry& earlier, const Entry& fresh) {
     if (is_value(earlier.symptom) != is_value(fresh.symptom)) {
         return false;
     }
-    if (needs_one_less(earlier, fresh)) {
+    if (shows_the_same(earlier, fresh)) {
         return true;
     }
     const bool is_same_rule =

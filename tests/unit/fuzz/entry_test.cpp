@@ -77,19 +77,38 @@ TEST(SameCause, NumbersAreChanceBesideAKey) {
                       entry("value of fragcoord.w [vulkan]", {"several samples", "unequal w"})));
 }
 
-TEST(SameCause, WhatFollowsFromAKnownFailureIsNoNews) {
+TEST(SameCause, WhatFollowsFromWrongHitsIsNoNews) {
     const Entry scissor =
         entry("extra of scissor.half-open [vulkan]", {"draw.scissor", "several samples"});
-    Entry stencil = entry("value of stencil.operation [vulkan]",
-                          {"draw.scissor", "draw.stencil.pass", "several samples"});
-    stencil.is_minimal = true;
-    EXPECT_FALSE(is_same_cause(scissor, stencil));  // it does not show that failure
-    stencil.shown_first = "extra of scissor.half-open [vulkan]";
-    EXPECT_TRUE(is_same_cause(scissor, stencil));
-    const Entry plain = entry("extra of scissor.half-open [vulkan]", {"several samples"});
-    EXPECT_FALSE(is_same_cause(plain, stencil));  // which has nothing to blame
-    stencil.essentials.erase("draw.scissor");
-    EXPECT_FALSE(is_same_cause(scissor, stencil));  // it fails without the scissor
+    const std::set<std::string> needs = {"draw.scissor", "draw.stencil.pass", "several samples"};
+    EXPECT_TRUE(is_same_cause(scissor, entry("value of stencil.operation [vulkan]", needs)));
+    EXPECT_TRUE(is_same_cause(scissor, entry("value of discard.fragment [direct3d]", needs)));
+    // Without the scissor, or with one sample, it is another thing.
+    EXPECT_FALSE(is_same_cause(scissor, entry("value of stencil.operation [vulkan]",
+                                              {"draw.stencil.pass", "several samples"})));
+    EXPECT_FALSE(is_same_cause(scissor, entry("value of stencil.operation [vulkan]",
+                                              {"draw.scissor", "draw.stencil.pass"})));
+    // Of wrong values, and of hits with nothing to blame, nothing follows.
+    EXPECT_FALSE(is_same_cause(entry("value of depth.linear [vulkan]", {"draw.scissor"}),
+                               entry("value of stencil.operation [vulkan]", needs)));
+    EXPECT_FALSE(is_same_cause(entry("extra of cover.outside [vulkan]", {"several samples"}),
+                               entry("value of stencil.operation [vulkan]", needs)));
+    EXPECT_FALSE(is_same_cause(
+        entry("missing of cover.inside [vulkan]", {"draw.color.value", "draw.attribute"}),
+        entry("value of blend.equation [vulkan]",
+              {"draw.color.value", "draw.attribute", "color"})));
+}
+
+TEST(SameCause, OtherWordsOfTheSameKeysAreTheSame) {
+    const Entry back =
+        entry("value of query.occlusion [practice]",
+              {"draw.discard=back", "draw.early_tests=true", "draw.query=occlusion"});
+    std::set<std::string> odd = {"draw.discard=odd-rows", "draw.early_tests=true",
+                                 "draw.query=occlusion-precise"};
+    EXPECT_TRUE(is_same_cause(back, entry("value of query.occlusion [practice]", odd)));
+    EXPECT_FALSE(is_same_cause(back, entry("value of query.occlusion [vulkan]", odd)));
+    odd.erase("draw.early_tests=true");
+    EXPECT_FALSE(is_same_cause(back, entry("value of query.occlusion [practice]", odd)));
 }
 
 TEST(SameCause, OneKeyLessOfSeveralIsTheSame) {
