@@ -58,10 +58,10 @@ class Suite(ProgramTest):
         self.assertEqual([told(c) for c in one], [told(two[c["id"]]) for c in one])
 
     def test_the_reference_passes_its_own_judge(self):
-        # A half of the quick cases, another one as the suite grows: it draws by rationals, a minute for all of them.
+        # A quarter of the quick cases, another one as the suite grows: it draws by rationals, a minute for all of them.
         count = len(self.edgecase("list", "--ids", check=0).stdout.splitlines())
-        half = f"{count % 2 + 1}/2"
-        for words in (("--quick", "--shard", half), ("multisample/**", "clip/**"), ("multisample/**", "clip/**", "--profile", "vulkan")):
+        quarter = f"{count % 4 + 1}/4"
+        for words in (("--quick", "--shard", quarter), ("multisample/**", "clip/**"), ("multisample/**", "clip/**", "--profile", "vulkan")):
             self.edgecase("run", "-o", self.out, "--renderer", "reference", *words, "--timeout", "100", check=0)
             results = self.results()
             left_out = {case["id"]: case["reason"] for case in results["cases"] if case["status"] == "unsupported"}
