@@ -32,7 +32,8 @@ bool move_samples_to_first(cases::Case& c);
 bool discard_nothing(cases::Case& c);
 bool test_late(cases::Case& c);
 
-// Whatever a query must not count: draws that have one lose their tests, discards, masks and culling.
+// Whatever a query must not count: draws that have one lose their tests, discards, masks and
+// culling.
 bool show_all_to_queries(cases::Case& c);
 
 // Depth.
