@@ -62,7 +62,7 @@ class Hunts(FuzzTest):
         self.assertTrue(ledger["is_finished"])
         self.assertEqual(ledger["unjudged_cases"], 0)
         self.assertLess(ledger["judged_cases"] + ledger["unsupported_cases"] + ledger["empty_cases"], 4097)
-        self.assertGreater(ledger["judged_cases"], 2000)
+        self.assertGreater(ledger["judged_cases"], 1800)
         # lavapipe's scissor that ends beyond 65535 draws nothing (docs/findings/lavapipe-scissor-16-bits.md).
         scissor = [c for c in ledger["causes"] if c["essentials"] == ["draw.scissor", "draw.scissor beyond 32767"]]
         self.assertTrue(scissor, done.stdout)
@@ -124,7 +124,7 @@ class Hunts(FuzzTest):
     def test_the_same_seed_finds_the_same(self):
         for folder in ("a", "b"):
             self.fuzz("--cases=96", fault="flip-pixel@*", out=self.folder / folder, check=1)
-        self.assertGreater(len(self.found("a")), 2)
+        self.assertGreater(len(self.found("a")), 1)
         self.assertEqual(self.found("a"), self.found("b"))
         self.fuzz("--cases=96", "--seed=2", fault="flip-pixel@*", out=self.folder / "c", check=1)
         self.assertNotEqual(self.found("a"), self.found("c"))
