@@ -240,7 +240,8 @@ class OneJob(Jobs):
         for number, attempt in ((7, 1), (7, 2), (8, 1)):
             done = self.shell(hunt, flow["env"] | {"SHARD": "1", "GITHUB_RUN_ID": str(number),
                                                    "GITHUB_RUN_ATTEMPT": str(attempt)}, "flip-pixel@*")
-            self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+            # The same seed finds what is known by then.
+            self.assertEqual(done.returncode, 0 if attempt == 2 else 1, done.stdout + done.stderr)
             self.assertTrue((self.folder / f"hunts/{number}-{attempt}/fuzz.json").exists())
 
     def test_gitlab(self):
