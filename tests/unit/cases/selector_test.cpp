@@ -166,6 +166,8 @@ TEST(Selector, SaysWhatIsWrong) {
          "error: no case matches coverage/half-squar; did you mean coverage/half-square?"},
         {"coverage/size:k=3,o=64",
          "error: no case matches coverage/size:k=3,o=64; did you mean coverage/size:k=1,o=64?"},
+        {"coverage/size:k=1",
+         "error: no case matches coverage/size:k=1; did you mean coverage/size:k=1,o=64?"},
         {"coverage/size:winding=reversed",
          "error: no case matches coverage/size:winding=reversed; coverage/size has 2 leaves, the "
          "first is coverage/size:k=1,o=64"},
