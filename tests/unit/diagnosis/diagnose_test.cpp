@@ -25,7 +25,7 @@
 #include "cases/model/sample.hpp"
 #include "diagnosis/condition.hpp"
 #include "diagnosis/hypothesis.hpp"
-#include "diff/delivered.hpp"
+#include "diff/delivered/delivered.hpp"
 #include "folders.hpp"
 #include "rasterizers/strength/strength.hpp"
 #include "run/judge.hpp"

@@ -9,7 +9,7 @@
 #include <map>
 
 #include "cases/load/loader.hpp"
-#include "diff/delivered.hpp"
+#include "diff/delivered/delivered.hpp"
 #include "folders.hpp"
 #include "run/order.hpp"
 #include "run/worker/backend.hpp"
