@@ -319,11 +319,8 @@ int diff_command(const Program& program, const DiffOptions& given) {
         const auto finish = [&, k] {
             settle(record, *expected, o.require_support);
             if (!record.findings.empty()) {
-                const diff::Finding& f = report::leading_finding(record);
-                record.explain =
-                    explain_line(program, o, record.id, options.subpixel_bits) + " --pixel " +
-                    std::to_string(f.x) + "," + std::to_string(f.y) +
-                    (c.target.samples > 1 ? " --sample " + std::to_string(f.sample) : "");
+                record.explain = explain_line(program, o, record.id, options.subpixel_bits) +
+                                 report::sample_options(report::leading_finding(record), c.target);
             }
             if (auto written = journal->write_end(record); !written && failure.empty()) {
                 failure = written.error().message;

@@ -6,12 +6,15 @@
 
 #include <algorithm>
 
+#include "cases/base/counted.hpp"
 #include "cases/base/number_text.hpp"
 #include "cases/model/rule.hpp"
 #include "cases/model/sample.hpp"
 #include "diff/verdict.hpp"
 #include "ref/blit/blit.hpp"
+#include "ref/color/color.hpp"
 #include "ref/exercise/exercise.hpp"
+#include "ref/expectation/counted.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/expectation/explain.hpp"
 #include "ref/reason/reason.hpp"
@@ -135,14 +138,9 @@ std::string triangle_text(const ref::TriangleExplanation& t) {
 
 // The sample's surroundings, one character a pixel (its sample of the same number): what each must
 // be, with the sample in brackets.
-std::string drawing(const cases::Case& c, const ref::Limits& limits, cases::Profile profile,
+std::string drawing(const cases::Case& c, const ref::Expectation& expectation,
                     cases::SampleId sample) {
     constexpr uint32_t kRadius = 6;  // pixels
-    constexpr uint64_t kMaxPixels = uint64_t{1} << 20;
-    if (uint64_t{c.target.width} * c.target.height > kMaxPixels) {
-        return {};
-    }
-    const ref::Expectation expectation = ref::expect(c, limits, profile);
     const auto begin = [](uint32_t at) { return at > kRadius ? at - kRadius : 0; };
     const uint32_t left = begin(sample.x), top = begin(sample.y);
     const uint32_t right = std::min(sample.x + kRadius, c.target.width - 1);
@@ -168,6 +166,91 @@ std::string drawing(const cases::Case& c, const ref::Limits& limits, cases::Prof
             text += mark;
         }
         text += sample.x == right && y == sample.y ? "]\n" : "\n";
+    }
+    return text;
+}
+
+// How the colour comes about, fragment by fragment.
+std::string color_text(const cases::Case& c, const ref::Expectation& expectation, size_t index,
+                       cases::SampleId sample) {
+    if (!c.target.color) {
+        return {};
+    }
+    const bool is_one_of = !expectation.samples[index].hits.is_decided();
+    std::string text =
+        fmt::format("the colour{}:\n", is_one_of ? ", where the first of several allowed sets of "
+                                                   "fragments is drawn"
+                                                 : "");
+    for (const ref::ColorStep& step : ref::ColorReference(c, expectation).steps(index, sample)) {
+        std::string name;
+        if (step.triangle) {
+            const cases::Triangle& t = expectation.triangles[*step.triangle];
+            name = fmt::format("triangle {} of draw {} ", t.primitive, t.draw);
+        }
+        text += report::wrapped(fmt::format("    {}{}\n", name, step.sentence), 100);
+    }
+    return text;
+}
+
+std::string number_text(const ref::CountBounds& bounds) {
+    return bounds.least == bounds.most ? fmt::format("{}", bounds.least)
+                                       : fmt::format("{} to {}", bounds.least, bounds.most);
+}
+
+// What the queries count of a sample.
+std::string counted_text(const cases::Case& c, const ref::Expectation& expectation, size_t index) {
+    std::string text;
+    const ref::SampleExpectation& sample = expectation.samples[index];
+    const std::span<const ref::CountedDraw> counted = expectation.counted_of(sample);
+    for (uint32_t draw = 0; draw < c.draws.size(); ++draw) {
+        if (c.draws[draw].query == cases::Query::none) {
+            continue;
+        }
+        const auto found = std::ranges::find(counted, draw, &ref::CountedDraw::draw);
+        ref::CountBounds bounds;
+        if (found != counted.end()) {
+            bounds =
+                ref::counted_at(counted, static_cast<size_t>(found - counted.begin()),
+                                sample.hits.total_min, sample.hits.total_max, expectation.profile);
+        }
+        text += fmt::format("the query of draw {} counts {} here\n", draw, number_text(bounds));
+    }
+    return text;
+}
+
+// What the queries give in the end.
+std::string queries_text(const cases::Case& c, const ref::Expectation& expectation) {
+    std::string text;
+    const std::vector<ref::CountBounds> all =
+        ref::count_bounds(expectation, c.draws.size(), ref::HitsAt());
+    for (size_t draw = 0; draw < all.size(); ++draw) {
+        const std::string number = number_text(all[draw]);
+        switch (c.draws[draw].query) {
+            case cases::Query::none:
+                break;
+            case cases::Query::occlusion_precise:
+                text += fmt::format("the query of draw {} has to give {}\n", draw, number);
+                break;
+            case cases::Query::occlusion:
+                text += fmt::format(
+                    "the query of draw {} is not precise: of {} samples it has to give {}\n", draw,
+                    number,
+                    all[draw].most == 0    ? "0"
+                    : all[draw].least == 0 ? "any number"
+                                           : "any number but 0");
+                break;
+        }
+    }
+    return text;
+}
+
+std::string head_text(const cases::Case& c) {
+    std::string text = fmt::format("{}\n    {}\n", c.id, c.description);
+    for (const std::string& id : c.rules) {
+        if (const cases::Rule* rule = cases::find_rule(id)) {
+            text +=
+                fmt::format("    {} ({}): {}\n", rule->id, to_string(rule->profile), rule->title);
+        }
     }
     return text;
 }
@@ -224,18 +307,13 @@ std::string rule_text(const cases::Rule& rule, const std::vector<cases::Case>& s
 
 std::string explain_text(const cases::Case& c, const ref::Limits& limits, cases::Profile profile,
                          cases::SampleId sample) {
-    std::string text = fmt::format("{}\n    {}\n", c.id, c.description);
     if (c.blit) {
-        return text + fmt::format("\ntexel ({}, {}): {}\n", sample.x, sample.y,
-                                  ref::BlitReference(c).explain(sample.x, sample.y));
+        return fmt::format("{}\n    {}\n", c.id, c.description) +
+               fmt::format("\ntexel ({}, {}): {}\n", sample.x, sample.y,
+                           ref::BlitReference(c).explain(sample.x, sample.y));
     }
     const ref::SampleExplanation s = ref::explain_sample(c, limits, profile, sample);
-    for (const std::string& id : c.rules) {
-        if (const cases::Rule* rule = cases::find_rule(id)) {
-            text +=
-                fmt::format("    {} ({}): {}\n", rule->id, to_string(rule->profile), rule->title);
-        }
-    }
+    std::string text = head_text(c);
     text +=
         fmt::format("\n{}, sample {} at ({}, {}); profile {}, {} subpixel bits\n",
                     cases::pixel_text(c.target, sample), sample.sample, ref::to_text(s.position.x),
@@ -273,9 +351,19 @@ std::string explain_text(const cases::Case& c, const ref::Limits& limits, cases:
     for (const ref::SetExplanation& set : s.sets) {
         text += report::wrapped(fmt::format("    {}\n", set.sentence), 100);
     }
-    text += drawing(c, limits, profile, sample);
+    // Of what the whole target has to show; large targets take too long.
+    constexpr uint64_t kMaxPixels = uint64_t{1} << 20;
+    std::optional<ref::Expectation> all;
+    if (uint64_t{c.target.width} * c.target.height <= kMaxPixels) {
+        all = ref::expect(c, limits, profile);
+        text += drawing(c, *all, sample);
+    }
     text += "\n" + conclusion(s.hits) + "\n";
     text += allowed_hits(s.hits) + "\n";
+    if (all) {
+        const size_t index = cases::index_of(c.target, sample);
+        text += counted_text(c, *all, index) + color_text(c, *all, index, sample);
+    }
     if (s.stencils) {
         text += s.stencils->all()
                     ? "the stencil may be anything then\n"
@@ -290,7 +378,20 @@ std::string explain_text(const cases::Case& c, const ref::Limits& limits, cases:
             }
         }
     }
-    return text;
+    return text + (all ? queries_text(c, *all) : "");
+}
+
+std::string explain_text(const cases::Case& c, const ref::Limits& limits, cases::Profile profile) {
+    const ref::Expectation all = ref::expect(c, limits, profile);
+    const uint64_t samples = all.samples.size();
+    return head_text(c) +
+           fmt::format("\n{} of {}; profile {}, {} subpixel bits\n",
+                       all.either_samples == 0 ? fmt::format("{} must be covered", all.must_samples)
+                                               : fmt::format("{} must be covered and {} are free",
+                                                             all.must_samples, all.either_samples),
+                       cases::counted(samples, "sample"), to_string(profile),
+                       limits.subpixel_bits) +
+           queries_text(c, all) + "--pixel X,Y explains a sample\n";
 }
 
 }  // namespace cli

@@ -20,6 +20,10 @@ namespace cli {
 std::string explain_text(const cases::Case& c, const ref::Limits& limits, cases::Profile profile,
                          cases::SampleId sample);
 
+// The same of a case as a whole, which has no blit: how many samples must be covered, and what its
+// queries have to give.
+std::string explain_text(const cases::Case& c, const ref::Limits& limits, cases::Profile profile);
+
 // A rule as docs/rules.md tells it: title, profile, text, anchors, code, and the cases that name it
 // (their ids, without matrix parts).
 std::string rule_text(const cases::Rule& rule, const std::vector<cases::Case>& suite);

@@ -161,9 +161,15 @@ int explain_command(const Program& program, const ExplainOptions& options) {
               std::to_string(target.height) + " pixels with " + counted(target.samples, "sample") +
               (layered ? " and " + counted(target.layers, "layer") : "")}});
     }
+    if (!options.has_pixel && c->blit) {
+        return report_stop(
+            {report::kExitUsage, {"'" + c->id + "' is a blit: name one of its texels by --pixel"}});
+    }
     ref::Limits limits;
     limits.subpixel_bits = static_cast<int>(options.subpixel_bits);
-    const std::string text = explain_text(*c, limits, options.profile,
+    const std::string text =
+        !options.has_pixel ? explain_text(*c, limits, options.profile)
+                           : explain_text(*c, limits, options.profile,
                                           {options.x, options.y, options.sample, options.layer});
     say(text + (text.ends_with('\n') ? "" : "\n"));
     return report::kExitOk;

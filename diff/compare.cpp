@@ -68,6 +68,7 @@ class Comparison {
         const size_t count = capture_.sample_count();
         verdict_.expected_hits.resize(count);
         verdict_.device_hits.resize(count);
+        verdict_.has_counted = case_.target.has_instruments;
         verdict_.marks.assign(count, SampleMark::ok);
         if (case_.target.has_instruments) {
             verdict_.error_ratios.assign(count, -1.0F);

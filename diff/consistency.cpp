@@ -289,6 +289,18 @@ std::string why_of(const cases::Derivation& derivation, const Consistency& found
            "its original (Invariance, Corollary 2)";
 }
 
+// Why the query of a draw has to give as much in both pictures.
+std::string why_of_count(const cases::Derivation& derivation) {
+    std::string what;
+    if (derivation.kind == cases::RelationKind::door) {
+        const cases::DoorRow& door = cases::row_of(derivation.variation.door);
+        std::string_view does = door.does;
+        does.remove_suffix(1);  // its full stop
+        what = fmt::format("through the door {} ({}) ", door.word, does);
+    }
+    return what + "the same samples pass, so the query counts as many as in the plain picture";
+}
+
 std::string show_bits(uint32_t plane, uint64_t bits) {
     if (plane == kCounts) {
         return count_text(bits);
@@ -390,15 +402,18 @@ void add_differences(const cases::Case& c, std::span<const cases::Derivation> de
             if (demanded > verdict.profile) {
                 continue;
             }
-            Finding finding = finding_at(FindingKind::value, c.target,
-                                         cases::sample_at(c.target, difference.sample));
+            const bool is_count = difference.plane == kCounts;
+            Finding finding = is_count ? finding_of_case(FindingKind::value)
+                                       : finding_at(FindingKind::value, c.target,
+                                                    cases::sample_at(c.target, difference.sample));
             finding.rule = rule->id;
             finding.level = demanded;
             finding.quantity = fmt::format("{}, {}", plane_name(difference.plane, difference.word),
                                            derivations[k].name);
             finding.expected = show_bits(difference.plane, difference.expected);
             finding.got = show_bits(difference.plane, difference.got);
-            finding.why = why_of(derivations[k], found[k]);
+            finding.why =
+                is_count ? why_of_count(derivations[k]) : why_of(derivations[k], found[k]);
             finding.door = door;
             verdict.add(std::move(finding), c.target);
         }

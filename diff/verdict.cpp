@@ -43,26 +43,32 @@ bool Verdict::keeps(FindingKind kind, std::string_view rule, cases::Profile of_l
 }
 
 void Verdict::add(Finding finding, const cases::Target& target) {
+    level = ok() ? finding.level : std::min(level, finding.level);
+    if (!finding.of_case) {
+        mark(finding, target);
+    }
+    const bool is_kept = keeps(finding.kind, finding.rule, finding.level);
+    count(finding, 1);
+    if (is_kept) {
+        findings.push_back(std::move(finding));
+    }
+}
+
+void Verdict::mark(const Finding& finding, const cases::Target& target) {
     const cases::SampleId id = sample_of(finding);
     const size_t index = cases::index_of(target, id);
     if (finding.kind == FindingKind::value && finding.ratio > 0) {
         raise_error(index, finding.ratio);
     }
-    const bool first = ok();
+    const bool first = !std::exchange(has_wrong_samples, true);
     const uint32_t row = id.layer * target.height + id.y;
     min_x = first ? id.x : std::min(min_x, id.x);
     min_y = first ? row : std::min(min_y, row);
     max_x = first ? id.x : std::max(max_x, id.x);
     max_y = first ? row : std::max(max_y, row);
-    level = first ? finding.level : std::min(level, finding.level);
-    const bool is_kept = keeps(finding.kind, finding.rule, finding.level);
-    count(finding, 1);
     if (index < marks.size() &&
         (marks[index] == SampleMark::ok || marks[index] == SampleMark::either)) {
         marks[index] = mark_of(finding.kind);
-    }
-    if (is_kept) {
-        findings.push_back(std::move(finding));
     }
 }
 

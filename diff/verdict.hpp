@@ -49,6 +49,8 @@ struct Finding {
     double ratio = 0;                    // value findings: error in budgets
     std::optional<uint32_t> layer = {};  // of a target with several layers
     std::string door = {};               // of a picture through a door that differs: its word
+    // Of what the whole case gave, as a query's count: no sample is wrong, and the place is (0, 0).
+    bool of_case = false;
     static void fields(auto&& visit, auto&... f) {
         visit("kind", f.kind...);
         visit("rule", f.rule...);
@@ -63,6 +65,7 @@ struct Finding {
         visit("why", f.why...);
         visit("ratio", f.ratio...);
         visit({"door", cases::kLeftOutIfEmpty}, f.door...);
+        visit({"of_case", cases::kLeftOutIfEmpty}, f.of_case...);
     }
 };
 
@@ -105,6 +108,12 @@ inline Finding finding_at(FindingKind kind, const cases::Target& target,
     set_sample(finding, target, id);
     return finding;
 }
+inline Finding finding_of_case(FindingKind kind) {
+    Finding finding;
+    finding.kind = kind;
+    finding.of_case = true;
+    return finding;
+}
 // What the comparison saw at a sample, for pictures: one byte a sample.
 enum class SampleMark : uint8_t { ok, either, missing, extra, double_hit, value, order };
 
@@ -122,7 +131,8 @@ struct Outcome {
     }
     std::optional<uint64_t> wrong_samples;            // which may have several findings each
     cases::Profile level = cases::Profile::direct3d;  // loosest level among all findings
-    // Bounding box of the wrong samples, inclusive; y counts the rows of the stacked layers.
+    // Bounding box of the wrong samples, inclusive, zeros if there are none; y counts the rows of
+    // the stacked layers.
     uint32_t min_x = 0, min_y = 0, max_x = 0, max_y = 0;
     uint64_t must_samples = 0, either_samples = 0, compared_samples = 0, compared_values = 0;
     double worst_ratio = 0;      // largest accepted or rejected error in budgets (K of this case)
@@ -153,15 +163,17 @@ struct Verdict : Outcome {
     std::vector<uint8_t>
         expected_hits;  // nominal hits a sample, saturated at 254; 255 where several are allowed
     std::vector<uint8_t> device_hits;  // saturated at 255
-    std::vector<SampleMark> marks;     // [sample]
+    bool has_counted = true;  // else device_hits say only where the colour is not the clear one
+    std::vector<SampleMark> marks;  // [sample]
     // [sample] largest error of the values that were compared there, in budgets (infinite where no
     // number of budgets reaches the value); negative where none was. Empty if the case has none.
     std::vector<float> error_ratios;
-    bool has_unmarked = false;  // some wrong samples were counted, but have no mark
+    bool has_unmarked = false;       // some wrong samples were counted, but have no mark
+    bool has_wrong_samples = false;  // some finding is of a sample: min_x to max_y are set
     bool ok() const { return error.empty() && counts == std::array<uint64_t, kFindingKinds>{}; }
 
     // Counts a finding of a target; keeps it if keeps() says so. The first finding at a sample
-    // gives it its mark.
+    // gives it its mark; one of the whole case marks none.
     void add(Finding finding, const cases::Target& target);
     // Whether the next finding of a group will be kept: it is among the group's first kMaxOfGroup,
     // and fewer than kMaxFindings are kept. Of any other nobody reads the texts.
@@ -172,6 +184,9 @@ struct Verdict : Outcome {
     std::optional<uint64_t> count_wrong_samples() const;
     // The error at a sample, in budgets, is at least `ratio`.
     void raise_error(size_t index, double ratio);
+
+  private:
+    void mark(const Finding& finding, const cases::Target& target);
 };
 // Judges a capture. A case without any sample that must be hit is an error, never a pass. Of the
 // values only those selected are judged; nothing is said of how many invocations a fragment had

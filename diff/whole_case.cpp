@@ -61,13 +61,9 @@ std::string why_of(uint64_t got, const CountBounds& counted, const cases::Draw& 
 
 void add_stray_writes(const cases::Case& c, std::span<const capture::StrayWrite> writes,
                       Verdict& verdict) {
-    const cases::Target& t = c.target;
     for (const capture::StrayWrite& w : writes) {
         const std::string_view side = w.is_before ? "before" : "after";
-        Finding finding = finding_at(
-            FindingKind::value, t,
-            w.is_before ? cases::SampleId{0, 0, 0, 0}
-                        : cases::SampleId{t.width - 1, t.height - 1, t.samples - 1, t.layers - 1});
+        Finding finding = finding_of_case(FindingKind::value);
         finding.rule = cases::rule::write_outside;
         finding.level = cases::Profile::vulkan;
         finding.quantity = fmt::format("memory {} {}", side, w.attachment);
@@ -83,7 +79,7 @@ void add_stray_writes(const cases::Case& c, std::span<const capture::StrayWrite>
                 fmt::format("; {} renderings were in the submission, and none of them did it alone",
                             w.renderings);
         }
-        verdict.add(std::move(finding), t);
+        verdict.add(std::move(finding), c.target);
     }
 }
 
@@ -129,7 +125,7 @@ void judge_queries(const cases::Case& c, const capture::CaptureView& capture,
             const cases::Query query = c.draws[k].query;
             const CountBounds bounds = given(counted[k], query);
             const uint64_t got = capture.counted[k];
-            Finding finding = finding_at(FindingKind::value, c.target, {});
+            Finding finding = finding_of_case(FindingKind::value);
             finding.rule = cases::rule::query_occlusion;
             finding.level = profile;
             finding.quantity = fmt::format("occlusion query of draw {}", k);

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "diff/last_fragment.hpp"
+#include "ref/color/color.hpp"
 #include "ref/expectation/explain.hpp"
 #include "ref/stencil/outcome.hpp"
 #include "ref/stencil/values.hpp"
@@ -36,12 +37,14 @@ std::vector<size_t> chosen_samples(const PictureWindow& window, const cases::Tar
     };
     std::set<std::string> rules;
     for (const diff::Finding& f : verdict.findings) {
-        if (rules.insert(f.rule).second) {
+        if (!f.of_case && rules.insert(f.rule).second) {
             choose(cases::index_of(target, diff::sample_of(f)), report::kMaxEvidence);
         }
     }
     for (const diff::Finding& f : verdict.findings) {
-        choose(cases::index_of(target, diff::sample_of(f)), report::kMaxEvidence * 3 / 4);
+        if (!f.of_case) {
+            choose(cases::index_of(target, diff::sample_of(f)), report::kMaxEvidence * 3 / 4);
+        }
     }
     const std::vector<size_t> wrong = chosen;
     for (const size_t index : wrong) {
@@ -90,6 +93,9 @@ class EvidenceMaker {
         if (has_tests(c) && expectation.triangles.size() <= kMostExplained) {
             explainer_.emplace(c, limits, expectation.profile);
         }
+        if (c.target.color && !c.blit) {
+            colors_.emplace(c, expectation);
+        }
     }
 
     SampleEvidence at(size_t index) {
@@ -102,6 +108,9 @@ class EvidenceMaker {
         e.allowed = hits_text(expected.hits);
         if (explainer_) {
             add_courses(e, index, id);
+        }
+        if (colors_) {
+            add_colors(e, index, id);
         }
         if (!case_.target.has_instruments) {
             return e;
@@ -189,6 +198,17 @@ class EvidenceMaker {
         }
     }
 
+    void add_colors(SampleEvidence& e, size_t index, cases::SampleId id) {
+        for (ref::ColorStep& step : colors_->steps(index, id)) {
+            std::string name;
+            if (step.triangle) {
+                const cases::Triangle& t = expectation_.triangles[*step.triangle];
+                name = fmt::format("triangle {} of draw {}", t.primitive, t.draw);
+            }
+            e.colors.emplace_back(std::move(name), std::move(step.sentence));
+        }
+    }
+
     void add(SampleEvidence& e, const ref::ExpectedValue& v, uint32_t triangle, cases::SampleId id,
              std::optional<size_t> drawn) {
         if (!v.part.empty()) {
@@ -228,6 +248,7 @@ class EvidenceMaker {
     const capture::CaptureView& capture_;
     ref::ValueReference values_;
     std::optional<ref::Explainer> explainer_;  // of a case that discards or tests
+    std::optional<ref::ColorReference> colors_;
 };
 
 }  // namespace

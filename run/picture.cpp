@@ -130,6 +130,7 @@ bool PictureWindow::meets(int64_t x0, int64_t y0, int64_t x1, int64_t y1) const 
 Pictures cut_pictures(const PictureWindow& window, const cases::Case& c,
                       const diff::Verdict& verdict, const capture::CaptureView& capture) {
     Pictures p = window.frame();
+    p.is_uncounted = !verdict.has_counted && !c.blit;
     const bool has_errors = std::any_of(verdict.error_ratios.begin(), verdict.error_ratios.end(),
                                         [](float ratio) { return ratio >= 0; });
     const auto put = [](std::vector<uint8_t>& to, const auto& from, size_t k) {

@@ -505,15 +505,8 @@ void RunLoop::finish(size_t k, CaseRecord record) {
         require_support(record);
     }
     if (!record.findings.empty()) {
-        const diff::Finding& f = report::leading_finding(record);
-        record.explain =
-            cases_[k].explain + " --pixel " + std::to_string(f.x) + "," + std::to_string(f.y);
-        if (cases_[k].data.target.samples > 1) {
-            record.explain += " --sample " + std::to_string(f.sample);
-        }
-        if (cases_[k].data.target.layers > 1) {
-            record.explain += " --layer " + std::to_string(f.layer.value_or(0));
-        }
+        record.explain = cases_[k].explain + report::sample_options(report::leading_finding(record),
+                                                                    cases_[k].data.target);
     }
     const bool died = record.status == Status::crash || record.status == Status::timeout ||
                       record.status == Status::device_lost;

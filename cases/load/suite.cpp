@@ -112,8 +112,9 @@ Expected<void> add_case_files(const fs::path& folder, std::vector<fs::path>& abo
         }
     }
     if (error) {
-        return tl::unexpected(
-            Error{{folder.string(), 0, 0}, "the folder cannot be read: " + error.message()});
+        return tl::unexpected(Error{{folder.string(), 0, 0},
+                                    "this folder of the suite cannot be read: " + error.message() +
+                                        "; a suite is a folder of case files"});
     }
     above.push_back(place);
     for (const fs::path& below : folders) {

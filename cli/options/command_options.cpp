@@ -127,7 +127,8 @@ void define_run(CLI::App& app, RunOptions& o) {
     add_value(run, "--doors", o.doors,
               "draw each case through other ways of the API, too: all, default (each door with "
               "each family), all,-NAME (without this one), or names of 'edgecase doors', separated "
-              "by commas [none]",
+              "by commas; doors that an expectation file knows to be broken are left out of sets "
+              "[none]",
               "NAMES", "Selection");
     run->add_flag("--shuffle", o.shuffle, "in an order that depends on the seed")
         ->group("Selection");
@@ -390,7 +391,7 @@ void define_others(CLI::App& app, AllOptions& all) {
                 all.explain.has_pixel = true;
                 return parse_pair(results.back(), ',', all.explain.x, all.explain.y);
             },
-            "the pixel")
+            "the pixel; without it the case as a whole is told")
         ->type_name("X,Y");
     explain->add_option("--rule", all.explain.rule, "explain a rule instead")->type_name("ID");
     explain->add_option("--sample", all.explain.sample, "the sample in it [0]")->type_name("S");

@@ -244,8 +244,9 @@ OrStop<std::monostate> check_device(const CLI::App& command, DeviceOptions& o,
 }
 
 OrStop<std::monostate> check_explain(const ExplainOptions& o) {
-    if (o.rule.empty() && !o.has_pixel) {
-        return tl::unexpected(usage_error("--pixel is required", "explain"));
+    if (o.rule.empty() && !o.has_pixel && (o.sample > 0 || o.layer > 0)) {
+        return tl::unexpected(
+            usage_error("--sample and --layer name a sample of a pixel; add --pixel", "explain"));
     }
     if (!o.rule.empty() && (o.has_pixel || !o.suite.selectors.empty())) {
         return tl::unexpected(usage_error(

@@ -176,6 +176,11 @@ OrStop<LeftOutDoors> choose_doors(const std::string& words,
     return left_out;
 }
 
+bool asks_for_set(const std::string& words) {
+    const std::string first = words.substr(0, words.find(','));
+    return first == "all" || first == "default";
+}
+
 std::string doors_words(const std::string& words, const std::vector<std::string>& doors) {
     return words == "all" || words.starts_with("all,") ? words
                                                        : fmt::format("{}", fmt::join(doors, ","));

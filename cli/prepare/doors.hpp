@@ -25,6 +25,9 @@ using LeftOutDoors = std::map<std::string, std::vector<std::string>>;
 // that no case can take (4).
 OrStop<LeftOutDoors> choose_doors(const std::string& words, std::span<cases::Case* const> selected);
 
+// Whether `words` ask for a set of doors, of which an expectation file may leave some out.
+bool asks_for_set(const std::string& words);
+
 // The words that give one case the same doors; empty if there are none.
 std::string doors_words(const std::string& words, const std::vector<std::string>& doors);
 

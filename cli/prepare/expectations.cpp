@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/prepare/doors.hpp"
 #include "cli/prepare/suite.hpp"
 #include "run/expected/seen_pictures.hpp"
 
@@ -115,6 +116,14 @@ OrStop<std::map<std::string, run::ExpectationLine>> expectations_of(const RunOpt
                       "--strict asks how known failures look, and no file of pictures for this "
                       "device stands beside the expectation files; write one with 'edgecase expect "
                       "--update RUN FILE.pictures'"));
+    }
+    header.skipped_doors.clear();
+    for (const run::ExpectationFile& file : *files) {
+        for (const run::ExpectationLine& line : file.doors) {
+            if (asks_for_set(options.doors) && !line.is_past) {
+                header.skipped_doors.emplace_back(line.glob, line.bug);
+            }
+        }
     }
     header.expectation_file.clear();
     std::set<std::string> paths;

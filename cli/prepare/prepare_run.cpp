@@ -301,6 +301,17 @@ OrStop<report::Journal> open_journal(const fs::path& folder, const Run& header, 
     return std::move(*journal);
 }
 
+namespace {
+
+// Whether an expectation file leaves a door out.
+bool is_skipped(const Run& run, std::string_view word) {
+    return std::ranges::find(run.skipped_doors, word, [](const auto& skipped) {
+               return std::string_view(skipped.first);
+           }) != run.skipped_doors.end();
+}
+
+}  // namespace
+
 OrStop<std::monostate> apply_expectations(Prepared& p) {
     const std::string hash_before = p.header.expectation_hash;
     const auto expected = expectations_of(p.options, p.selection, p.header);
@@ -318,6 +329,12 @@ OrStop<std::monostate> apply_expectations(Prepared& p) {
         if (const auto found = expected->find(c.data.id); found != expected->end()) {
             c.expected = found->second;
         }
+        std::erase_if(c.data.doors, [&](cases::Door door) {
+            return is_skipped(p.header, cases::row_of(door).word);
+        });
+    }
+    for (CaseRecord& record : p.header.cases) {
+        std::erase_if(record.doors, [&](const auto& word) { return is_skipped(p.header, word); });
     }
     return std::monostate{};
 }

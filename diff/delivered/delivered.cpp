@@ -113,13 +113,15 @@ Verdict compare_color(const cases::Case& c, const ref::Expectation& expectation,
 
 // Adds what the colour showed to what the other planes did.
 void join(Verdict& to, const Verdict& from) {
-    const bool is_first = to.ok();
     if (!from.ok()) {
+        to.level = to.ok() ? from.level : std::min(to.level, from.level);
+    }
+    if (from.has_wrong_samples) {
+        const bool is_first = !std::exchange(to.has_wrong_samples, true);
         to.min_x = is_first ? from.min_x : std::min(to.min_x, from.min_x);
         to.min_y = is_first ? from.min_y : std::min(to.min_y, from.min_y);
         to.max_x = is_first ? from.max_x : std::max(to.max_x, from.max_x);
         to.max_y = is_first ? from.max_y : std::max(to.max_y, from.max_y);
-        to.level = is_first ? from.level : std::min(to.level, from.level);
     }
     for (const FindingGroup& group : from.groups) {
         Finding like;

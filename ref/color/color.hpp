@@ -46,6 +46,12 @@ struct ColorVerdict {
     uint32_t hits = 0;     // of missing, extra, twice: how many fragments the colour tells of
 };
 
+// One fragment, or the clear before the first, in a sentence.
+struct ColorStep {
+    std::optional<uint32_t> triangle;
+    std::string sentence;  // "writes r 0.8, and does the logical operation and-reverse: ..."
+};
+
 // Judges the colours of one case against one expectation. Not thread-safe.
 class ColorReference {
   public:
@@ -67,6 +73,8 @@ class ColorReference {
     bool may_have_left(size_t index, uint32_t hits, uint32_t writer) const;
     // The triangles of the first allowed set of fragments, in drawing order; none if there is none.
     std::vector<uint32_t> drawn(size_t index) const;
+    // How the colour of that set comes about (color_steps.cpp).
+    std::vector<ColorStep> steps(size_t index, cases::SampleId id);
     // Codes that the fragments of these triangles leave, whether or not they are allowed there.
     std::array<uint32_t, 4> codes_after(std::span<const uint32_t> triangles, cases::SampleId id);
     // Whether depth may be what the last of an allowed set of fragments left, or one that was

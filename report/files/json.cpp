@@ -39,8 +39,8 @@ Json finding_json(diff::Finding f) {
     if (f.layer) {
         sample["layer"] = *f.layer;
     }
-    json["sample"] = std::move(sample);
-    for (const char* key : {"x", "y", "layer"}) {
+    json["sample"] = f.of_case ? Json(nullptr) : std::move(sample);
+    for (const char* key : {"x", "y", "layer", "of_case"}) {
         json.erase(key);
     }
     if (f.door.empty()) {
@@ -77,7 +77,7 @@ Json case_json(const CaseRecord& r, cases::Profile profile) {
     const bool wrong = r.finding_total() > 0;
     const auto level = level_of(r, Of::all), news = level_of(r, Of::news);
     Json box = nullptr;
-    if (wrong) {
+    if (wrong && r.wrong_samples != 0) {
         box = Json{{"min_x", r.min_x}, {"min_y", r.min_y}, {"max_x", r.max_x}, {"max_y", r.max_y}};
     }
     Json pictures = nullptr;
@@ -174,6 +174,9 @@ Json doors_json(const Run& run) {
                             {"left_out", count.left_out},
                             {"unsupported", count.closed},
                             {"reason", cases::printable(count.reason)}});
+        if (!count.bug.empty()) {
+            list.back()["skipped_by"] = cases::printable(count.bug);
+        }
     }
     return list;
 }

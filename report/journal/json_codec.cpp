@@ -251,6 +251,9 @@ Json encode(const SampleEvidence& e) {
     if (!e.courses.empty()) {
         json["courses"] = encode(e.courses);
     }
+    if (!e.colors.empty()) {
+        json["colors"] = encode(e.colors);
+    }
     if (!e.stencil.empty()) {
         json["stencil"] = encode(e.stencil);
         json["device_stencil"] = encode(e.device_stencil);
@@ -270,6 +273,9 @@ void decode(const Json& json, const char* /*key*/, SampleEvidence& to) {
     read(json, "values", to.values);
     if (json.contains("courses")) {
         read(json, "courses", to.courses);
+    }
+    if (json.contains("colors")) {
+        read(json, "colors", to.colors);
     }
     if (json.contains("stencil")) {
         read(json, "stencil", to.stencil);

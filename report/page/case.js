@@ -8,6 +8,7 @@ function makeCasePage(record, neighbours, onChange) {
   const show = (at) => page.inspector.show(at);
   page.viewer = makeViewer(record, (at) => show(at), () => onChange());
   page.pin = (at) => {
+    if (isOfCase(at)) { page.mark(at); return; }  // what is pinned stays
     const full = {x: at.x, y: at.y, sample: at.sample || 0};
     if (page.viewer) {
       page.viewer.pin(full);
@@ -15,8 +16,10 @@ function makeCasePage(record, neighbours, onChange) {
     }
     page.mark(full);
   };
+  page.isMarked = (f) => Boolean(page.marked) && (isOfCase(f) ? f === page.marked : f.x === page.marked.x && f.y === page.marked.y && f.sample === page.marked.sample);
   page.mark = (at) => {
-    page.findings.forEach((f, k) => page.rows[k].setAttribute("aria-selected", String(f.x === at.x && f.y === at.y && f.sample === at.sample)));
+    page.marked = at;
+    page.findings.forEach((f, k) => page.rows[k].setAttribute("aria-selected", String(page.isMarked(f))));
   };
   const heading = el("h1", {tabIndex: -1, id: "case-title", class: "id"}, idText(record.id));
   const step = (label, key, target) => el("button", {type: "button", disabled: !target, title: "key " + key, "data-step": key, onclick: () => openCase(target)}, label);
@@ -69,7 +72,7 @@ function findingsSection(page) {
   page.rows = page.findings.map((f) => {
     const row = el("tr", {class: "pick", tabIndex: 0, onclick: () => page.pin(f), onkeydown: (event) => {
       if (event.key === "Enter") { page.pin(f); }
-    }}, el("td", {class: "number whole"}, pixelName((record.pictures || {}).layer_height, f.x, f.y) + (f.sample ? " s" + f.sample : "")), el("td", {}, f.kind), el("td", {}, ruleLink(f.rule)), el("td", {}, levelTag(f.level)),
+    }}, el("td", {class: "number whole"}, isOfCase(f) ? "the case" : pixelName((record.pictures || {}).layer_height, f.x, f.y) + (f.sample ? " s" + f.sample : "")), el("td", {}, f.kind), el("td", {}, ruleLink(f.rule)), el("td", {}, levelTag(f.level)),
     el("td", {class: "number", "data-label": "expected"}, f.quantity ? f.quantity + ": " : "", unfolded(f.expected)), el("td", {class: numberClass(f.got), "data-label": "got"}, f.got), el("td", f.ratio ? {class: "number right", "data-label": "budgets off"} : {class: "number right"}, f.ratio || ""), el("td", {class: "why"}, f.why));
     return row;
   });

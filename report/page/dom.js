@@ -133,6 +133,9 @@ function command(label, text, settings = "") {
   return el("div", {class: "command"}, el("span", {class: "quiet"}, label), code, copyButton("copy", "the " + label + " command", text, code));
 }
 
+// Of the whole case, as a query's count: it has no place.
+const isOfCase = (f) => f.x === null;
+
 function finding(row) {
   return {kind: row[0], rule: string(row[1]), level: row[2], x: row[3], y: row[4], sample: row[5], quantity: string(row[6]),
     expected: string(row[7]), got: string(row[8]), why: string(row[9]), ratio: row[10]};

@@ -18,7 +18,7 @@ function makeInspector(record, scene) {
     const known = evidence.get(at.x + "," + at.y + "," + at.sample);
     summary.className = "sample-title";
     summary.replaceChildren(...sampleTitle(scene, at));
-    body.replaceChildren(...[verdictPart(scene, at, known), findingsPart(told), coursesPart(known), valuesPart(scene, at, known, told, isComplete(record, findings, told)), trianglesPart(scene, at), blitPart(scene, at)].filter(Boolean));
+    body.replaceChildren(...[verdictPart(scene, at, known), findingsPart(told), coursesPart(known), colorsPart(known), valuesPart(scene, at, known, told, isComplete(record, findings, told)), trianglesPart(scene, at), blitPart(scene, at)].filter(Boolean));
   }, sentence: (at) => sampleSentence(scene, at)};
 }
 
@@ -32,7 +32,8 @@ function sampleTitle(scene, at) {
   return parts;
 }
 
-const deviceText = (scene, hits) => !isBlitScene(scene) ? hitsText(hits, false) : hits ? "written" : "not written";
+// Where nobody counted hits the colour alone says whether something was drawn.
+const deviceText = (scene, hits) => isBlitScene(scene) ? (hits ? "written" : "not written") : !scene.pictures.isUncounted ? hitsText(hits, false) : hits ? "not the clear colour" : "the clear colour";
 
 // The same for a screen reader, when the arrow keys have moved there.
 function sampleSentence(scene, at) {
@@ -90,10 +91,14 @@ function findingsPart(told) {
 }
 
 // What the tests of each triangle make of it, and what its shader discards, in drawing order.
-function coursesPart(known) {
-  if (!known || !known.courses || known.courses.length === 0) { return null; }
-  return el("div", {class: "courses"}, el("h2", {}, "Discards and tests"),
-    known.courses.map(([name, sentence]) => el("p", {class: "small"}, el("strong", {}, name), " " + sentence)));
+const coursesPart = (known) => known ? sentencesPart("Discards and tests", known.courses) : null;
+// How the colour that is expected comes about.
+const colorsPart = (known) => known ? sentencesPart("Expected colour, fragment by fragment", known.colors) : null;
+
+function sentencesPart(title, sentences) {
+  if (!sentences || sentences.length === 0) { return null; }
+  return el("div", {class: "courses"}, el("h2", {}, title),
+    sentences.map(([name, sentence]) => el("p", {class: "small"}, name ? [el("strong", {}, name), " "] : "", sentence)));
 }
 
 const MAX_STEPS = 1e7;

@@ -57,7 +57,7 @@ function openCase(id, at) {
   if (page.viewer) {
     page.viewer.rebuild();
     const lead = entry.record.lead && finding(entry.record.lead);
-    if (at || lead) { page.pin(at ? {...at, sample: at.sample === undefined ? sampleToSee(page, at, lead) : at.sample} : lead); }
+    if (at || lead) { page.pin(at ? {...at, sample: at.sample === undefined ? sampleToSee(page, at, lead) : at.sample} : page.findings[0]); }
   }
   rememberCase();
 }
@@ -115,12 +115,11 @@ function help(show) {
 }
 
 function stepFinding(by) {
-  const list = page.findings, pinned = page.viewer && page.viewer.pinned;
+  const list = page.findings;
   if (list.length === 0) { return; }
-  const same = (f) => pinned && f.x === pinned.x && f.y === pinned.y && f.sample === pinned.sample;
-  const at = list.findIndex(same);
+  const at = list.findIndex(page.isMarked);
   let next = at < 0 ? 0 : at;
-  if (at >= 0) { do { next = (next + by + list.length) % list.length; } while (next !== at && same(list[next])); }
+  if (at >= 0) { do { next = (next + by + list.length) % list.length; } while (next !== at && page.isMarked(list[next])); }
   page.pin(list[next]);
 }
 function stepCase(by) {

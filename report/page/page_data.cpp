@@ -63,13 +63,15 @@ void put(Json& json, const char* key, const std::vector<std::string>& list) {
     }
 }
 
-// A list, as finding() of dom.js reads it. Rows are those of the stacked layers, as in pictures.
+// A list, as finding() of dom.js reads it. Rows are those of the stacked layers, as in pictures; of
+// the whole case the place is null.
 Json finding_json(const CaseRecord& r, const diff::Finding& f, Strings& strings) {
     const uint32_t row = f.layer.value_or(0) * r.pictures.layer_height + f.y;
     const bool has_ratio =
         f.kind == diff::FindingKind::value && f.ratio > 0 && std::isfinite(f.ratio);
+    const auto place = [&](uint32_t number) { return f.of_case ? Json(nullptr) : Json(number); };
     return Json::array({diff::to_string(f.kind), strings.number_of(f.rule),
-                        cases::to_string(f.level), f.x, row, f.sample,
+                        cases::to_string(f.level), place(f.x), place(row), place(f.sample),
                         strings.number_of(f.quantity), strings.number_of(f.expected),
                         strings.number_of(f.got), strings.number_of(f.why),
                         has_ratio ? Json(ratio_text(f.ratio)) : Json(nullptr)});
@@ -168,7 +170,7 @@ Json case_json(const CaseRecord& r, size_t most_findings, Strings& strings) {
         const diff::Finding& lead = leading_finding(r);
         json["lead"] = finding_json(r, lead, strings);
         const auto is_here = [](const diff::Finding& a, const diff::Finding& b) {
-            return a.x == b.x && a.y == b.y && a.sample == b.sample;
+            return a.x == b.x && a.y == b.y && a.sample == b.sample && a.of_case == b.of_case;
         };
         // Those of the leading sample, then the others in order; of a sample all, within reason.
         const size_t most_of_sample = std::min(most_findings + 4, kMostOfSample);

@@ -36,7 +36,7 @@ function decodePicture(text) {
 function openPictures(p) {
   if (!p || !p.width || !p.height || !p.marks) { return null; }
   const open = (name) => p[name] ? decodePicture(p[name]) : new Uint8Array(0);
-  const pictures = {width: p.width, height: p.height, left: p.left, top: p.top, layerHeight: p.layer_height || 0, expected: open("expected_hits"),
+  const pictures = {isUncounted: Boolean(p.uncounted), width: p.width, height: p.height, left: p.left, top: p.top, layerHeight: p.layer_height || 0, expected: open("expected_hits"),
     device: open("device_hits"), marks: open("marks"), errors: open("errors"), colors: open("device_colors"),
     expectedColors: open("expected_colors"), depths: open("device_depths"), expectedDepths: open("expected_depths"), depthLow: numberOf(p.depth_low), depthHigh: numberOf(p.depth_high),
     stencils: open("device_stencils"), expectedStencils: open("expected_stencils"), stencilLow: p.stencil_low || 0, stencilHigh: p.stencil_high || 0};

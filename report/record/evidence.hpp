@@ -109,6 +109,8 @@ struct SampleEvidence {
     // What becomes of the triangles there, in drawing order: "triangle 0 of draw 1" and a sentence
     // on its discard or on one of its tests. Only of a case that discards or tests.
     std::vector<std::pair<std::string, std::string>> courses;
+    // How the colour that ought to be there comes about, likewise; the clear's name is empty.
+    std::vector<std::pair<std::string, std::string>> colors;
     std::string stencil;         // that the sample may hold, "3 or 5"; empty: nobody tests it
     std::string device_stencil;  // that it holds
     static void fields(auto&& visit, auto&... e) {
@@ -120,6 +122,7 @@ struct SampleEvidence {
         visit("hits", e.hits...);
         visit("values", e.values...);
         visit({"courses", cases::kLeftOutIfEmpty}, e.courses...);
+        visit({"colors", cases::kLeftOutIfEmpty}, e.colors...);
         visit({"stencil", cases::kLeftOutIfEmpty}, e.stencil...);
         visit({"device_stencil", cases::kLeftOutIfEmpty}, e.device_stencil...);
     }

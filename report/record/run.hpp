@@ -85,6 +85,7 @@ struct Pictures {
     uint32_t layer_height = 0;           // rows of each of several layers, stacked; 0: one layer
     std::vector<uint8_t> expected_hits;  // Verdict::expected_hits
     std::vector<uint8_t> device_hits;    // Verdict::device_hits
+    bool is_uncounted = false;           // they say only where the colour is not the clear one
     std::vector<uint8_t> marks;          // Verdict::marks
     // Verdict::error_ratios as error_code(); empty if no value was compared.
     std::vector<uint8_t> errors;
@@ -110,6 +111,7 @@ struct Pictures {
         visit({"layer_height", cases::kOlderLackIt}, p.layer_height...);
         visit("expected_hits", p.expected_hits...);
         visit("device_hits", p.device_hits...);
+        visit({"uncounted", cases::kLeftOutIfEmpty}, p.is_uncounted...);
         visit("marks", p.marks...);
         visit({"errors", cases::kOlderLackIt}, p.errors...);
         visit({"device_colors", cases::kOlderLackIt}, p.device_colors...);
@@ -262,6 +264,9 @@ struct RunHeader {
     std::string expectation_file;  // empty if none applied
     // What else decides what is drawn and what counts as expected, so that parts of different runs
     // are told apart; empty in older journals.
+    // Doors that a set of --doors left out because expectation files know them to be broken, and
+    // the bugs.
+    std::vector<std::pair<std::string, std::string>> skipped_doors;
     std::string selection;         // "49 cases, HASH of their ids", before --shard
     std::string own_hash;          // of the selected case files outside the suite; empty: none
     std::string expectation_hash;  // of the expectation files' bytes; empty: none
@@ -281,6 +286,7 @@ struct RunHeader {
         visit("suite_root", h.suite_root...);
         visit({"suite_hash", cases::kOlderLackIt}, h.suite_hash...);
         visit("expectation_file", h.expectation_file...);
+        visit({"skipped_doors", cases::kLeftOutIfEmpty}, h.skipped_doors...);
         visit({"selection", cases::kOlderLackIt}, h.selection...);
         visit({"own_hash", cases::kOlderLackIt}, h.own_hash...);
         visit({"expectation_hash", cases::kOlderLackIt}, h.expectation_hash...);

@@ -73,17 +73,20 @@ std::string ascii_picture(const CaseRecord& record, const ConsoleStyle& style) {
         p.expected_hits.size() != p.marks.size()) {
         return {};
     }
+    // A picture without a wrong sample shows nothing of what the whole case got wrong.
+    const auto told = std::ranges::find(record.findings, false, &diff::Finding::of_case);
+    const bool is_told = told != record.findings.end();
+    if (!is_told && !record.findings.empty()) {
+        return {};
+    }
     const size_t samples = p.marks.size() / pixels;
     const uint32_t room = style.width > 16 ? style.width - 8 : 8;
     const uint32_t width = std::min({p.width, kMaxPictureWidth, room});
     const uint32_t height = std::min(p.height, kMaxPictureHeight);
     // The window holds the first finding, else the middle of the wrong samples.
-    const bool told = !record.findings.empty();
     const auto inside = [](uint32_t at, uint32_t begin) { return at > begin ? at - begin : 0; };
-    const uint32_t x = told ? record.findings.front().x : record.min_x;
-    const uint32_t y = told ? record.findings.front().layer.value_or(0) * p.layer_height +
-                                  record.findings.front().y
-                            : record.min_y;
+    const uint32_t x = is_told ? told->x : record.min_x;
+    const uint32_t y = is_told ? told->layer.value_or(0) * p.layer_height + told->y : record.min_y;
     const uint32_t left = window_begin(inside(x, p.left), width, p.width);
     const uint32_t top = window_begin(inside(y, p.top), height, p.height);
 

@@ -32,6 +32,9 @@ std::vector<DoorCount> door_counts(const Run& run) {
             }
         }
     }
+    for (const auto& [door, bug] : run.skipped_doors) {
+        by_word[door].bug = bug;
+    }
     std::vector<DoorCount> counts;
     for (const cases::DoorRow& row : cases::all_doors()) {
         if (const auto found = by_word.find(std::string(row.word)); found != by_word.end()) {
@@ -61,7 +64,7 @@ std::string doors_text(const Run& run, bool verbose) {
     }
     text += '\n';
     for (const DoorCount& count : counts) {
-        if (!verbose && count.pictures > 0 && count.closed == 0) {
+        if (!verbose && count.pictures > 0 && count.closed == 0 && count.bug.empty()) {
             continue;
         }
         text += fmt::format("  {}: {}", count.door,
@@ -70,7 +73,10 @@ std::string doors_text(const Run& run, bool verbose) {
         if (count.left_out > 0) {
             text += fmt::format(", {} left out", count.left_out);
         }
-        if (count.closed > 0) {
+        if (!count.bug.empty()) {
+            text += fmt::format("; left out where no case asks for it, known to be broken by {}",
+                                cases::printable(count.bug));
+        } else if (count.closed > 0) {
             text +=
                 fmt::format(", {} unsupported: {}", count.closed, cases::printable(count.reason));
         } else if (count.pictures == 0) {

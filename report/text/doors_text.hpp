@@ -18,6 +18,7 @@ struct DoorCount {
     size_t left_out = 0;  // cases that cannot take it
     size_t closed = 0;    // cases that could, on another device
     std::string reason;   // of the first of those
+    std::string bug;      // why a set of doors left it out
 };
 
 // Of every door that the run or a file asks for, in the order of the table of doors.

@@ -163,9 +163,26 @@ std::string head_and_tail(const std::string& bytes, size_t most) {
 }
 
 std::string sample_text(const diff::Finding& finding) {
+    if (finding.of_case) {
+        return "the case";
+    }
     const std::string layer = finding.layer ? fmt::format("layer {} ", *finding.layer) : "";
     const std::string pixel = fmt::format("{}({},{})", layer, finding.x, finding.y);
     return finding.sample == 0 ? pixel : fmt::format("{} sample {}", pixel, finding.sample);
+}
+
+std::string sample_options(const diff::Finding& finding, const cases::Target& target) {
+    if (finding.of_case) {
+        return {};
+    }
+    std::string text = fmt::format(" --pixel {},{}", finding.x, finding.y);
+    if (target.samples > 1) {
+        text += fmt::format(" --sample {}", finding.sample);
+    }
+    if (target.layers > 1) {
+        text += fmt::format(" --layer {}", finding.layer.value_or(0));
+    }
+    return text;
 }
 
 std::string accepted_text(const Run& run, const CaseRecord& record) {
@@ -175,7 +192,10 @@ std::string accepted_text(const Run& run, const CaseRecord& record) {
 
 std::string counts_text(const CaseRecord& record) {
     // Several numbers of a sample may be wrong: then the samples are told, too.
-    const bool has_more = record.wrong_samples && record.finding_total() > *record.wrong_samples;
+    // Of a count that belongs to no sample no sample is wrong.
+    const bool is_of_case = record.wrong_samples == 0;
+    const bool has_more =
+        !is_of_case && record.wrong_samples && record.finding_total() > *record.wrong_samples;
     std::string text;
     for (size_t k = 0; k < diff::kFindingKinds; ++k) {
         const auto kind = static_cast<diff::FindingKind>(k);
@@ -188,7 +208,7 @@ std::string counts_text(const CaseRecord& record) {
         return fmt::format("{} of {} wrong ({})", *record.wrong_samples,
                            cases::counted(record.compared_samples, "sample"), text);
     }
-    return text.empty()
+    return text.empty() || is_of_case
                ? text
                : fmt::format("{} of {}", text, cases::counted(record.compared_samples, "sample"));
 }
@@ -257,7 +277,7 @@ std::string what_happened(const CaseRecord& record) {
 std::string why_it_happened(const CaseRecord& record) {
     if (!record.findings.empty()) {
         const diff::Finding& f = leading_finding(record);
-        std::string text = sample_text(f) + ": ";
+        std::string text = f.of_case ? "" : sample_text(f) + ": ";
         if (!f.quantity.empty()) {
             text += one_line(f.quantity) + ": ";
         }

@@ -33,6 +33,9 @@ std::string head_and_tail(const std::string& bytes, size_t most);
 
 // "(3,4)", or "(3,4) sample 2" if the sample is not 0.
 std::string sample_text(const diff::Finding& finding);
+
+// The options by which `explain` tells of where a finding is; empty if it is of the whole case.
+std::string sample_options(const diff::Finding& finding, const cases::Target& target);
 // "2 missing, 1 wrong value of 64 samples", or "5 of 64 samples wrong (2 missing, 6 values)" where
 // some have several findings; empty without any.
 std::string counts_text(const CaseRecord& record);

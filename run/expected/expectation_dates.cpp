@@ -28,10 +28,13 @@ bool is_date(std::string_view s) {
 
 cases::Errors past_lines(const ExpectationFile& file) {
     cases::Errors errors;
-    for (const ExpectationLine& line : file.lines) {
-        if (line.is_past) {
-            errors.push_back({line.where, "the expectation of '" + line.glob + "' ended on " +
-                                              line.until + "; re-check it, or extend the date"});
+    for (const auto* lines : {&file.doors, &file.lines}) {
+        for (const ExpectationLine& line : *lines) {
+            if (line.is_past) {
+                errors.push_back({line.where, "the expectation of '" + line.glob + "' ended on " +
+                                                  line.until +
+                                                  "; re-check it, or extend the date"});
+            }
         }
     }
     return errors;

@@ -12,6 +12,7 @@
 
 #include "cases/base/printable.hpp"
 #include "cases/base/regex.hpp"
+#include "cases/model/door.hpp"
 #include "cases/model/selector.hpp"
 
 namespace run {
@@ -64,6 +65,8 @@ std::optional<VersionBound> parse_bound(std::string_view word) {
     }
     return std::nullopt;
 }
+
+constexpr std::string_view kDoor = "door=";
 
 class Parser {
   public:
@@ -135,7 +138,7 @@ class Parser {
 
     void parse_header(std::string_view header) {
         constexpr std::array<std::string_view, 3> kKeys = {"device:", "driver:", "profile:"};
-        if (!file_.lines.empty()) {
+        if (!file_.lines.empty() || !file_.doors.empty()) {
             fail("a header line must stand above the first expectation");
             return;
         }
@@ -200,6 +203,11 @@ class Parser {
             return;
         }
         entry.glob = words[0];
+        const bool is_door = entry.glob.starts_with(kDoor);
+        if (is_door) {
+            entry.glob.erase(0, kDoor.size());
+            check_door(entry.glob, words[1]);
+        }
         std::vector<std::string> names;
         bool known = false;
         for (const Status status : kStatuses) {
@@ -216,7 +224,9 @@ class Parser {
             return;
         }
         entry.bug = words[2] == "-" ? "" : words[2];
-        if (entry.bug.empty() && entry.status != Status::skip) {
+        if (entry.bug.empty() && is_door) {
+            fail("a door that is left out needs a reference to a bug in its third column");
+        } else if (entry.bug.empty() && entry.status != Status::skip) {
             fail("an expected " + words[1] +
                  " needs a reference to a bug in its third column ('-' is for skip)");
         }
@@ -237,14 +247,30 @@ class Parser {
                 is_understood = false;
             }
         }
-        if (is_understood) {
+        if (is_understood && !is_door) {
             check_cause(entry);
         }
         if (entry.note.empty()) {
             fail("the expectation of '" + entry.glob +
                  "' gives no reason; add one sentence after ' # '");
         }
-        file_.lines.push_back(std::move(entry));
+        (is_door ? file_.doors : file_.lines).push_back(std::move(entry));
+    }
+
+    void check_door(const std::string& name, const std::string& status) {
+        if (!cases::find_door(name)) {
+            std::vector<std::string> known;
+            for (const cases::DoorRow& row : cases::all_doors()) {
+                known.emplace_back(row.word);
+            }
+            fail("there is no door '" + name + "'" +
+                 cases::did_you_mean(name, known, "; 'edgecase doors' lists them"));
+        } else if (status != "skip") {
+            fail(
+                "a door can be left out as a whole by 'skip'; a failure through it is expected of "
+                "cases, by causes like 'value:door.index=" +
+                name + "@vulkan<=3'");
+        }
     }
 
     // A failure or a crash is known by what it looks like, so that it hides no other one.

@@ -110,9 +110,9 @@ int main(int argc, char** argv) {
             "gl_PrimitiveID may begin again with each of them. `edgecase run --doors all` draws "
             "every case through every door that it can take, `--doors default` each door with "
             "the cheapest case of each family, both without a door that is named behind them "
-            "(`--doors all,-indirect-after-count`), and `relations = [{ doors = [...] }]` in a "
-            "file "
-            "its own. The run tells how many pictures went through doors, which doors drew "
+            "(`--doors all,-indirect-after-count`) or that an expectation file knows to be broken "
+            "on the device (`door=NAME skip`), and `relations = [{ doors = [...] }]` in a file its "
+            "own. The run tells how many pictures went through doors, which doors drew "
             "none, and why."));
     print_doors();
     print_drivers(drivers);

@@ -107,6 +107,22 @@ class Explain(TerminalTest):
         self.assertIn("therefore the sample must not be covered\n",
                       self.edgecase("explain", "fam/c1", "--pixel", "0,0", check=0).stdout)
 
+    def test_a_case_as_a_whole(self):
+        text = self.edgecase("explain", "fam/c1", check=0).stdout
+        self.assertRegex(text, r"\n\d+ must be covered of 64 samples; profile direct3d, 8 subpixel bits\n")
+        self.assertTrue(text.endswith("\n--pixel X,Y explains a sample\n"), text)
+        (self.folder / "asked.toml").write_text(
+            'format = 1\ndescription = "a"\ncatches = "b"\nrules = ["query.occlusion"]\ntarget = { size = [4, 4] }\n'
+            '[[draw]]\nquery = "occlusion-precise"\nvertices = [[0, 0], [4, 0], [0, 4]]\n'
+            '[[draw]]\nquery = "occlusion"\nvertices = [[0, 0], [4, 0], [0, 4]]\n')
+        text = self.edgecase("explain", self.folder / "asked.toml", check=0).stdout
+        # Below the diagonal, whose own samples belong to the other side.
+        self.assertIn("\nthe query of draw 0 has to give 6\n"
+                      "the query of draw 1 is not precise: of 6 samples it has to give any number but 0\n", text)
+        text = self.edgecase("explain", self.folder / "asked.toml", "--pixel", "0,0", check=0).stdout
+        self.assertIn("\nthe query of draw 0 counts 1 here\nthe query of draw 1 counts 1 here\n", text)
+        self.assertIn("\nthe query of draw 0 has to give 6\n", text)
+
     def test_what_is_said_of_places_is_true(self):
         def explained(first):
             (self.folder / "one.toml").write_text(
@@ -126,7 +142,8 @@ class Explain(TerminalTest):
 
     def test_wrong_words(self):
         self.refused("there is no rule 'tie.topleft'; did you mean 'tie.top-left'?", "--rule", "tie.topleft", code=4)
-        self.refused("--pixel is required; see 'edgecase explain --help'", "fam/c1")
+        self.refused("--sample and --layer name a sample of a pixel; add --pixel; see 'edgecase explain --help'",
+                     "fam/c1", "--sample", "1")
         self.refused("--rule explains a rule, not a case; leave out the selector and --pixel; see 'edgecase explain --help'",
                      "fam/c1", "--rule", "tie.top-left")
         self.refused("--rule explains a rule, not a case; leave out the selector and --pixel; see 'edgecase explain --help'",

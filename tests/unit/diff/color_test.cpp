@@ -187,5 +187,52 @@ TEST(Color, TruncationIsAFindingAtDirect3dAlone) {
     EXPECT_EQ(drawn.judge().findings[0].level, Profile::vulkan);
 }
 
+// The story of pixel (1, 2), which both triangles cover.
+std::vector<std::string> steps_of(const cases::Case& c) {
+    const ref::Expectation expectation = ref::expect(c, ref::Limits{8}, Profile::direct3d);
+    std::vector<std::string> out;
+    for (const ref::ColorStep& step : ref::ColorReference(c, expectation).steps(17, {1, 2, 0})) {
+        out.push_back(step.sentence);
+    }
+    return out;
+}
+
+TEST(ColorSteps, ALogicalOperationIsTold) {
+    cases::Case c = two_draws(ColorFormat::rgba8_uint, {170, 85, 0, 255});
+    c.draws[0].color.value = {51, 15, 204, 1};
+    c.draws[1].color.value = {204, 240, 165, 60};
+    c.draws[1].color.logic = cases::LogicOp::and_reverse;
+    c.draws[1].color.write_mask = 0x7;
+    EXPECT_THAT(
+        steps_of(c),
+        ::testing::ElementsAre(
+            "the target is cleared to r 170, g 85, b 0, a 255",
+            "writes r 51, g 15, b 204, a 1; that leaves r 51, g 15, b 204, a 1",
+            "writes r 204, g 240, b 165, a 60, of which the mask lets through r, g, b alone, and "
+            "does the logical operation and-reverse: r 204 & ~51 = 204, g 240 & ~15 = 240, "
+            "b 165 & ~204 = 33; that leaves r 204, g 240, b 33, a 1"));
+}
+
+TEST(ColorSteps, BlendingIsTold) {
+    cases::Case c = two_draws(ColorFormat::r32_float, {0.5F, 0, 0, 0});
+    c.draws[0].color.value = {0.25F, 0, 0, 0.5F};
+    c.draws[0].color.blend = cases::Blend{
+        {cases::BlendFactor::src_alpha, cases::BlendFactor::constant_color, cases::BlendOp::add},
+        {},
+        {0.75F, 0, 0, 0}};
+    c.draws[1].color.value = {1, 0, 0, 0};
+    c.draws[1].color.logic = cases::LogicOp::clear;
+    const std::vector<std::string> steps = steps_of(c);
+    ASSERT_EQ(steps.size(), 3U);
+    // 0.25 x 0.5 + 0.5 x 0.75
+    EXPECT_EQ(steps[1],
+              "writes r 0.25, and blends it (colour source x src-alpha + stored x constant-color; "
+              "alpha source x one + stored x zero) with the constants (0.75, 0, 0, 0); that leaves "
+              "r 0.5");
+    EXPECT_EQ(steps[2],
+              "writes r 1, to a format that has no logical operations; that leaves "
+              "r 1");
+}
+
 }  // namespace
 }  // namespace diff

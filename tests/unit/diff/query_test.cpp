@@ -57,6 +57,51 @@ TEST(QueryJudge, EveryOtherNumberIsWrong) {
     }
 }
 
+// No sample is wrong where a count is: none is marked, and no pixel is told.
+TEST(QueryJudge, AWrongCountBelongsToNoSample) {
+    const cases::Case c = asked(Query::occlusion_precise);
+    capture::Capture capture = rasterizers::draw_by_reference(c);
+    capture.counted = {9, 0, 63};
+    Verdict verdict = verdict_of(c, capture);
+    ASSERT_EQ(verdict.findings.size(), 2U);
+    EXPECT_TRUE(verdict.findings[0].of_case);
+    EXPECT_TRUE(verdict.findings[1].of_case);
+    EXPECT_EQ(verdict.count_wrong_samples(), 0U);
+    EXPECT_EQ(verdict.level, Profile::vulkan);
+    EXPECT_EQ(verdict.finding_total(), 2U);
+    // Beside a wrong sample that one alone is marked, and it alone spans the box of what is wrong.
+    set_hits(capture, 5 * 8 + 6, 0, 2);
+    verdict = verdict_of(c, capture);
+    EXPECT_EQ(verdict.count_wrong_samples(), 1U);
+    EXPECT_EQ((std::array{verdict.min_x, verdict.min_y, verdict.max_x, verdict.max_y}),
+              (std::array{6U, 5U, 6U, 5U}));
+}
+
+// Another picture has to count as many, and the sentence says so of the query, not of a sample.
+TEST(QueryJudge, ACountThatADoorChangesBelongsToNoSample) {
+    cases::Case c = asked(Query::occlusion_precise);
+    c.relations = {{cases::RelationKind::same_twice, {}}};
+    c.doors = {cases::Door::secondary};
+    const std::vector<cases::Derivation> derivations = cases::derivations(c);
+    const capture::Capture base = rasterizers::draw_by_reference(c);
+    capture::Capture derived = base;
+    derived.counted[2] = 63;
+    std::vector<Consistency> found;
+    for (const cases::Derivation& derivation : derivations) {
+        found.push_back(compare_bits(base, derived, derivation));
+    }
+    Verdict verdict = verdict_of(c, base);
+    add_differences(c, derivations, found, verdict);
+    ASSERT_EQ(verdict.findings.size(), 3U);  // twice, later, and through the door
+    for (const Finding& finding : verdict.findings) {
+        EXPECT_TRUE(finding.of_case);
+        EXPECT_EQ(finding.quantity.find("occlusion query of draw 2, "), 0U) << finding.quantity;
+        EXPECT_EQ(finding.why.find("has other bits"), std::string::npos) << finding.why;
+        EXPECT_NE(finding.why.find("the query counts as many"), std::string::npos) << finding.why;
+    }
+    EXPECT_EQ(verdict.count_wrong_samples(), 0U);
+}
+
 TEST(QueryJudge, AnyNumberButZeroTellsOfSamples) {
     const cases::Case c = asked(Query::occlusion);
     capture::Capture capture = rasterizers::draw_by_reference(c);

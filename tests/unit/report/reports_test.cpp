@@ -327,6 +327,54 @@ TEST(sentences, samples_are_told_where_they_are_fewer_than_findings) {
     EXPECT_EQ(report::counts_text(record), "2 missing, 188 wrong values of 256 samples");
 }
 
+TEST(sentences, what_the_whole_case_gave_has_no_sample) {
+    CaseRecord record;
+    record.compared_samples = 256;
+    record.counts = {0, 0, 0, 3, 0};
+    record.wrong_samples = 0;
+    EXPECT_EQ(report::counts_text(record), "3 wrong values");
+    diff::Finding finding = diff::finding_of_case(diff::FindingKind::value);
+    finding.quantity = "occlusion query of draw 1";
+    finding.expected = "28";
+    finding.got = "14";
+    record.findings = {finding};
+    EXPECT_EQ(why_it_happened(record), "occlusion query of draw 1: expected 28, got 14");
+    EXPECT_EQ(report::sample_text(finding), "the case");
+}
+
+TEST(sentences, explain_is_led_to_the_sample) {
+    cases::Target target;
+    diff::Finding finding;
+    finding.x = 3;
+    finding.y = 4;
+    finding.sample = 2;
+    EXPECT_EQ(report::sample_options(finding, target), " --pixel 3,4");
+    target.samples = 4;
+    EXPECT_EQ(report::sample_options(finding, target), " --pixel 3,4 --sample 2");
+    target.layers = 2;
+    finding.layer = 1;
+    EXPECT_EQ(report::sample_options(finding, target), " --pixel 3,4 --sample 2 --layer 1");
+    finding.of_case = true;
+    EXPECT_EQ(report::sample_options(finding, target), "");
+}
+
+TEST(json, a_finding_of_the_whole_case_has_no_sample_and_no_box) {
+    report::Run run = test::sample_run();
+    CaseRecord& fail = run.cases[3];
+    for (diff::Finding& finding : fail.findings) {
+        finding.of_case = true;
+    }
+    fail.wrong_samples = 0;
+    const std::string text = to_json(run);
+    const auto json = nlohmann::ordered_json::parse(text).at("cases").at(3);
+    EXPECT_TRUE(json.at("findings").at(0).at("sample").is_null());
+    EXPECT_TRUE(json.at("bounding_box").is_null());
+    const std::string check = "python3 '" + test_support::source_dir() +
+                              "/tests/unit/report/check_schema.py' '" + test_support::source_dir() +
+                              "/docs/schema/results-1.json'";
+    EXPECT_EQ(pass_through(check, text), 0);
+}
+
 TEST(json, golden) {
     expect_golden("results.json", to_json(test::sample_run()));
 }

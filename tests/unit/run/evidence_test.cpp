@@ -66,6 +66,23 @@ TEST(Evidence, TellsDiscardsTestsAndStencils) {
     }
 }
 
+TEST(Evidence, TellsHowAColorComesAbout) {
+    const report::CaseRecord record =
+        drawn_with("logic/operations", "op=and-reverse,format=rgba8-uint",
+                   software::Fault::logic_operands_exchanged);
+    ASSERT_FALSE(record.evidence.empty());
+    EXPECT_TRUE(record.pictures.is_uncounted);
+    bool is_told = false;
+    for (const report::SampleEvidence& e : record.evidence) {
+        EXPECT_TRUE(e.colors.at(0).first.empty());
+        for (const auto& [name, sentence] : e.colors) {
+            is_told = is_told || (name == "triangle 0 of draw 1" &&
+                                  sentence.find("r 204 & ~51 = 204") != std::string::npos);
+        }
+    }
+    EXPECT_TRUE(is_told);
+}
+
 // A row of values is of what the draw writes.
 TEST(Evidence, HasNoDepthThatTheDrawDoesNotWrite) {
     const std::string root = test_support::source_dir() + "/cases/suite";

@@ -44,6 +44,33 @@ TEST(Expectations, AByteOrderMarkIsNoPartOfTheFirstLine) {
     EXPECT_TRUE(file) << file.error().front().message;
 }
 
+TEST(Expectations, ABrokenDoorIsLeftOut) {
+    const auto parsed = [](const std::string& line) {
+        return parse_expectations("# edgecase-expectations 2\n# device: *\n" + line + "\n", "f",
+                                  "2026-01-01");
+    };
+    const auto file =
+        parsed("door=multi-draw-empty  skip  bug-1  until=2025-12-31  # It is empty.");
+    ASSERT_TRUE(file);
+    EXPECT_TRUE(file->lines.empty());
+    ASSERT_EQ(file->doors.size(), 1U);
+    EXPECT_EQ(file->doors[0].glob, "multi-draw-empty");
+    EXPECT_EQ(file->doors[0].bug, "bug-1");
+    EXPECT_TRUE(file->doors[0].is_past);
+    EXPECT_EQ(past_lines(*file).size(), 1U);
+    const auto error = [&](const std::string& line) {
+        const auto wrong = parsed(line);
+        return wrong ? std::string("no error") : wrong.error().front().message;
+    };
+    EXPECT_EQ(error("door=multi-draw-emtpy  skip  bug  # Why."),
+              "there is no door 'multi-draw-emtpy'; did you mean 'multi-draw-empty'?");
+    EXPECT_EQ(error("door=index-8  fail  bug  # Why."),
+              "a door can be left out as a whole by 'skip'; a failure through it is expected of "
+              "cases, by causes like 'value:door.index=index-8@vulkan<=3'");
+    EXPECT_EQ(error("door=index-8  skip  -  # Why."),
+              "a door that is left out needs a reference to a bug in its third column");
+}
+
 TEST(Expectations, VersionsCompareAsNumbers) {
     using Relation = VersionBound::Relation;
     EXPECT_TRUE(satisfies({22, 10}, {Relation::at_least, {22, 9}}));

@@ -1,0 +1,177 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The words of a colour: what each fragment writes and what is left of it.
+#include <fmt/format.h>
+
+#include <string_view>
+
+#include "cases/base/number_text.hpp"
+#include "cases/model/words.hpp"
+#include "ref/color/color.hpp"
+#include "ref/color/logic.hpp"
+
+namespace ref {
+
+namespace {
+
+using cases::LogicOp;
+
+// The operation on a source code {s} and a stored code {d}, in the signs of C.
+std::string_view formula_of(LogicOp op) {
+    switch (op) {
+        case LogicOp::clear:
+            return "0";
+        case LogicOp::and_both:
+            return "{s} & {d}";
+        case LogicOp::and_reverse:
+            return "{s} & ~{d}";
+        case LogicOp::copy:
+            return "{s}";
+        case LogicOp::and_inverted:
+            return "~{s} & {d}";
+        case LogicOp::no_op:
+            return "{d}";
+        case LogicOp::exclusive_or:
+            return "{s} ^ {d}";
+        case LogicOp::or_both:
+            return "{s} | {d}";
+        case LogicOp::nor:
+            return "~({s} | {d})";
+        case LogicOp::equivalent:
+            return "~({s} ^ {d})";
+        case LogicOp::invert:
+            return "~{d}";
+        case LogicOp::or_reverse:
+            return "{s} | ~{d}";
+        case LogicOp::copy_inverted:
+            return "~{s}";
+        case LogicOp::or_inverted:
+            return "~{s} | {d}";
+        case LogicOp::nand:
+            return "~({s} & {d})";
+        case LogicOp::set:
+            break;
+    }
+    return "all bits";
+}
+
+std::string number_text(double low, double high) {
+    return low < high ? fmt::format("{} to {}", cases::number_text(low), cases::number_text(high))
+                      : cases::number_text(low);
+}
+
+std::string equation_text(const cases::BlendEquation& equation) {
+    const auto source = cases::word_of(equation.source);
+    const auto destination = cases::word_of(equation.destination);
+    switch (equation.op) {
+        case cases::BlendOp::add:
+            return fmt::format("source x {} + stored x {}", source, destination);
+        case cases::BlendOp::subtract:
+            return fmt::format("source x {} - stored x {}", source, destination);
+        case cases::BlendOp::reverse_subtract:
+            return fmt::format("stored x {} - source x {}", destination, source);
+        case cases::BlendOp::min:
+            return "the smaller of source and stored";
+        case cases::BlendOp::max:
+            break;
+    }
+    return "the larger of source and stored";
+}
+
+std::string blend_text(const cases::Blend& blend) {
+    const std::string color = equation_text(blend.color), alpha = equation_text(blend.alpha);
+    std::string text = blend.color == blend.alpha
+                           ? fmt::format("blends it ({})", color)
+                           : fmt::format("blends it (colour {}; alpha {})", color, alpha);
+    if ((color + alpha).find("constant") != std::string::npos) {
+        const glm::vec4& c = blend.constants;
+        text +=
+            fmt::format(" with the constants ({}, {}, {}, {})", cases::number_text(c.x),
+                        cases::number_text(c.y), cases::number_text(c.z), cases::number_text(c.w));
+    }
+    return text;
+}
+
+// What the shader writes, of the components that the format has: "r 0.25, g 1".
+std::string source_text(cases::ColorFormat format, const color::Source& source) {
+    std::string text;
+    for (uint32_t k = 0; k < 4; ++k) {
+        if (cases::component_of(format, k).bits != 0) {
+            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", "rgba"[k],
+                                number_text(source.low.at(k), source.high.at(k)));
+        }
+    }
+    return text;
+}
+
+// What the operation makes of each component: "r 204 & ~51 = 204".
+std::string operation_text(const color::Unit& unit, const cases::ColorOutput& output,
+                           const color::Color& source, const color::Color& before,
+                           const color::Color& left) {
+    std::string text;
+    for (uint32_t k = 0; k < 4; ++k) {
+        const color::Component component(cases::component_of(unit.format, k));
+        if (!component.exists() || (output.write_mask >> k & 1U) == 0) {
+            continue;
+        }
+        const std::string s = component.text_of(component.stored(source[k], unit.profile, false));
+        const std::string d = component.text_of(before[k]);
+        const auto in_brackets = [](const std::string& range) {
+            return range.find(' ') == std::string::npos ? range : "(" + range + ")";
+        };
+        text +=
+            fmt::format("{}{} {} = {}", text.empty() ? "" : ", ", "rgba"[k],
+                        fmt::format(fmt::runtime(formula_of(*output.logic)),
+                                    fmt::arg("s", in_brackets(s)), fmt::arg("d", in_brackets(d))),
+                        component.text_of(left[k]));
+    }
+    return text;
+}
+
+std::string mask_text(uint8_t mask) {
+    std::string text;
+    for (uint32_t k = 0; k < 4; ++k) {
+        if ((mask >> k & 1U) != 0) {
+            text += fmt::format("{}{}", text.empty() ? "" : ", ", "rgba"[k]);
+        }
+    }
+    return text.empty() ? "none of it" : text + " alone";
+}
+
+}  // namespace
+
+std::vector<ColorStep> ColorReference::steps(size_t index, cases::SampleId id) {
+    std::vector<ColorStep> out = {
+        {std::nullopt, fmt::format("the target is cleared to {}", unit_.text_of(cleared_))}};
+    color::Color before = cleared_;
+    for (const uint32_t triangle : drawn(index)) {
+        const cases::ColorOutput& output = output_of(triangle);
+        const color::Source& source = source_of(triangle, id);
+        const color::Color exact = color::color_of(source);
+        const color::Color left = unit_.write(output, exact, before);
+        const bool has_logic = output.logic && color::takes_logic(unit_.format);
+        std::string text = fmt::format("writes {}", source_text(unit_.format, source));
+        if (output.write_mask != 0xf) {
+            text +=
+                fmt::format(", of which the mask lets through {}", mask_text(output.write_mask));
+        }
+        if (has_logic) {
+            text += fmt::format(", and does the logical operation {}: {}",
+                                cases::word_of(*output.logic),
+                                operation_text(unit_, output, exact, before, left));
+        } else if (output.logic) {
+            text += ", to a format that has no logical operations";
+        } else if (output.blend) {
+            text += fmt::format(", and {}", blend_text(*output.blend));
+        }
+        if (!has_logic || output.write_mask != 0xf) {  // else that has been said
+            text += fmt::format("; that leaves {}", unit_.text_of(left));
+        }
+        out.push_back({triangle, std::move(text)});
+        before = left;
+    }
+    return out;
+}
+
+}  // namespace ref
