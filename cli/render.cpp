@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The command "render": a picture of a case, without any device.
+#include <gmpxx.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -10,10 +12,12 @@
 #include <nlohmann/json.hpp>
 
 #include "capture/image/image.hpp"
+#include "cases/model/words.hpp"
 #include "cli/commands.hpp"
 #include "cli/prepare/drawing.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
+#include "ref/expectation/counted.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/value/value.hpp"
 #include "report/record/run.hpp"
@@ -47,36 +51,76 @@ Json number(double v) {
     return std::isnan(v) ? "nan" : v > 0 ? "inf" : "-inf";
 }
 
-Json values_json(Reference& r, uint32_t triangle, size_t index) {
-    Json values = Json::array();
+// Whether the text of a number is a fraction that binary64 rounds, or no fraction.
+bool is_rounded(const ref::ExpectedValue& v) {
+    mpq_class exact;
+    return !std::isfinite(v.nearest) || exact.set_str(v.exact, 10) != 0 ||
+           exact != mpq_class(v.nearest);
+}
+
+// The values of a triangle at a sample, by their names: what must be stored bit for bit as [value],
+// else [nearest, low, high], the last two null where nothing is promised. What few values have
+// stands beside them.
+Json writer_json(Reference& r, uint32_t triangle, size_t index) {
+    Json values = Json::object(), exact, also, biased;
     for (const ref::ExpectedValue& v : r.values.expected(triangle, r.id(index))) {
-        values.push_back({{"quantity", to_text(v)},
-                          {"exact", v.exact},
-                          {"nearest", number(v.nearest)},
-                          {"flat", v.is_flat}});
-        // A part beside a value and a level of detail are told, and held to no bounds of their own.
-        const bool is_bounded = v.part.empty() && v.factor > 0;
-        const ref::ValueRange all = v.is_flat    ? ref::ValueRange{true, v.nearest, v.nearest}
-                                    : is_bounded ? r.values.range(triangle, r.id(index), v.quantity)
-                                                 : ref::ValueRange{};
-        if (all.is_promised) {
-            values.back()["low"] = number(all.low);
-            values.back()["high"] = number(all.high);
-        }
-        if (all.is_promised && all.has_biased) {
-            values.back()["biased_low"] = number(all.biased_low);
-            values.back()["biased_high"] = number(all.biased_high);
+        const std::string name = to_text(v);
+        Json& value = values[name] = Json::array({number(v.nearest)});
+        if (is_rounded(v)) {
+            exact[name] = v.exact;
         }
         if (!v.also.empty()) {
-            values.back()["also"] = v.also;
+            also[name] = v.also;
+        }
+        if (v.is_flat) {
+            continue;
+        }
+        // A part beside a value and a level of detail are told, and held to no bounds of their own.
+        const bool is_bounded = v.part.empty() && v.factor > 0;
+        const ref::ValueRange all =
+            is_bounded ? r.values.range(triangle, r.id(index), v.quantity) : ref::ValueRange{};
+        value.push_back(all.is_promised ? number(all.low) : Json());
+        value.push_back(all.is_promised ? number(all.high) : Json());
+        if (all.is_promised && all.has_biased) {
+            biased[name] = {number(all.biased_low), number(all.biased_high)};
         }
     }
-    return values;
+    Json writer = {{"triangle", triangle}, {"values", std::move(values)}};
+    for (auto& [key, rare] : {std::pair("exact", &exact), {"also", &also}, {"biased", &biased}}) {
+        if (!rare->is_null()) {
+            writer[key] = std::move(*rare);
+        }
+    }
+    return writer;
+}
+
+Json triangles_json(const ref::Expectation& e) {
+    Json list = Json::array();
+    for (const cases::Triangle& t : e.triangles) {
+        list.push_back(
+            {{"draw", t.draw}, {"primitive", t.primitive}, {"provoking_vertex", t.provoking}});
+    }
+    return list;
+}
+
+// What each query counts, and of one that is not precise gives as 0 or any other number.
+Json queries_json(const Reference& r) {
+    Json list = Json::array();
+    const std::vector<ref::CountBounds> all =
+        ref::count_bounds(r.expectation, r.c.draws.size(), ref::HitsAt());
+    for (size_t draw = 0; draw < all.size(); ++draw) {
+        if (r.c.draws[draw].query != cases::Query::none) {
+            list.push_back({{"draw", draw},
+                            {"query", cases::word_of(r.c.draws[draw].query)},
+                            {"counted", {all[draw].least, all[draw].most}}});
+        }
+    }
+    return list;
 }
 
 void put_json(Reference& r, const Put& put) {
     const ref::Expectation& e = r.expectation;
-    JsonList samples({{"schema", "edgecase-reference-1"},
+    JsonList samples({{"schema", "edgecase-reference-2"},
                       {"id", r.c.id},
                       {"profile", std::string(cases::to_string(e.profile))},
                       {"subpixel_bits", e.limits.subpixel_bits},
@@ -86,6 +130,8 @@ void put_json(Reference& r, const Put& put) {
                       {"layers", r.c.target.layers},
                       {"must_samples", e.must_samples},
                       {"either_samples", e.either_samples},
+                      {"triangles", triangles_json(e)},
+                      {"queries", queries_json(r)},
                       {"note", "samples that must not be covered are left out"}},
                      "samples", put);
     for (size_t index = 0; index < e.samples.size(); ++index) {
@@ -96,13 +142,7 @@ void put_json(Reference& r, const Put& put) {
         const cases::SampleId id = r.id(index);
         Json writers = Json::array();
         for (uint32_t k = 0; k < s.writers_count; ++k) {
-            const uint32_t t = e.writers[s.writers_begin + k];
-            const cases::Triangle& triangle = e.triangles[t];
-            writers.push_back({{"triangle", t},
-                               {"draw", triangle.draw},
-                               {"primitive", triangle.primitive},
-                               {"provoking_vertex", triangle.provoking},
-                               {"values", values_json(r, t, index)}});
+            writers.push_back(writer_json(r, e.writers[s.writers_begin + k], index));
         }
         samples.add({{"x", id.x},
                      {"y", id.y},

@@ -123,11 +123,43 @@ class Render(Captures):
         jsonschema.Draft7Validator(schema(picture["schema"].removeprefix("edgecase-"))).validate(picture)
         return picture
 
+    def test_the_reference_tells_values_and_queries(self):
+        self.write_case("fam/asked", """format = 1
+description = "a"
+rules = ["query.occlusion"]
+target = { size = [4, 4] }
+[[draw]]
+query = "occlusion-precise"
+vertices = [[0, 0, 0.25], [4, 0, 0.5], [0, 4, 0.75]]
+[[draw]]
+vertices = [[0, 0], [3, 0], [0, 3]]
+""")
+        picture = self.json("fam/asked")
+        # Of the diagonal's own samples none belongs to the triangle.
+        self.assertEqual(picture["queries"], [{"draw": 0, "query": "occlusion-precise", "counted": [6, 6]}])
+        self.assertEqual(picture["triangles"][1], {"draw": 1, "primitive": 0, "provoking_vertex": 0})
+        writer = next(s for s in picture["samples"] if (s["x"], s["y"]) == (2, 0))["writers"][0]
+        self.assertEqual((writer["triangle"], writer["values"]["frag_coord.x"]), (0, [2.5]))
+        nearest, low, high = writer["values"]["depth"]  # 1/4 + 5/8 of 1/4 + 1/8 of 1/2
+        self.assertEqual(nearest, 0.46875)
+        self.assertTrue(low < nearest < high < low + 1e-5)
+        self.assertNotIn("exact", writer)
+        self.write_case("fam/thirds", """format = 1
+description = "a"
+rules = ["cover.inside"]
+target = { size = [4, 4] }
+[[draw]]
+vertices = [[0, 0, 0], [3, 0, 1], [0, 3, 0]]
+""")
+        writer = self.json("fam/thirds")["samples"][0]["writers"][0]
+        self.assertEqual(writer["exact"], {"frag_coord.z": "1/6", "depth": "1/6"})
+        self.assertEqual(writer["values"]["depth"][0], 1 / 6)
+
     def test_schemas_know_every_member(self):
         """Of rich cases of the real suite; a schema without a member that is written would be none."""
         self.write_case("fam/blit", BLIT)
         suite = ("--suite", SOURCE / "cases/suite")
-        for words, name in ((("clip/noperspective:swap=0,lean=0", *suite), "reference-1"),
+        for words, name in ((("clip/noperspective:swap=0,lean=0", *suite), "reference-2"),
                             ((CASE, "--renderer", "tiles"), "drawing-1"), (("fam/blit",), "blit-1")):
             told = schema(name)
 
