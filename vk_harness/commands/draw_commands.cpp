@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "vk_harness/device/depth_bias_control.hpp"
 #include "vk_harness/target/shader_interface.hpp"
 
 namespace vk_harness {
@@ -108,6 +109,18 @@ void draw_once(const Device& device, VkCommandBuffer commands, const DrawPlan& p
     }
 }
 
+// A driver that keeps the representation of a bias for later draws shall show it in its own case,
+// and not in the next one of the command buffer.
+void reset_bias_representation(const Device& device, VkCommandBuffer commands,
+                               const cases::Case& test, uint32_t draw_index) {
+    const auto is_controlled = [](const cases::Draw& draw) {
+        return draw.depth.bias && draw.depth.bias->is_controlled();
+    };
+    if (draw_index + 1 == test.draws.size() && std::ranges::any_of(test.draws, is_controlled)) {
+        record_controlled_bias(device.set_depth_bias2(), commands, {});
+    }
+}
+
 }  // namespace
 
 void record_draw(const Device& device, const PipelineCache& pipelines, VkCommandBuffer commands,
@@ -168,6 +181,7 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
     if (of.queries) {
         of.queries->end(commands, draw_index);
     }
+    reset_bias_representation(device, commands, test, draw_index);
 }
 
 }  // namespace vk_harness
