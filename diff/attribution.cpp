@@ -170,6 +170,14 @@ void Attribution::explain_hits(Finding& finding, const ref::HitBounds& asked, ui
         return;
     }
     if (last.wrote) {
+        // The last of several hits too many may rightly follow from an earlier one, as a depth test
+        // does from what that one stored.
+        const bool is_of_several = total > asked.total_max + 1;
+        if (const std::optional<Cause> root =
+                is_of_several ? causes.of_earlier_hit(last.draw) : std::nullopt) {
+            tell(finding, *root);
+            return;
+        }
         if (const std::optional<Cause> hit = causes.of_last_hit(last.wrote)) {
             tell(finding, *hit);
             return;

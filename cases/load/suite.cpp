@@ -112,8 +112,10 @@ Expected<void> add_case_files(const fs::path& folder, std::vector<fs::path>& abo
         }
     }
     if (error) {
-        return tl::unexpected(Error{{folder.string(), 0, 0},
-                                    "this folder of the suite cannot be read: " + error.message() +
+        const fs::path& root = above.empty() ? folder : above.front();
+        return tl::unexpected(Error{{root.string(), 0, 0},
+                                    "the suite cannot be read, since a folder in it cannot: '" +
+                                        folder.string() + "': " + error.message() +
                                         "; a suite is a folder of case files"});
     }
     above.push_back(place);

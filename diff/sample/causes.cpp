@@ -154,6 +154,15 @@ std::optional<Cause> Causes::of_last_hit(
                                                : std::nullopt;
 }
 
+std::optional<Cause> Causes::of_earlier_hit(uint32_t draw) const {
+    // A looser profile lets it cover the sample: that is a question of positions.
+    return level_ != cases::Profile::vulkan
+               ? std::nullopt
+               : of_suppressed([draw](const TriangleExplanation& t) {
+                     return t.triangle.draw < draw && t.why() != ReasonKind::other_layer;
+                 });
+}
+
 std::optional<Cause> Causes::of_depth(bool is_missing) const {
     const auto& triangles = reasons_.triangles;
     const ref::DepthOutcome asked =

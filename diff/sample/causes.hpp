@@ -52,6 +52,9 @@ class Causes {
     // positions that a looser profile allows.
     std::optional<Cause> of_last_hit(
         const std::function<bool(const cases::Triangle&)>& wrote) const;
+    // Of several hits too many, the last of them by this draw: a triangle of an earlier draw that
+    // would cover the sample but for its draw's state. Nothing if there is none.
+    std::optional<Cause> of_earlier_hit(uint32_t draw) const;
     // Of the right number of hits by the wrong face.
     Cause of_facing() const;
     // A triangle that the top-left rule decides, if there is one: better one that it gives the
