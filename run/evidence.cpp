@@ -112,7 +112,7 @@ class EvidenceMaker {
         if (colors_) {
             add_colors(e, index, id);
         }
-        if (!case_.target.has_instruments) {
+        if (!case_.target.has_instruments || capture_.hits.empty()) {  // of a renderer elsewhere
             return e;
         }
         const glm::vec4& hits = capture_.hits[index];
@@ -251,8 +251,6 @@ class EvidenceMaker {
     std::optional<ref::ColorReference> colors_;
 };
 
-}  // namespace
-
 void keep_pictures(report::CaseRecord& record, const cases::Case& c, const diff::Verdict& verdict,
                    const ref::Expectation& expectation, const capture::CaptureView& capture,
                    const ref::Limits& limits) {
@@ -262,6 +260,8 @@ void keep_pictures(report::CaseRecord& record, const cases::Case& c, const diff:
     add_stencils(record.pictures, window, c, verdict, expectation, capture);
     record.geometry = geometry_of(window, c, limits, expectation, report::kMaxShapes);
 }
+
+}  // namespace
 
 void keep_reference(report::CaseRecord& record, const cases::Case& c, const diff::Verdict& verdict,
                     const ref::Expectation& expectation, const ref::Limits& limits) {

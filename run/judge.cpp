@@ -173,7 +173,7 @@ void judge_delivered(CaseRecord& record, const cases::Case& c, const capture::De
             verdict = diff::compare_delivered(c, expectation, planes);
         }
         if (keep_verdict(record, verdict, pictures)) {
-            keep_pictures(record, c, verdict, expectation, capture, limits);
+            keep_evidence(record, c, verdict, expectation, capture, limits);
         }
     } catch (const std::exception& e) {
         record.status = Status::error;

@@ -288,11 +288,16 @@ ColorVerdict ColorReference::judge(size_t index, cases::SampleId id,
     const auto tells = [&](const Sequence& sequence) {
         return leaves(sequence, id, nullptr, codes);
     };
-    const bool is_turned = most.size() > 1 && tells({most.rbegin(), most.rend()});
     if (witness) {
-        verdict.kind = is_turned ? ColorVerdict::Kind::order : ColorVerdict::Kind::value;
+        // Who wrote last is known: only those before it may have come in another order.
+        Sequence turned = most;
+        std::reverse(turned.begin(), turned.end() - std::min<std::ptrdiff_t>(1, std::ssize(most)));
+        verdict.kind = most.size() > 2 && leaves(turned, id, last, codes)
+                           ? ColorVerdict::Kind::order
+                           : ColorVerdict::Kind::value;
         return verdict;
     }
+    const bool is_turned = most.size() > 1 && tells({most.rbegin(), most.rend()});
     // Without instruments the colour tells what is wrong with the coverage, if anything does.
     for (size_t k = 0; k < most.size(); ++k) {
         Sequence less = most;

@@ -18,7 +18,7 @@ function makeInspector(record, scene) {
     const known = evidence.get(at.x + "," + at.y + "," + at.sample);
     summary.className = "sample-title";
     summary.replaceChildren(...sampleTitle(scene, at));
-    body.replaceChildren(...[verdictPart(scene, at, known), findingsPart(told), coursesPart(known), colorsPart(known), valuesPart(scene, at, known, told, isComplete(record, findings, told)), trianglesPart(scene, at), blitPart(scene, at)].filter(Boolean));
+    body.replaceChildren(...[verdictPart(scene, at, known, told), findingsPart(told), coursesPart(known), colorsPart(known), valuesPart(scene, at, known, told, isComplete(record, findings, told)), trianglesPart(scene, at), blitPart(scene, at)].filter(Boolean));
   }, sentence: (at) => sampleSentence(scene, at)};
 }
 
@@ -43,7 +43,7 @@ function sampleSentence(scene, at) {
     (scene.ties.has(k) ? "; exactly on an edge" : "");
 }
 
-function verdictPart(scene, at, known) {
+function verdictPart(scene, at, known, told) {
   const p = scene.pictures;
   if (!isInPicture(p, at)) { return el("p", {class: "quiet"}, "Outside the picture that was kept."); }
   const k = indexOf(p, at), mark = p.marks[k];
@@ -57,7 +57,8 @@ function verdictPart(scene, at, known) {
   fact("reference", [el("strong", {"data-class": expected === SEVERAL ? "either" : expected === 0 ? "must-not" : "must"}, spoken(scene, classText(expected))),
     known && known.allowed ? ", hits " + known.allowed : expected === SEVERAL || expected === 0 || isBlitScene(scene) ? "" : ", " + hitsText(expected, true)]);
   fact("device", p.isReference ? "" : (known && known.hits ? known.hits : deviceText(scene, p.device[k])) + (known && known.writer ? ", last by " + known.writer : ""));
-  if (p.errors && p.errors[k]) { fact("error", errorText(p.errors[k])); }
+  // Beside what is wrong without a distance the error of a value that is right would mislead.
+  if (p.errors && p.errors[k] && (told.length === 0 || told.some((f) => f.ratio))) { fact("error", errorText(p.errors[k])); }
   const color = (plane) => [plane[k], plane[p.count + k], plane[2 * p.count + k]];
   const chip = (c) => { const s = el("span", {class: "chip", "aria-hidden": "true"}); s.style.background = "rgb(" + c.join(",") + ")"; return [s, " " + c.join(", ")]; };
   if (p.expectedColors) { fact("expected colour", chip(color(p.expectedColors))); }
@@ -130,7 +131,7 @@ function valueRow(value, told, complete, drawn) {
 function valuesPart(scene, at, known, told, complete) {
   const drawn = isInPicture(scene.pictures, at) && scene.pictures.device[indexOf(scene.pictures, at)] > 0;
   if (!known || known.values.length === 0) {
-    return drawn && scene.pictures.errors ? el("p", {class: "quiet small"}, "Values are kept for the first wrong samples and their neighbours, where a triangle may be; the command \u201cexplain\u201d tells them for any sample.") : null;
+    return drawn && !known && scene.pictures.errors ? el("p", {class: "quiet small"}, "Values are kept for the first wrong samples and their neighbours, where a triangle may be; the command \u201cexplain\u201d tells them for any sample.") : null;
   }
   const isWrong = (value) => told.some((f) => f.quantity === value[0]);
   return el("div", {class: "values"}, el("h2", {}, "Values"), el("div", {class: "framed"},

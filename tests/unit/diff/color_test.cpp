@@ -187,6 +187,23 @@ TEST(Color, TruncationIsAFindingAtDirect3dAlone) {
     EXPECT_EQ(drawn.judge().findings[0].level, Profile::vulkan);
 }
 
+// The colour alone fits another order; the writer that a device delivers denies it.
+TEST(ColorJudge, AWriterDeniesAnotherOrder) {
+    cases::Case c = two_draws(ColorFormat::r32_uint, {170, 0, 0, 0});
+    c.draws[0].color.value = {51, 0, 0, 0};
+    c.draws[1].color.value = {204, 0, 0, 0};
+    c.draws[1].color.logic = cases::LogicOp::and_reverse;
+    const ref::Expectation expectation = ref::expect(c, ref::Limits{8}, Profile::direct3d);
+    ref::ColorReference reference(c, expectation);
+    // Operands exchanged: 51 & ~204 = 51; in another order 204 & ~170 = 68, and then 51.
+    const std::array<uint32_t, 4> codes = {51, 0, 0, 0};
+    const cases::SampleId id{1, 2, 0};
+    const uint32_t writer = expectation.fragments_of(expectation.samples[17]).back().triangle;
+    EXPECT_EQ(reference.judge(17, id, codes, ref::ColorWitness{2, writer, nullptr}).kind,
+              ref::ColorVerdict::Kind::value);
+    EXPECT_NE(reference.judge(17, id, codes, std::nullopt).kind, ref::ColorVerdict::Kind::value);
+}
+
 // The story of pixel (1, 2), which both triangles cover.
 std::vector<std::string> steps_of(const cases::Case& c) {
     const ref::Expectation expectation = ref::expect(c, ref::Limits{8}, Profile::direct3d);
