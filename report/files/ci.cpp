@@ -114,7 +114,7 @@ std::string to_github_annotations(const Run& run, const fs::path& base) {
         const std::string others = other_relations_text(first);
         const std::string body =
             fmt::format("{}   {}\n{}{}\nrerun: {}{}", first.id, what_happened(first),
-                        why_it_happened(first), others.empty() ? "" : "\nalso: " + others,
+                        why_it_happened(list[k]), others.empty() ? "" : "\nalso: " + others,
                         first.rerun, first.explain.empty() ? "" : "\nexplain: " + first.explain);
         const std::string file = file_in(base, run, first.file);
         const std::string place = file.empty()
@@ -211,7 +211,7 @@ std::string to_github_summary(const Run& run) {
         const CaseRecord& first = smallest_case(list[k]);
         const std::string block =
             fmt::format("\n**{}. {}**: {}\n\n{}", k + 1, cell(cause_title(list[k])),
-                        cell(fmt::format("{}; {}", what_happened(first), why_it_happened(first))),
+                        cell(fmt::format("{}; {}", what_happened(first), why_it_happened(list[k]))),
                         command_block(first));
         if (text.size() + block.size() <= kMaxSummary) {
             text += block;

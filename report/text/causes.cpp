@@ -158,6 +158,15 @@ const CaseRecord& smallest_case(const Cause& cause) {
         [&](const CaseRecord* a, const CaseRecord* b) { return size(a) < size(b); });
 }
 
+std::string why_it_happened(const Cause& cause) {
+    const CaseRecord& record = smallest_case(cause);
+    const auto found = std::ranges::find_if(record.findings, [&](const diff::Finding& f) {
+        return f.rule == cause.rule && f.door == cause.door &&
+               diff::to_string(f.kind) == cause.kind;
+    });
+    return found == record.findings.end() ? why_it_happened(record) : finding_text(*found);
+}
+
 std::string cause_title(const Cause& cause) {
     std::string text(to_string(cause.status));
     std::replace(text.begin(), text.end(), '_', ' ');

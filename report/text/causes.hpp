@@ -42,6 +42,9 @@ std::vector<Cause> known_causes(const Run& run);
 // The case that shows the cause with the fewest samples, and among those with the fewest findings.
 const CaseRecord& smallest_case(const Cause& cause);
 
+// What that case shows of this cause, one line: it may have findings of several.
+std::string why_it_happened(const Cause& cause);
+
 // "fail: tie.top-left missing in ties, 12 cases", "fail: door.state=state-static value in ...";
 // printable, one line.
 std::string cause_title(const Cause& cause);

@@ -274,19 +274,22 @@ std::string what_happened(const CaseRecord& record) {
     return text;
 }
 
+std::string finding_text(const diff::Finding& f) {
+    std::string text = f.of_case ? "" : sample_text(f) + ": ";
+    if (!f.quantity.empty()) {
+        text += one_line(f.quantity) + ": ";
+    }
+    text += fmt::format("expected {}, got {}", one_line(f.expected), one_line(f.got));
+    // Exact ones have no budget, and NaN has no distance.
+    if (f.kind == diff::FindingKind::value && f.ratio > 0 && std::isfinite(f.ratio)) {
+        text += fmt::format(", {} budgets off", ratio_text(f.ratio));
+    }
+    return f.why.empty() ? text : text + "; " + one_line(f.why);
+}
+
 std::string why_it_happened(const CaseRecord& record) {
     if (!record.findings.empty()) {
-        const diff::Finding& f = leading_finding(record);
-        std::string text = f.of_case ? "" : sample_text(f) + ": ";
-        if (!f.quantity.empty()) {
-            text += one_line(f.quantity) + ": ";
-        }
-        text += fmt::format("expected {}, got {}", one_line(f.expected), one_line(f.got));
-        // Exact ones have no budget, and NaN has no distance.
-        if (f.kind == diff::FindingKind::value && f.ratio > 0 && std::isfinite(f.ratio)) {
-            text += fmt::format(", {} budgets off", ratio_text(f.ratio));
-        }
-        return f.why.empty() ? text : text + "; " + one_line(f.why);
+        return finding_text(leading_finding(record));
     }
     if (!record.reason.empty()) {
         return one_line(record.reason);

@@ -41,6 +41,8 @@ std::string sample_options(const diff::Finding& finding, const cases::Target& ta
 std::string counts_text(const CaseRecord& record);
 // One line that tells what happened to a case, without its id.
 std::string what_happened(const CaseRecord& record);
+// "(3,4): depth: expected 0.5, got 0.25; ...", one line.
+std::string finding_text(const diff::Finding& finding);
 // One line that tells why: the first finding, or the reason, or the driver's last words.
 std::string why_it_happened(const CaseRecord& record);
 

@@ -202,6 +202,34 @@ TEST(github, at_most_ten_and_the_rest_is_counted) {
         text.ends_with("+2 more causes of unexpected results: see the summary of the step\n"));
 }
 
+// A case may fail by two causes: each is told by a finding of its own.
+TEST(github, a_cause_tells_its_own_finding) {
+    report::Run run = test::sample_run();
+    run.cases = {run.cases[3]};
+    CaseRecord& record = run.cases[0];
+    ASSERT_GE(record.findings.size(), 2U);
+    record.findings.resize(2);
+    record.findings[0].rule = "scissor.half-open";
+    record.findings[0].kind = diff::FindingKind::extra;
+    record.findings[0].why = "the first";
+    record.findings[1] = record.findings[0];
+    record.findings[1].rule = "repeat.scissor";
+    record.findings[1].kind = diff::FindingKind::value;
+    record.findings[1].why = "the second";
+    record.groups = {{diff::FindingKind::extra, "scissor.half-open", cases::Profile::vulkan, 1, 0},
+                     {diff::FindingKind::value, "repeat.scissor", cases::Profile::vulkan, 1, 0}};
+    const std::string text = to_github_annotations(run, "/x");
+    ASSERT_EQ(lines_with(text, "::error "), 2U);
+    for (const std::string& line :
+         {std::string("scissor.half-open extra"), std::string("repeat.scissor value")}) {
+        const size_t at = text.find(line);
+        ASSERT_NE(at, std::string::npos) << text;
+        const std::string body = text.substr(at, text.find('\n', at) - at);
+        EXPECT_EQ(body.find("the first") != std::string::npos, line[0] == 's') << body;
+        EXPECT_EQ(body.find("the second") != std::string::npos, line[0] == 'r') << body;
+    }
+}
+
 TEST(github, paths_are_those_of_the_checkout) {
     report::Run run = test::sample_run();
     run.environment.emplace_back("PWD", "/srv/builds/tree");
