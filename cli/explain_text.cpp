@@ -385,12 +385,13 @@ std::string explain_text(const cases::Case& c, const ref::Limits& limits, cases:
     const ref::Expectation all = ref::expect(c, limits, profile);
     const uint64_t samples = all.samples.size();
     return head_text(c) +
-           fmt::format("\n{} of {}; profile {}, {} subpixel bits\n",
-                       all.either_samples == 0 ? fmt::format("{} must be covered", all.must_samples)
-                                               : fmt::format("{} must be covered and {} are free",
-                                                             all.must_samples, all.either_samples),
-                       cases::counted(samples, "sample"), to_string(profile),
-                       limits.subpixel_bits) +
+           fmt::format(
+               "\n{} of {} must be covered{}; profile {}, {} subpixel bits\n", all.must_samples,
+               cases::counted(samples, "sample"),
+               all.either_samples == 0
+                   ? ""
+                   : fmt::format(", of {} more than one answer is allowed", all.either_samples),
+               to_string(profile), limits.subpixel_bits) +
            queries_text(c, all) + "--pixel X,Y explains a sample\n";
 }
 

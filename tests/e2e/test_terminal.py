@@ -109,7 +109,7 @@ class Explain(TerminalTest):
 
     def test_a_case_as_a_whole(self):
         text = self.edgecase("explain", "fam/c1", check=0).stdout
-        self.assertRegex(text, r"\n\d+ must be covered of 64 samples; profile direct3d, 8 subpixel bits\n")
+        self.assertRegex(text, r"\n\d+ of 64 samples must be covered; profile direct3d, 8 subpixel bits\n")
         self.assertTrue(text.endswith("\n--pixel X,Y explains a sample\n"), text)
         (self.folder / "asked.toml").write_text(
             'format = 1\ndescription = "a"\ncatches = "b"\nrules = ["query.occlusion"]\ntarget = { size = [4, 4] }\n'
