@@ -19,6 +19,7 @@
 #include "cases/model/sample.hpp"
 #include "cases/model/selector.hpp"
 #include "cli/commands.hpp"
+#include "cli/fuzzing/start_cases.hpp"
 #include "cli/prepare/claims.hpp"
 #include "cli/prepare/on_threads.hpp"
 #include "cli/prepare/outputs.hpp"
@@ -349,6 +350,7 @@ int lint_command(const Program& program, const LintOptions& options) {
         tell_in_short(*suite, files, checked);
     }
     add(check_claims(suite->cases, files));
+    add(check_open_values(*suite));
     // Expectation files are about the suite, so they are none of a selection's business.
     size_t expectation_files = 0;
     if (options.suite.selectors.empty()) {

@@ -38,6 +38,28 @@ File read(const std::string& name) {
 
 }  // namespace
 
+cases::Errors check_open_values(const LoadedSuite& suite) {
+    std::map<std::string, std::vector<fuzz::Start>> by_file;
+    for (const size_t k : suite.selected) {
+        const cases::Case& c = suite.cases[k];
+        const auto [leaves, is_fresh] = by_file.try_emplace(c.where.file);
+        const auto open = is_fresh                 ? read(c.where.file).open
+                          : leaves->second.empty() ? nullptr
+                                                   : leaves->second.front().open;
+        if (open) {
+            leaves->second.push_back({c, open});
+        }
+    }
+    cases::Errors errors;
+    for (const auto& [file, leaves] : by_file) {
+        if (!leaves.empty()) {
+            const cases::Errors more = fuzz::check_open_values(leaves);
+            errors.insert(errors.end(), more.begin(), more.end());
+        }
+    }
+    return errors;
+}
+
 OrStop<StartCases> start_cases(const Program& program, const SuiteOptions& options, uint64_t seed) {
     StartCases out;
     if (options.selectors.empty()) {
@@ -57,6 +79,9 @@ OrStop<StartCases> start_cases(const Program& program, const SuiteOptions& optio
     }
     if (suite->selected.empty()) {
         return tl::unexpected(Stop{report::kExitNothingSelected, {"the selection is empty"}});
+    }
+    if (const cases::Errors errors = check_open_values(*suite); !errors.empty()) {
+        return tl::unexpected(invalid_files(errors));
     }
     std::map<std::string, File> files;
     std::vector<fuzz::Start> starts;

@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "cases/load/matrix.hpp"
@@ -70,7 +72,52 @@ Document closed(const Start& start, const std::vector<std::pair<std::string, Doc
     return document;
 }
 
+// What the loader says of the file with one value for a name and the nominal ones for the others;
+// nothing if it takes it.
+std::optional<std::string> refusal(const Start& start, const std::vector<cases::OpenName>& names,
+                                   const cases::OpenName& asked, uint64_t number) {
+    std::vector<std::pair<std::string, Document>> values;
+    for (const cases::OpenName& name : names) {
+        values.emplace_back(name.key, name.value(name.key == asked.key ? number : name.nominal));
+    }
+    const auto loaded = cases::load_text(to_text(closed(start, values)), "fuzz", "open");
+    return loaded ? std::nullopt : std::optional(loaded.error().front().message);
+}
+
 }  // namespace
+
+cases::Errors check_open_values(const std::vector<Start>& leaves) {
+    constexpr uint64_t kMostTried = 64;  // of a list
+    cases::Errors errors;
+    const Document& document = *leaves.front().open;
+    const auto matrix = cases::read_matrix(document.find("matrix"), document.find("leaves"));
+    const auto names = matrix ? cases::read_open(document.find("fuzz"), *matrix)
+                              : cases::ExpectedAll<std::vector<cases::OpenName>>();
+    for (const cases::OpenName& name : names ? *names : std::vector<cases::OpenName>()) {
+        std::vector<uint64_t> tried = {0, name.count - 1};  // the ends of a range
+        if (!name.list.empty()) {
+            tried.resize(std::min(name.count, kMostTried));
+            std::iota(tried.begin(), tried.end(), uint64_t{0});
+        }
+        for (const uint64_t number : tried) {
+            std::optional<std::string> why;
+            for (const Start& leaf : leaves) {
+                why = refusal(leaf, *names, name, number);
+                if (!why) {
+                    break;
+                }
+            }
+            if (why) {
+                errors.push_back(
+                    {name.where,
+                     fmt::format("with the value {} of the [fuzz] key {} no case can be loaded: {}",
+                                 cases::value_text(name.value(number)).value_or("?"), name.key,
+                                 *why)});
+            }
+        }
+    }
+    return errors;
+}
 
 ChangedSource::ChangedSource(uint64_t seed, Starts starts)
     : seed_(seed), starts_(std::move(starts)), order_(starts_->size()) {}

@@ -24,6 +24,11 @@ struct Start {
 };
 using Starts = std::shared_ptr<const std::vector<Start>>;
 
+// One error for each value of [fuzz] with which the loader takes none of the leaves of a file, the
+// other names being nominal: of each list, and the ends of each range. `leaves`: of one file, which
+// has a table [fuzz]; at least one.
+cases::Errors check_open_values(const std::vector<Start>& leaves);
+
 class ChangedSource : public Source {
   public:
     // At least one start.

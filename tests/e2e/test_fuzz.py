@@ -242,6 +242,19 @@ class WrongInput(FuzzTest):
         self.refused(["--renderer", "referenc"], "referenc")
         self.refused(["--icd", "/nowhere.json"], "/nowhere.json", 5)
 
+    def test_a_value_that_makes_no_case(self):
+        file = self.folder / "open.toml"
+        text = ('format = 1\ndescription = "a"\ncatches = "b"\nrules = ["cover.inside"]\n[fuzz]\nface = FACES\n'
+                'x = { from = 4, to = 7 }\n[target]\nsize = [8, 8]\n[[draw]]\ncull = "face"\nvertices = [[0, 0], ["x", 0], [0, 8]]\n')
+        sentence = 'with the value sideways of the [fuzz] key face no case can be loaded: '
+        file.write_text(text.replace("FACES", '["none", "sideways"]'))
+        self.refused([str(file), "--cases", "4"], sentence, 3)
+        done = self.edgecase("lint", str(file), check=3)
+        self.assertIn(f"{file}:6:1: error: {sentence}", done.stderr)
+        self.assertIn("1 case checked, 1 error", done.stdout)
+        file.write_text(text.replace("FACES", '["none", "back"]'))
+        self.assertIn("1 case checked, 0 errors", self.edgecase("lint", str(file), check=0).stdout)
+
     def test_a_hunt_that_goes_on_cannot_change(self):
         self.refused(["--resume", "hunt", "--print", "7"], "--print and --resume exclude each other; leave out one of the two")
         for words in (["--seed", "3"], ["--shard", "1/2"], ["--profile", "vulkan"], ["-o", "other"]):
