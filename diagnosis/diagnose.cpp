@@ -38,9 +38,12 @@ class Diagnoser {
         const bool has_news = std::any_of(run.cases.begin(), run.cases.end(), [](const auto& r) {
             return r.status == report::Status::fail && !r.expected;
         });
-        const auto is_failed = [has_news](const cases::Case& c, const CaseRecord& record) {
-            return record.status == report::Status::fail && !(has_news && record.expected) &&
-                   can_match(c, record);
+        const auto counts = [has_news](const CaseRecord& record) {
+            return record.status == report::Status::fail && !(has_news && record.expected);
+        };
+        all_failed_ = static_cast<uint64_t>(std::ranges::count_if(run.cases, counts));
+        const auto is_failed = [&](const cases::Case& c, const CaseRecord& record) {
+            return counts(record) && can_match(c, record);
         };
         more_failed_ = by_turn(run, case_of, is_failed, family_and_rule, run.cases.size());
         failed_ = more_failed_.size();
@@ -374,6 +377,7 @@ class Diagnoser {
         }
         const Tally& first = best.front();
         out.tried = subjects_.size();
+        out.failed = all_failed_;
         out.cases = first.count(Says::explains);
         out.against = first.count(Says::otherwise);
         out.passed_against = first.passed_against;
@@ -397,6 +401,7 @@ class Diagnoser {
     }
 
     Bound bound_;
+    uint64_t all_failed_ = 0;
     Work work_ = 0;
     int bits_;
     cases::Profile profile_;

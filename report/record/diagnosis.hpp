@@ -20,6 +20,7 @@ struct Diagnosis {
     // Failed cases whose wrong samples and values it repeats, of those that it was tried on; the
     // first of them by id.
     uint64_t cases = 0, tried = 0;
+    uint64_t failed = 0;  // cases in all, with those that were not tried; 0 in older journals
     std::vector<std::string> examples;
     // Ids of all failed cases that it was tried on: those that it repeats, and the others.
     std::vector<std::string> explained, unexplained;
@@ -35,6 +36,7 @@ struct Diagnosis {
         visit("names", d.names...);
         visit("cases", d.cases...);
         visit("tried", d.tried...);
+        visit({"failed", cases::kOlderLackIt}, d.failed...);
         visit("examples", d.examples...);
         visit({"explained", cases::kOlderLackIt}, d.explained...);
         visit({"unexplained", cases::kOlderLackIt}, d.unexplained...);

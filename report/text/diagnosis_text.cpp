@@ -28,6 +28,9 @@ std::string evidence_for(const Diagnosis& diagnosis) {
             fmt::format(" and {} of {}", d.same_values, cases::counted(d.values, "told finding"));
     }
     text += fmt::format(" in {} of {} tried", d.cases, cases::counted(d.tried, "failed case"));
+    if (d.failed > d.tried) {
+        text += fmt::format(", {} failed in all", d.failed);
+    }
     if (d.against > 0) {
         text += fmt::format("; {} otherwise",
                             d.against == 1 ? "1 fails" : fmt::format("{} fail", d.against));

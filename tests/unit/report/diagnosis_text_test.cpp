@@ -67,6 +67,12 @@ TEST(DiagnosisText, WhatSpeaksAgainstItIsTold) {
     EXPECT_EQ(evidence_for(d),
               "repeats 90 of 90 wrong samples in 20 of 64 failed cases tried; 1 fails otherwise; "
               "2 of 300 cases that passed would fail");
+    // Of those that were not tried nothing is known.
+    d.failed = 796;
+    d.passed_against = d.against = 0;
+    EXPECT_EQ(evidence_for(d),
+              "repeats 90 of 90 wrong samples in 20 of 64 failed cases tried, 796 failed in all; "
+              "300 cases that passed agree");
 }
 
 TEST(Repeated, ACauseOfWhichEveryTriedCaseIs) {
