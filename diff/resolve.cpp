@@ -104,6 +104,10 @@ std::optional<Finding> judge_number(const std::vector<double>& samples, double g
     finding.kind = FindingKind::value;
     finding.got = cases::number_text(got);
     if (mode == Resolve::average) {
+        // Nothing is known of a sum with infinities or NaN.
+        if (!std::ranges::all_of(samples, [](double sample) { return std::isfinite(sample); })) {
+            return std::nullopt;
+        }
         const auto level = wrong_average(samples, got, kind, profile);
         if (!level) {
             return std::nullopt;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -23,15 +24,21 @@ Words change_state(Document& document, Dice& dice, const Document* other);
 // What does not: vertices and indices, viewports, scissors, numbers of any key.
 Words change_geometry(Document& document, Dice& dice, const Document* other);
 
-// --- parts of changes of a state: depth bounds, gl_FragDepth, logical operations, queries ---
+// --- parts of changes of a state: depth bounds, gl_FragDepth, logical operations, queries, stencil
+// states, and what a blit has instead of draws ---
 Words change_bounds(Document& document, Dice& dice);
 Words change_frag_depth(Document& document, Dice& dice);
 Words change_logic(Document& document, Dice& dice);
 Words change_query(Document& document, Dice& dice);
+Words change_stencil(Document& document, Dice& dice);
+Words change_blit(Document& document, Dice& dice);
 
 // --- what the parts share ---
 // A draw of the document, or nullptr; its words are "draw 2 ", or nothing if it is the only one.
 Document* any_draw(Document& document, Dice& dice, Words& words);
+inline std::string_view any_of(std::span<const std::string_view> words, Dice& dice) {
+    return words[dice.below(words.size())];
+}
 // Another number, near to a value or simpler.
 double other_number(double value, Dice& dice);
 // Replaces a number by another one; false if it is none. `is_binary32`: it has to be one.

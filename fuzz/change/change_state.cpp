@@ -58,10 +58,6 @@ constexpr std::array<WordKey, 25> kWordKeys = {{
     {"attribute", "source", cases::kWords<cases::Source>},
 }};
 
-std::string_view any_of(WordSpan words, Dice& dice) {
-    return words[dice.below(words.size())];
-}
-
 // The table of that name, made where it may be missing; nullptr if there is none. Its words end in
 // a blank, if there are any.
 Document* table_of(Document& document, std::string_view name, Dice& dice, Words& words) {
@@ -362,7 +358,10 @@ Words change_draws(Document& document, Dice& dice, const Document* other) {
 }  // namespace
 
 Words change_state(Document& document, Dice& dice, const Document* other) {
-    const uint64_t kind = dice.below(24);
+    if (document.find("blit") != nullptr) {
+        return change_blit(document, dice);
+    }
+    const uint64_t kind = dice.below(26);
     return kind < 8    ? change_word(document, dice)
            : kind < 12 ? change_count(document, dice)
            : kind < 13 ? change_bias(document, dice)
@@ -374,7 +373,8 @@ Words change_state(Document& document, Dice& dice, const Document* other) {
            : kind < 21 ? change_bounds(document, dice)
            : kind < 22 ? change_frag_depth(document, dice)
            : kind < 23 ? change_logic(document, dice)
-                       : change_query(document, dice);
+           : kind < 24 ? change_query(document, dice)
+                       : change_stencil(document, dice);
 }
 
 }  // namespace fuzz

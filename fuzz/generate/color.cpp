@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <string_view>
 #include <vector>
 
 #include "cases/format/color_format.hpp"
@@ -39,7 +41,9 @@ uint64_t code_of(uint32_t bits, Dice& dice) {
     }
 }
 
-std::string component(const cases::ColorFormatRow& row, uint32_t k, bool is_code, Dice& dice) {
+std::string component(const Pose& pose, uint32_t k, Dice& dice) {
+    const cases::ColorFormatRow& row = row_of(pose);
+    const bool is_code = !pose.is_default("logic");
     const uint32_t bits = row.bits.at(k);
     if (row.kind == cases::ComponentKind::uint) {
         // binary32 has all whole numbers up to 2^24 (cases/load/color.cpp).
@@ -52,23 +56,61 @@ std::string component(const cases::ColorFormatRow& row, uint32_t k, bool is_code
         return fmt::format("\"{}/{}\"", code_of(bits, dice), (uint64_t{1} << bits) - 1);
     }
     // What lies beyond 0 to 1 is clamped by some formats, before or after blending, and not by
-    // others.
-    const bool is_beyond = dice.one_in(16);
+    // others. binary16 ends at 65504, which the largest ones exceed: infinity may be stored then,
+    // of which nothing is known once it is blended or resolved.
+    const bool is_float =
+        (row.kind == cases::ComponentKind::half || row.kind == cases::ComponentKind::binary32) &&
+        pose.is_default("blend") && pose.is_default("resolve");
+    const uint64_t kind = dice.below(16);
+    if (kind < 2 && is_float) {
+        const double sign = dice.one_in(3) ? -1 : 1;
+        return fmt::format("{}", sign * std::ldexp(static_cast<double>(dice.between(1, 15)),
+                                                   static_cast<int>(dice.between(-12, 14))));
+    }
     return fmt::format(
-        "{}", static_cast<double>(is_beyond ? dice.between(-16, 48) : dice.between(0, 16)) / 16);
+        "{}", static_cast<double>(kind < 3 ? dice.between(-16, 48) : dice.between(0, 16)) / 16);
 }
 
-std::string factors(const Pose& pose, Dice& dice) {
-    const auto factor = [&dice] {
-        const auto& words = cases::kWords<cases::BlendFactor>;
-        return words[dice.below(words.size())];
+// Those of one colour. Half of them are of the constants or saturated, which need each other's
+// numbers to show.
+std::string_view factor(Dice& dice) {
+    static constexpr std::array<std::string_view, 15> kFactors = {
+        "zero",
+        "one",
+        "src-color",
+        "one-minus-src-color",
+        "dst-color",
+        "one-minus-dst-color",
+        "src-alpha",
+        "one-minus-src-alpha",
+        "dst-alpha",
+        "one-minus-dst-alpha",
+        "constant-color",
+        "one-minus-constant-color",
+        "constant-alpha",
+        "one-minus-constant-alpha",
+        "src-alpha-saturate",
     };
+    constexpr uint64_t kFirstRare = 10;
+    return kFactors[dice.one_in(3) ? kFirstRare + dice.below(kFactors.size() - kFirstRare)
+                                   : dice.below(kFactors.size())];
+}
+
+std::string equation(Dice& dice) {
     const auto& ops = cases::kWords<cases::BlendOp>;
-    const std::string_view source = factor(), destination = factor();
-    const std::string_view op = ops[dice.below(ops.size())];
-    return fmt::format(
-        ", blend = {{ source = \"{}\", destination = \"{}\", op = \"{}\" }}, constants = {}",
-        source, destination, op, color_of(pose, dice));
+    const std::string_view source = factor(dice), destination = factor(dice);
+    // The operations without factors say little of them.
+    const std::string_view op = dice.one_in(2) ? "add" : ops[dice.below(ops.size())];
+    return fmt::format("source = \"{}\", destination = \"{}\", op = \"{}\"", source, destination,
+                       op);
+}
+
+std::string factors(const Pose& pose, Dice& turn, Dice& dice) {
+    std::string keys = equation(turn);
+    if (turn.one_in(2)) {
+        keys += fmt::format(", alpha = {{ {} }}", equation(turn));
+    }
+    return fmt::format(", blend = {{ {} }}, constants = {}", keys, color_of(pose, dice));
 }
 
 // Of several draws the last one does what the pose says, and so that it has something to do it to,
@@ -86,25 +128,26 @@ std::string logic(const Pose& pose, bool is_last, Dice& dice) {
 }  // namespace
 
 std::string color_of(const Pose& pose, Dice& dice) {
-    const cases::ColorFormatRow& row = row_of(pose);
-    const bool is_code = !pose.is_default("logic");
     std::vector<std::string> numbers;
     for (uint32_t k = 0; k < 4; ++k) {
-        numbers.push_back(component(row, k, is_code, dice));
+        numbers.push_back(component(pose, k, dice));
     }
     return fmt::format("[{}]", fmt::join(numbers, ", "));
 }
 
 std::string color_keys_of(const Pose& pose, size_t number, size_t draws, std::string_view source,
-                          Dice& dice) {
+                          Dice& turn, Dice& dice) {
     const bool is_last = number + 1 == draws;
+    // Now and then the last draw has nothing of what an early one has, which has to end with that.
+    const bool is_plain = is_last && draws > 1 && turn.one_in(5);
+    const auto has = [&] { return is_last ? !is_plain : !turn.one_in(3); };
     std::string keys(source);
-    if (!pose.is_default("blend") && (is_last || !dice.one_in(3))) {
-        keys += pose.is("blend", "factors") ? factors(pose, dice)
+    if (!pose.is_default("blend") && has()) {
+        keys += pose.is("blend", "factors") ? factors(pose, turn, dice)
                                             : fmt::format(", blend = \"{}\"", pose.value("blend"));
     }
-    keys += logic(pose, is_last, dice);
-    if (!pose.is_default("write-mask") && (is_last || !dice.one_in(3))) {
+    keys += is_plain ? "" : logic(pose, is_last, turn);
+    if (!pose.is_default("write-mask") && has()) {
         keys += fmt::format(", write_mask = \"{}\"", pose.value("write-mask"));
     }
     return fmt::format("{{ {} }}", keys);

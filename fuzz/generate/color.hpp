@@ -18,8 +18,9 @@ namespace fuzz {
 std::string color_of(const Pose& pose, Dice& dice);
 
 // The value of the key `color` of draw `number` of `draws`, which writes the colour `source`
-// ("value = [...]" or "attribute = ..."). Early draws may do without what the last one has.
+// ("value = [...]" or "attribute = ..."). Early draws may do without what the last one has, and now
+// and then the last one does without what they have. `turn` decides what costs a pipeline.
 std::string color_keys_of(const Pose& pose, size_t number, size_t draws, std::string_view source,
-                          Dice& dice);
+                          Dice& turn, Dice& dice);
 
 }  // namespace fuzz

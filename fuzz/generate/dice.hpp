@@ -22,6 +22,10 @@ class Dice {
     int64_t between(int64_t low, int64_t high) {  // both included
         return low + static_cast<int64_t>(below(static_cast<uint64_t>(high - low) + 1));
     }
+    // A multiple of 1/parts from low to high, in these units.
+    double fraction(int64_t low, int64_t high, int64_t parts) {
+        return static_cast<double>(between(low, high)) / static_cast<double>(parts);
+    }
     bool one_in(uint64_t n) { return below(n) == 0; }
     template <class T, size_t N>
     const T& of(const std::array<T, N>& list) {

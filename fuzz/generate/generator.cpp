@@ -11,10 +11,13 @@
 #include <vector>
 
 #include "cases/load/loader.hpp"
+#include "fuzz/generate/blit.hpp"
 #include "fuzz/generate/color.hpp"
 #include "fuzz/generate/dice.hpp"
+#include "fuzz/generate/doors.hpp"
 #include "fuzz/generate/fragment.hpp"
 #include "fuzz/generate/geometry.hpp"
+#include "fuzz/generate/inputs.hpp"
 #include "fuzz/generate/stencil.hpp"
 
 namespace fuzz {
@@ -25,43 +28,60 @@ namespace {
 // the arguments of a call are evaluated to the compiler.
 
 // Streams of the dice (dice.hpp): poses take 1.
-constexpr uint64_t kStateStream = 2, kGeometryStream = 3;
+constexpr uint64_t kStateStream = 2, kGeometryStream = 3, kTurnStream = 7, kDoorStream = 8;
+// State with many words, as the factors of blending, has several turns in a pose, one for so many
+// geometries.
+constexpr uint64_t kGeometriesOfTurn = 16;
 
 std::string joined(const std::vector<std::string>& words) {
     return fmt::format("[{}]", fmt::join(words, ", "));
 }
 
-// Multiples of 1/parts from low to high, in these units.
-double fraction(Dice& dice, int64_t low, int64_t high, int64_t parts) {
-    return static_cast<double>(dice.between(low, high)) / static_cast<double>(parts);
-}
-
 class CaseWriter {
   public:
-    CaseWriter(const Pose& pose, const Dice& state, const Dice& geometry)
-        : pose_(pose), state_(state), dice_(geometry) {
-        static constexpr std::array<std::pair<std::string_view, std::array<uint32_t, 2>>, 6>
-            kSizes = {{{"16", {16, 16}},
-                       {"odd", {13, 9}},
-                       {"wide", {70, 5}},
-                       {"high", {3, 40}},
-                       {"64", {64, 64}},
-                       {"tiny", {4, 4}}}};
-        for (const auto& [name, size] : kSizes) {
-            if (pose.is("size", name)) {
-                width_ = size[0];
-                height_ = size[1];
+    CaseWriter(const Pose& pose, const Dice& state, const Dice& turn, const Dice& geometry)
+        : pose_(pose), state_(state), turn_(turn), dice_(geometry) {
+        constexpr std::array<uint32_t, 2> kLarge = {264, 260};  // more than 2^16 samples
+        struct Size {
+            std::string_view word;
+            std::array<uint32_t, 2> sides;
+            uint64_t cases;  // one of so many is so large: many samples take long to judge
+        };
+        static constexpr std::array<Size, 6> kSizes = {{{"odd", {13, 9}, 1},
+                                                        {"wide", {70, 5}, 1},
+                                                        {"high", {3, 40}, 1},
+                                                        {"64", {64, 64}, 4},
+                                                        {"tiny", {4, 4}, 1},
+                                                        {"large", kLarge, 16}}};
+        for (const auto& [word, sides, cases] : kSizes) {
+            if (pose.is("size", word) && dice_.one_in(cases)) {
+                width_ = sides[0];
+                height_ = sides[1];
             }
+        }
+        // A query that counts in too few bits shows it there alone.
+        if (!pose.is_default("query") && pose.is_default("size") && dice_.one_in(16)) {
+            width_ = kLarge[0];
+            height_ = kLarge[1];
         }
         samples_ = static_cast<uint32_t>(std::stoul(std::string(pose.value("samples"))));
         layers_ = static_cast<uint32_t>(std::stoul(std::string(pose.value("layers"))));
         draws_ = std::stoul(std::string(pose.value("draws")));
-        is_integer_ = pose.is("color", "r32-uint") || pose.is("color", "rgba8-uint");
+        // What a device lacks without this test is drawn by the others of the pose.
+        has_bounds_ = !pose.is_default("depth-bounds") && dice_.one_in(2);
+        samples_ = static_cast<uint32_t>(std::stoul(std::string(pose.value("samples"))));
+        layers_ = static_cast<uint32_t>(std::stoul(std::string(pose.value("layers"))));
+        draws_ = std::stoul(std::string(pose.value("draws")));
     }
 
     std::string write() {
         line("format = 1");
         line("description = \"Made by edgecase fuzz.\"");
+        if (!pose_.is_default("blit")) {
+            line("rules = [\"blit.{}\"]", pose_.value("blit"));
+            line("\n[target]\nsize = [{}, {}]", width_, height_);
+            return text_ + blit_of(pose_, width_, height_, dice_);
+        }
         line("rules = [\"cover.inside\"]");
         if (pose_.is("relation", "scissor-tiles")) {
             const int64_t height = state_.between(1, 9), width = state_.between(1, 9);
@@ -70,8 +90,16 @@ class CaseWriter {
             line("relations = [\"{}\"]", pose_.value("relation"));
         }
         write_target();
+        const bool is_complement = !pose_.is_default("complement");
         for (size_t k = 0; k < draws_; ++k) {
+            if (is_complement && k + 2 == draws_) {
+                continue;  // in its place the last one is drawn twice
+            }
+            const size_t begin = text_.size();
             write_draw(k);
+            if (is_complement && k + 1 == draws_) {
+                text_ += complement_of(text_.substr(begin));
+            }
         }
         return std::move(text_);
     }
@@ -99,7 +127,7 @@ class CaseWriter {
         }
         word("depth", "depth");
         if (!pose_.is_default("compare") || !pose_.is_default("depth-bounds")) {
-            const double clear = fraction(state_, 0, 8, 8);
+            const double clear = dice_.fraction(0, 8, 8);
             line("depth_clear = {}", clear);
             stored_ = StoredDepths(pose_, clear);
         }
@@ -115,7 +143,7 @@ class CaseWriter {
         word("depth_resolve", "depth-resolve");
         if (!pose_.is_default("stencil")) {
             line("stencil = true");
-            stencil_clear_ = stencil_clear_of(pose_, state_);
+            stencil_clear_ = stencil_clear_of(pose_, dice_);
             if (stencil_clear_ != 0) {
                 line("stencil_clear = {}", stencil_clear_);
             }
@@ -123,8 +151,8 @@ class CaseWriter {
         word("attachments", "attachments");
         if (!pose_.is_default("color")) {
             line("[target.color]\nformat = \"{}\"", pose_.value("color"));
-            if (state_.one_in(2)) {
-                line("clear = {}", color_of(pose_, state_));
+            if (dice_.one_in(2)) {
+                line("clear = {}", color_of(pose_, dice_));
             }
         }
     }
@@ -145,10 +173,10 @@ class CaseWriter {
             line("viewport_index = {}", number);
         }
         if (!pose_.is_default("sample-mask")) {
-            line("sample_mask = {}", state_.between(1, (int64_t{1} << samples_) - 1));
+            line("sample_mask = {}", turn_.between(1, (int64_t{1} << samples_) - 1));
         }
         if (!pose_.is_default("shader-mask")) {
-            line("shader_mask = {}", state_.between(1, (int64_t{1} << samples_) - 1));
+            line("shader_mask = {}", dice_.between(1, (int64_t{1} << samples_) - 1));
         }
         if (!pose_.is_default("sample-shading")) {
             line("min_sample_shading = {}", pose_.is("sample-shading", "half")   ? 0.5
@@ -170,15 +198,15 @@ class CaseWriter {
         }
         write_viewport();
         write_depth(number);
-        if (const std::string stencil = stencil_of(pose_, number, stencil_clear_, state_);
+        if (const std::string stencil = stencil_of(pose_, number, stencil_clear_, turn_, dice_);
             !stencil.empty()) {
             line("stencil = {}", stencil);
         }
         write_scissor();
         write_color(number);
         const size_t vertices = write_vertices();
-        write_distances(vertices);
-        write_attributes(vertices);
+        text_ += distances_of(pose_, vertices, dice_);
+        text_ += attributes_of(pose_, vertices, state_, dice_);
     }
 
     void write_depth(size_t number) {
@@ -195,13 +223,15 @@ class CaseWriter {
             const std::string_view bias = pose_.value("bias");
             std::vector<std::string> parts;
             if (bias != "slope") {
-                parts.push_back(fmt::format("constant = {}", state_.between(-9, 9)));
+                // Few steps are lost in what interpolated depths may differ by.
+                const int64_t scale = int64_t{1} << (turn_.one_in(2) ? 0 : turn_.below(17));
+                parts.push_back(fmt::format("constant = {}", turn_.between(-9, 9) * scale));
             }
             if (bias != "constant") {
-                parts.push_back(fmt::format("slope = {}", fraction(state_, -8, 8, 4)));
+                parts.push_back(fmt::format("slope = {}", turn_.fraction(-8, 8, 4)));
             }
             if (bias == "clamped") {
-                parts.push_back(fmt::format("clamp = {}", fraction(state_, -8, 8, 64)));
+                parts.push_back(fmt::format("clamp = {}", turn_.fraction(-8, 8, 64)));
             }
             key(fmt::format("bias = {{ {} }}", fmt::join(parts, ", ")));
         }
@@ -216,7 +246,8 @@ class CaseWriter {
         if (!written.empty()) {
             line("frag_depth = {}", written);
         }
-        if (const std::string bounds = bounds_of(pose_, number, draws_, stored_, dice_);
+        if (const std::string bounds =
+                has_bounds_ ? bounds_of(pose_, number, draws_, stored_, dice_) : std::string();
             !bounds.empty()) {
             key("bounds = " + bounds);
         }
@@ -239,12 +270,12 @@ class CaseWriter {
         } else if (viewport == "flipped") {
             line("viewport = [0, {}, {}, {}]", h, w, -h);
         } else if (viewport == "fractional") {
-            const double height = static_cast<double>(h) + fraction(dice_, 0, 16, 8);
-            const double width = static_cast<double>(w) + fraction(dice_, 0, 16, 8);
-            const double y = fraction(dice_, -8, 8, 4), x = fraction(dice_, -8, 8, 4);
+            const double height = static_cast<double>(h) + dice_.fraction(0, 16, 8);
+            const double width = static_cast<double>(w) + dice_.fraction(0, 16, 8);
+            const double y = dice_.fraction(-8, 8, 4), x = dice_.fraction(-8, 8, 4);
             line("viewport = [{}, {}, {}, {}]", x, y, width, height);
         } else if (viewport == "depth") {
-            const double far = fraction(dice_, 0, 8, 8), near = fraction(dice_, 0, 8, 8);
+            const double far = dice_.fraction(0, 8, 8), near = dice_.fraction(0, 8, 8);
             line("viewport = {{ depth = [{}, {}] }}", near, far);
             depths_ = {near, far};
         }
@@ -272,9 +303,9 @@ class CaseWriter {
             return;
         }
         const std::string source = pose_.is_default("color-from")
-                                       ? fmt::format("value = {}", color_of(pose_, state_))
+                                       ? fmt::format("value = {}", color_of(pose_, dice_))
                                        : "attribute = \"c\"";
-        line("color = {}", color_keys_of(pose_, number, draws_, source, state_));
+        line("color = {}", color_keys_of(pose_, number, draws_, source, turn_, dice_));
     }
 
     // The number of vertices written.
@@ -289,12 +320,12 @@ class CaseWriter {
         if (in_clip) {
             line("space = \"clip\"");
         }
-        const double common = fraction(dice_, 1, 64, 16);
+        const double common = dice_.fraction(1, 64, 16);
         const auto [near, far] = vertex_depths(pose_);
         std::vector<std::string> vertices;
         for (const Position& p : shape.vertices) {
             const double w = w_of(common);
-            const double z = fraction(dice_, std::llround(near * 64), std::llround(far * 64), 64);
+            const double z = dice_.fraction(std::llround(near * 64), std::llround(far * 64), 64);
             if (in_clip) {
                 const auto along = [w](double v, uint32_t side) {
                     return static_cast<double>(static_cast<float>((v * 2 / side - 1) * w));
@@ -328,126 +359,40 @@ class CaseWriter {
             return common;
         }
         if (w == "unequal") {
-            return fraction(dice_, 1, 15, 4);
+            return dice_.fraction(1, 15, 4);
         }
         if (w == "steep") {
             return std::ldexp(1.0, static_cast<int>(dice_.between(-6, 6)));
         }
         if (w == "behind") {
-            const double magnitude = fraction(dice_, 1, 15, 4);
+            const double magnitude = dice_.fraction(1, 15, 4);
             return dice_.one_in(4) ? -magnitude : magnitude;
         }
         return 1;
     }
 
-    void write_distances(size_t vertices) {
-        for (const auto& [feature, key] :
-             {std::pair{"clip-distances", "clip_distance"}, {"cull-distances", "cull_distance"}}) {
-            const auto count = std::stoul(std::string(pose_.value(feature)));
-            for (size_t k = 0; k < count; ++k) {
-                line("[[draw.{}]]", key);
-                if (dice_.one_in(2)) {
-                    const double d = fraction(dice_, -8, 8, 8);
-                    const int64_t c = dice_.between(-1, 1);
-                    const int64_t b = dice_.between(-3, 3), a = dice_.between(-3, 3);
-                    line("half_space = [{}, {}, {}, {}]", a, b, c, d);
-                    continue;
-                }
-                std::vector<std::string> values;
-                for (size_t v = 0; v < vertices; ++v) {
-                    values.push_back(fmt::format("{}", fraction(dice_, -8, 8, 4)));
-                }
-                line("values = {}", joined(values));
-            }
-        }
-    }
-
-    void write_values(size_t vertices, size_t components) {
-        std::vector<std::string> values;
-        for (size_t v = 0; v < vertices; ++v) {
-            std::vector<std::string> one;
-            for (size_t c = 0; c < components; ++c) {
-                one.push_back(fmt::format("{}", fraction(dice_, 0, 32, 32)));
-            }
-            values.push_back(joined(one));
-        }
-        line("values = {}", joined(values));
-    }
-
-    void write_attributes(size_t vertices) {
-        if (!pose_.is_default("color-from") && !pose_.is_default("color")) {
-            line("[[draw.attribute]]\nname = \"c\"");
-            if (is_integer_) {
-                line("interpolation = \"flat\"");
-            } else {
-                write_interpolation(0);
-            }
-            std::vector<std::string> colors;
-            for (size_t v = 0; v < vertices; ++v) {
-                colors.push_back(color_of(pose_, dice_));
-            }
-            line("values = {}", joined(colors));
-        }
-        const std::string_view count = pose_.value("attributes");
-        const size_t attributes = count == "none"  ? 0U
-                                  : count == "one" ? 1U
-                                  : count == "two" ? 2U
-                                                   : 3U;
-        for (size_t a = 0; a < attributes; ++a) {
-            line("[[draw.attribute]]");
-            write_interpolation(a);
-            word("auxiliary", "auxiliary");
-            // One of them is a plain input, if there are several.
-            if (a == 0 && !pose_.is_default("source")) {
-                line("source = \"{}\"", pose_.value("source"));
-                continue;
-            }
-            const std::string_view probe = pose_.value("probe");
-            size_t components = 1 + state_.below(4);
-            if (a == 0 && probe != "value") {
-                line("probe = \"{}\"", probe);
-                if (probe == "at-sample") {
-                    line("sample = {}", state_.below(samples_));
-                } else if (probe == "at-offset") {
-                    const double y = fraction(state_, -8, 7, 16), x = fraction(state_, -8, 7, 16);
-                    line("offset = [{}, {}]", x, y);
-                } else if (probe == "query-lod") {
-                    const uint32_t height = 1U << state_.below(9), width = 1U << state_.below(9);
-                    line("texture = [{}, {}]", width, height);
-                    components = 2;
-                }
-            }
-            write_values(vertices, components);
-        }
-    }
-
-    void write_interpolation(size_t attribute) {
-        static constexpr std::array<std::string_view, 3> kModes = {"smooth", "noperspective",
-                                                                   "flat"};
-        const std::string_view mode = pose_.is("interpolation", "mixed")
-                                          ? kModes.at(attribute % 3)
-                                          : pose_.value("interpolation");
-        if (mode != "smooth") {
-            line("interpolation = \"{}\"", mode);
-        }
-    }
-
     const Pose& pose_;
-    Dice state_, dice_;
+    Dice state_, turn_, dice_;  // of the pose, of a turn, of the case
     std::string text_;
     size_t draws_ = 1;
     uint32_t width_ = 16, height_ = 16, samples_ = 1, layers_ = 1, stencil_clear_ = 0;
     std::array<double, 2> depths_ = {0, 1};  // of the viewport of the draw that is written
     StoredDepths stored_{pose_, static_cast<double>(cases::kDepthClear)};
-    bool is_integer_ = false;
+    bool has_bounds_ = false;
 };
 
 }  // namespace
 
 std::string case_text(uint64_t seed, const Pose& pose, uint64_t pose_number, uint64_t number) {
-    return CaseWriter(pose, Dice(seed, kStateStream, pose_number),
-                      Dice(seed, kGeometryStream, number))
-        .write();
+    const uint64_t turn = number / kGeometriesOfTurn;
+    std::string text =
+        CaseWriter(pose, Dice(seed, kStateStream, pose_number), Dice(seed, kTurnStream, turn),
+                   Dice(seed, kGeometryStream, number))
+            .write();
+    Dice doors(seed, kDoorStream, turn);
+    const bool has_doors =
+        pose.is_default("relation") && pose.is_default("blit") && doors.one_in(4);
+    return has_doors ? through_doors(std::move(text), doors) : text;
 }
 
 bool is_case(uint64_t seed, const Pose& pose, uint64_t pose_number) {
@@ -458,9 +403,9 @@ bool is_case(uint64_t seed, const Pose& pose, uint64_t pose_number) {
          (pose.is("source", "barycentric") || pose.is("probe", "query-lod")))) {
         return false;
     }
-    // What the state allows shows in any geometry, but for the layer, which is the geometry's.
-    constexpr uint64_t kTries = 8;
-    for (uint64_t number = 0; number < kTries; ++number) {
+    // What the state allows shows in some of its geometries, of each turn.
+    for (uint64_t k = 0; k < kGeometries; k += kGeometries / 8) {
+        const uint64_t number = pose_number * kGeometries + k;
         if (!cases::load_text(case_text(seed, pose, pose_number, number), "fuzz", "fuzz")) {
             return false;
         }

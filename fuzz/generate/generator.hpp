@@ -14,7 +14,7 @@ namespace fuzz {
 
 // So many geometries are drawn with a pose, as compiling one costs a driver as much as drawing
 // them: the cases of pose k have the numbers from k * kGeometries on.
-inline constexpr uint64_t kGeometries = 128;
+inline constexpr uint64_t kGeometries = 64;
 
 // The text of a case file: `pose` with a geometry of its own for each number. Not every pose is a
 // case; the loader says which.

@@ -27,21 +27,23 @@ struct Need {
     std::string_view feature, other;
     size_t value;
 };
-constexpr std::array<Need, 29> kNeeds = {{
+// Not one value, but any; of colours one of numbers, not of integers.
+constexpr size_t kAny = 0;
+constexpr std::array<Need, 31> kNeeds = {{
     {"logic", "attachments", 1},
     {"depth-layout", "frag-depth", 1},
     {"depth-bounds", "draws", 1},
     {"resolve", "samples", 1},
-    {"resolve", "color", 1},
+    {"resolve", "color", kAny},
     {"depth-resolve", "samples", 1},
     {"sample-locations", "samples", 1},
     {"sample-mask", "samples", 1},
     {"shader-mask", "samples", 1},
     {"sample-shading", "samples", 1},
-    {"attachments", "color", 1},
-    {"blend", "color", 1},
-    {"color-from", "color", 1},
-    {"write-mask", "color", 1},
+    {"attachments", "color", kAny},
+    {"blend", "color", kAny},
+    {"color-from", "color", kAny},
+    {"write-mask", "color", kAny},
     {"stencil-masks", "stencil", 1},
     {"stencil-ops", "stencil", 1},
     {"stencil-compare", "stencil", 1},
@@ -57,29 +59,67 @@ constexpr std::array<Need, 29> kNeeds = {{
     {"probe", "attributes", 1},
     {"provoking", "attributes", 1},
     {"viewport-index", "draws", 1},
+    {"complement", "clip-distances", 1},
+    {"complement", "draws", 1},
 }};
 
-// What a feature has to meet to show most of what it does: one of these is on beside it, too.
+// What a feature has to meet to show most of what it does: one of these is mostly on beside it.
 struct Company {
     std::string_view feature;
-    std::array<std::string_view, 8> others;
+    std::array<std::string_view, 4> others;
 };
-constexpr std::array<Company, 3> kCompany = {{
-    {"query",
-     {"draws", "compare", "depth-bounds", "discard", "sample-mask", "stencil-compare", "frag-depth",
-      "cull"}},
-    {"frag-depth",
-     {"draws", "compare", "depth-bounds", "bias", "viewport", "depth-clamp", "samples",
-      "early-tests"}},
-    {"logic", {"draws", "write-mask", "blend", "color", "color", "color-from", "samples", "draws"}},
+constexpr std::array<Company, 20> kCompany = {{
+    {"query", {"draws", "compare", "discard", "early-tests"}},
+    {"query", {"sample-mask", "stencil-compare", "frag-depth", "cull"}},
+    {"frag-depth", {"draws", "compare", "depth-bounds", "bias"}},
+    {"frag-depth", {"viewport", "depth-clamp", "samples", "early-tests"}},
+    {"logic", {"draws", "write-mask", "blend", "color"}},
+    {"logic", {"color", "color-from", "cull", "draws"}},
+    {"blend", {"draws", "draws", "write-mask", "color-from"}},
+    {"write-mask", {"draws", "draws", "color-from", "color"}},
+    {"interpolation", {"w", "w", "topology", "provoking"}},
+    {"auxiliary", {"w", "w", "samples", "probe"}},
+    {"probe", {"w", "w", "samples", "topology"}},
+    {"provoking", {"topology", "topology", "interpolation", "indices"}},
+    {"depth-clamp", {"viewport", "bias", "bias", "depth-clip"}},
+    {"bias", {"depth", "depth", "depth-clamp", "viewport"}},
+    {"stencil-ops", {"stencil-compare", "stencil-masks", "compare", "draws"}},
+    {"stencil-compare", {"stencil-ops", "stencil-ops", "compare", "discard"}},
+    {"stencil-masks", {"stencil-ops", "stencil-ops", "stencil-compare", "draws"}},
+    {"scissor", {"size", "size", "size", "viewport"}},
+    {"clip-distances", {"w", "draws", "topology", "attributes"}},
+    {"cull-distances", {"topology", "w", "indices", "clip-distances"}},
 }};
+
+// Values that show more than the feature's others: each is drawn one time in so many.
+struct Often {
+    std::string_view feature, value;
+    uint64_t times;
+};
+constexpr std::array<Often, 10> kOften = {{
+    {"blend", "factors", 2},
+    {"probe", "query-lod", 5},
+    {"probe", "at-offset", 6},
+    {"source", "sample-mask-in", 3},
+    {"viewport", "depth", 4},
+    {"w", "unequal", 3},
+    {"interpolation", "flat", 4},
+    {"interpolation", "noperspective", 4},
+    {"color", "rgba8-srgb", 8},
+    {"samples", "4", 2},  // 2 and 8 are rarely supported
+}};
+
+// One pose in so many is a blit: it has next to no features, and would never be taken for its
+// pairs. All but its filter and the target's size is the geometries'.
+constexpr uint64_t kPosesOfBlit = 48, kFirstOfBlit = 8;
 
 }  // namespace
 
 const std::vector<Feature>& features() {
     static const std::vector<Feature> kAll = {
         {"samples", {"1", "4", "2", "8"}},
-        {"size", {"16", "odd", "wide", "high", "64", "tiny"}},
+        {"blit", {"none", "nearest", "linear"}},
+        {"size", {"16", "odd", "wide", "high", "64", "tiny", "large"}},
         {"layers", {"1", "2", "3"}},
         {"depth", {"d32-float", "d16-unorm", "d24-unorm"}},
         {"attachments", {"all", "color", "color+depth"}},
@@ -139,7 +179,8 @@ const std::vector<Feature>& features() {
          {"value", "at-centroid", "at-sample", "at-offset", "dfdx", "dfdy", "fwidth", "dfdx-fine",
           "dfdy-fine", "dfdx-coarse", "dfdy-coarse", "query-lod"}},
         {"clip-distances", {"0", "1", "2"}},
-        {"cull-distances", {"0", "1"}},
+        {"cull-distances", {"0", "1", "2"}},
+        {"complement", {"false", "true"}},
         {"viewport", {"target", "inner", "beyond", "flipped", "fractional", "depth"}},
         {"scissor", {"target", "inner", "beyond", "thin"}},
         {"viewport-index", {"0", "other"}},
@@ -182,24 +223,40 @@ std::string Pose::text() const {
     return text.empty() ? "plain" : text;
 }
 
+size_t value_of(size_t feature, size_t first, Dice& dice) {
+    const Feature& row = features()[feature];
+    for (const Often& often : kOften) {
+        if (often.feature == row.name && dice.one_in(often.times)) {
+            const auto at = std::find(row.values.begin(), row.values.end(), often.value);
+            return static_cast<size_t>(at - row.values.begin());
+        }
+    }
+    return first + dice.below(row.values.size() - first);
+}
+
 Pose Poses::draw(size_t candidate) const {
     constexpr uint64_t kStream = 1;
+    if (count_ % kPosesOfBlit == kFirstOfBlit) {
+        return blit(count_ / kPosesOfBlit + seed_);
+    }
     Dice dice(seed_, kStream, count_ * 4096 + candidate);
     Pose pose;
-    // Few features at a time: what many switch off between them is never seen otherwise.
-    const uint64_t count = 1 + dice.below(7);
-    for (uint64_t k = 0; k < count; ++k) {
-        const size_t feature = dice.below(features().size());
-        pose.set(feature, dice.below(features()[feature].values.size()));
-    }
     const auto set = [&pose](std::string_view feature, size_t value) {
         pose.set(index_of(feature), value);
     };
+    // Any value but the default, which is the first.
+    const auto switch_on = [&](size_t feature) { pose.set(feature, value_of(feature, 1, dice)); };
+    // Few features at a time: what many switch off between them is never seen otherwise.
+    const uint64_t count = 1 + dice.below(6);
+    for (uint64_t k = 0; k < count; ++k) {
+        const size_t feature = dice.below(features().size());
+        pose.set(feature, value_of(feature, 0, dice));
+    }
+    set("blit", 0);
     for (const Company& company : kCompany) {
         const std::string_view other = dice.of(company.others);
-        const size_t feature = index_of(other);
-        if (!pose.is_default(company.feature) && pose.is_default(other)) {
-            pose.set(feature, 1 + dice.below(features()[feature].values.size() - 1));
+        if (!pose.is_default(company.feature) && pose.is_default(other) && !dice.one_in(3)) {
+            switch_on(index_of(other));
         }
     }
     // Hits are counted by blending, which a logical operation switches off, and queries are judged
@@ -218,9 +275,19 @@ Pose Poses::draw(size_t candidate) const {
         set("z", 1);
     }
     for (const Need& need : kNeeds) {
-        if (!pose.is_default(need.feature) && pose.is_default(need.other)) {
+        if (pose.is_default(need.feature) || !pose.is_default(need.other)) {
+            continue;
+        }
+        if (need.value == kAny) {
+            constexpr size_t kColorsOfNumbers = 10;
+            set(need.other, 1 + dice.below(kColorsOfNumbers));
+        } else {
             set(need.other, need.value);
         }
+    }
+    // The mask of one sample has one bit.
+    if (pose.is("source", "sample-mask-in") && pose.is_default("samples") && !dice.one_in(4)) {
+        switch_on(index_of("samples"));
     }
     if (pose.is("depth-layout", "unchanged")) {
         set("frag-depth", 5);  // gl_FragCoord.z, which alone is the fragment's own depth
@@ -242,6 +309,14 @@ Pose Poses::draw(size_t candidate) const {
         pose.is_default("attributes")) {
         set("attributes", 1);
     }
+    return pose;
+}
+
+Pose Poses::blit(uint64_t number) {
+    Pose pose;
+    pose.set(index_of("blit"), 1 + number % 2);
+    const size_t size = index_of("size");
+    pose.set(size, number / 2 % features()[size].values.size());
     return pose;
 }
 

@@ -70,6 +70,7 @@ class Poses {
   private:
     static constexpr size_t kCandidates = 12;
     Pose draw(size_t candidate) const;
+    static Pose blit(uint64_t number);
     size_t fresh_pairs(const Pose& pose) const;
     void take(const Pose& pose);
 

@@ -37,7 +37,7 @@ class Source {
 };
 using MakeSource = std::function<std::unique_ptr<Source>()>;
 
-// Cases that nobody wrote: poses with 128 geometries each.
+// Cases that nobody wrote: poses with some geometries each.
 class GeneratedSource : public Source {
   public:
     explicit GeneratedSource(uint64_t seed) : seed_(seed), poses_(seed) {}

@@ -44,7 +44,7 @@ std::string mask(Dice& dice) {
 // The keys of one face, or of both. `counts`: the operation where a fragment passes, if the pose
 // has none of its own.
 std::vector<std::string> face_keys(const Pose& pose, size_t number, uint32_t clear,
-                                   std::string_view counts, Dice& dice) {
+                                   std::string_view counts, Dice& turn, Dice& dice) {
     std::vector<std::string> keys;
     const auto key = [&keys](std::string_view name, std::string_view word) {
         keys.push_back(fmt::format("{} = \"{}\"", name, word));
@@ -56,13 +56,13 @@ std::vector<std::string> face_keys(const Pose& pose, size_t number, uint32_t cle
         key("pass", counts);
     } else {
         for (const std::string_view outcome : {"fail", "depth_fail", "pass"}) {
-            key(outcome, dice.of(kOps));
+            key(outcome, turn.of(kOps));
         }
     }
     keys.push_back(fmt::format("reference = {}", near_value(clear, dice)));
     if (!pose.is_default("stencil-masks")) {
-        keys.push_back("compare_mask = " + mask(dice));
-        keys.push_back("write_mask = " + mask(dice));
+        keys.push_back("compare_mask = " + mask(turn));
+        keys.push_back("write_mask = " + mask(turn));
     }
     return keys;
 }
@@ -74,17 +74,19 @@ uint32_t stencil_clear_of(const Pose& pose, Dice& dice) {
     return pose.is_default("stencil-clear") ? 0 : dice.of(kClears);
 }
 
-std::string stencil_of(const Pose& pose, size_t number, uint32_t clear, Dice& dice) {
+std::string stencil_of(const Pose& pose, size_t number, uint32_t clear, Dice& turn, Dice& dice) {
     if (pose.is_default("stencil-compare") && pose.is_default("stencil-ops") &&
         pose.is_default("stencil-masks")) {
         return {};
     }
     if (pose.is("stencil-ops", "same")) {
-        const std::vector<std::string> both = face_keys(pose, number, clear, "", dice);
+        const std::vector<std::string> both = face_keys(pose, number, clear, "", turn, dice);
         return fmt::format("{{ {} }}", fmt::join(both, ", "));
     }
-    const std::vector<std::string> front = face_keys(pose, number, clear, "increment-wrap", dice);
-    const std::vector<std::string> back = face_keys(pose, number, clear, "decrement-wrap", dice);
+    const std::vector<std::string> front =
+        face_keys(pose, number, clear, "increment-wrap", turn, dice);
+    const std::vector<std::string> back =
+        face_keys(pose, number, clear, "decrement-wrap", turn, dice);
     return fmt::format("{{ front = {{ {} }}, back = {{ {} }} }}", fmt::join(front, ", "),
                        fmt::join(back, ", "));
 }

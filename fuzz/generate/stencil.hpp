@@ -17,7 +17,8 @@ namespace fuzz {
 uint32_t stencil_clear_of(const Pose& pose, Dice& dice);
 
 // The value of the key `stencil` of draw `number`; empty where it counts. Early draws write what
-// later ones are compared with.
-std::string stencil_of(const Pose& pose, size_t number, uint32_t clear, Dice& dice);
+// later ones are compared with. `turn` decides what costs a pipeline here and there: operations and
+// masks.
+std::string stencil_of(const Pose& pose, size_t number, uint32_t clear, Dice& turn, Dice& dice);
 
 }  // namespace fuzz

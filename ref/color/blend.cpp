@@ -149,8 +149,18 @@ Color Unit::write(const cases::ColorOutput& output, const Color& source,
                     result = {a.low + b.low, a.high + b.high};
                     break;
             }
+            // Infinity times 0 and the difference of two infinities are NaN, and stay so.
+            const auto is_any = [&](const Color& color) {
+                return component.may_be_infinite(color[k]) || component.may_be_infinite(color[3]);
+            };
+            if (is_any(s) || is_any(before) || is_any(constants) ||
+                (component.may_be_infinite(a) && component.may_be_infinite(b))) {
+                out[k] = Component::anything();
+                continue;
+            }
         }
-        out[k] = component.stored(result, profile, true);
+        out[k] = Component::is_anything(before[k]) ? Component::anything()
+                                                   : component.stored(result, profile, true);
     }
     return out;
 }

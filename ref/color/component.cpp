@@ -144,6 +144,24 @@ const mpz_class& Component::units() const {
     return all.at(format_.bits);
 }
 
+Interval Component::anything() {
+    static const mpq_class far = power_of_two(4096);  // beyond all that is computed
+    return {-far, far};
+}
+
+bool Component::is_anything(const Interval& v) {
+    static const Interval all = anything();
+    return v == all;
+}
+
+bool Component::may_be_infinite(const Interval& v) const {
+    if (format_.kind != ComponentKind::half && format_.kind != ComponentKind::binary32) {
+        return false;
+    }
+    const mpq_class& largest = largest_of(floating_of(format_.kind));
+    return v.high > largest || v.low < -largest;
+}
+
 bool Component::is_fixed_point() const {
     return format_.kind == ComponentKind::unorm || format_.kind == ComponentKind::srgb;
 }
@@ -210,6 +228,9 @@ bool Component::value_of(uint32_t code, mpq_class& value) const {
 }
 
 bool Component::allows(uint32_t code, const Interval& stored) const {
+    if (is_anything(stored)) {
+        return true;
+    }
     mpq_class value;
     if (value_of(code, value)) {
         return value >= stored.low && value <= stored.high;
@@ -274,6 +295,9 @@ mpq_class Component::step() const {
 }
 
 std::string Component::text_of(const Interval& v) const {
+    if (is_anything(v)) {
+        return "anything";
+    }
     const auto text = [&](const mpq_class& x) -> std::string {
         switch (format_.kind) {
             case ComponentKind::unorm:

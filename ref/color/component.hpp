@@ -37,6 +37,11 @@ Interval clamped(const Interval& v);
 // One component of a format: its grid of values.
 class Component {
   public:
+    // Nothing is known of what is stored, which may be NaN.
+    static Interval anything();
+    static bool is_anything(const Interval& v);
+    // Whether a value of the interval may be an infinity in the format.
+    bool may_be_infinite(const Interval& v) const;
     Component(cases::ComponentFormat format) : format_(format) {}
     bool exists() const { return format_.bits != 0; }
     cases::ComponentKind kind() const { return format_.kind; }

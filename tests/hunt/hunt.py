@@ -4,9 +4,9 @@
 """Measures with which of its cases `edgecase fuzz` finds each planted fault: those that tests/breaking_layer gives to
 lavapipe, and those of rasterizers/software.
 
-Each fault is hunted with several seeds, without any case of the suite. A find is the first case that fails with the
-fault as it does not without it. Time is counted in cases: which case finds a fault does not hang on how busy the machine
-is. Writes found.json, and the table of docs/fuzzing.md.
+Each fault is hunted with the first seed, without any case of the suite, and with the next one if no earlier one found it.
+A find is the first case that fails with the fault as it does not without it. Time is counted in cases: which case finds a
+fault does not hang on how busy the machine is. Writes found.json, and the table of docs/fuzzing.md.
 """
 import argparse
 import json
@@ -24,14 +24,18 @@ BEGIN, END = "<!-- hunts -->\n", "<!-- end of hunts -->\n"
 KINDS = {"layer": "lavapipe 22.3 through the breaking layer", "software": "the software rasterizer"}
 
 
-def hunt(kind, seed, cases, jobs, log):
+def all_faults(kind):
+    names = subprocess.run([PROGRAM, kind, "--cases", "0"], stdout=subprocess.PIPE, text=True, check=True).stdout
+    return [line.split("\t")[0] for line in names.splitlines()]
+
+
+def hunt(kind, names, seed, cases, jobs, log):
     """Name: [number of the first case that shows it or None, what is wrong with it]. What the log holds is not hunted
     again, so that a measurement that was interrupted goes on."""
     def read():
         rows = [line.split("\t") for line in log.read_text().splitlines()] if log.exists() else []
         return {name: [None if number == "-" else int(number), symptom] for name, number, symptom, _ in rows}
-    names = subprocess.run([PROGRAM, kind, "--cases", "0"], stdout=subprocess.PIPE, text=True, check=True).stdout
-    left = [name for name in (line.split("\t")[0] for line in names.splitlines()) if name not in read()]
+    left = [name for name in names if name not in read()]
     if left:
         command = [PROGRAM, kind, "--seed", str(seed), "--cases", str(cases), "--jobs", str(jobs), *left]
         with log.open("a") as out:
@@ -39,42 +43,42 @@ def hunt(kind, seed, cases, jobs, log):
     return read()
 
 
-def found_with(record, kind, fault):
-    """The numbers of the cases that find a fault, one a seed that found it."""
-    rows = [seed[fault] for seed in record[kind].values()]
-    return [number for number, _ in rows if number is not None]
+def unfound(rows):
+    return [name for name, (number, _) in rows.items() if number is None]
 
 
 def summary(record, reasons, kind):
     """What one kind of device says, as numbers."""
-    names = list(next(iter(record[kind].values())))
-    unreachable = [n for n in names if reasons[kind].get(n, "").startswith("cannot")]
-    reachable = [n for n in names if n not in unreachable]
-    found = [n for n in reachable if found_with(record, kind, n)]
-    every = [seed[n][0] for seed in record[kind].values() for n in reachable]
+    first, *others = record[kind].values()
+    never = unfound((others or [first])[-1])  # each seed hunts what no earlier one found
+    reachable = [n for n in first if not reasons[kind].get(n, "").startswith("cannot")]
+    numbers = [first[n][0] for n in reachable]
     return {
-        "faults": len(names), "reachable": len(reachable), "found": len(found),
-        "every": sum(len(found_with(record, kind, n)) == len(record[kind]) for n in reachable),
-        "median": statistics.median([record["cases"] if number is None else number + 1 for number in every]),
-        "never": [n for n in names if not found_with(record, kind, n)],
+        "faults": len(first), "reachable": len(reachable),
+        "first": sum(number is not None for number in numbers),
+        "found": sum(n not in never for n in reachable),
+        "median": statistics.median([record["cases"][kind] if number is None else number + 1 for number in numbers]),
+        "never": never,
     }
 
 
 def table(record, reasons):
-    seeds = sorted({seed for kind in KINDS for seed in record.get(kind, {})})
-    lines = [f"| seeds {', '.join(seeds)}, {record['cases']} cases each | faults | that cases can show | found | with every seed |"
-             " median time to find |", "| --- | --- | --- | --- | --- | --- |"]
+    heads = ["what draws", "seeds", "cases a seed", "faults", "that cases can show", "found with the first seed",
+             "found with one of the seeds", "median time to find with the first seed"]
+    lines = [f"| {' | '.join(heads)} |", "| --- " * len(heads) + "|"]
     for kind, title in KINDS.items():
         if kind not in record:
             continue
         s = summary(record, reasons, kind)
-        lines.append(f"| {title} | {s['faults']} | {s['reachable']} | {s['found']} ({100 * s['found'] / s['reachable']:.0f} %) | "
-                     f"{s['every']} | {s['median']:.0f} cases |")
-    lines += ["", "Never found:", ""]
-    for kind in (k for k in KINDS if k in record):
-        for name in summary(record, reasons, kind)["never"]:
-            text = f"* `{name}`: {reasons[kind].get(name, 'not known why')}"
-            lines += textwrap.wrap(text, 120, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False)
+        share = f"{100 * s['found'] / s['reachable']:.1f}".removesuffix(".0")
+        cells = [title, ", ".join(record[kind]), record["cases"][kind], s["faults"], s["reachable"], s["first"],
+                 f"{s['found']} ({share} %)", f"{s['median']:.0f} cases"]
+        lines.append(f"| {' | '.join(map(str, cells))} |")
+    never = [(kind, name) for kind in KINDS if kind in record for name in summary(record, reasons, kind)["never"]]
+    lines += ["", "Never found:", ""] if never else []
+    for kind, name in never:
+        text = f"* `{name}`: {reasons[kind].get(name, 'not known why')}"
+        lines += textwrap.wrap(text, 120, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False)
     return "\n".join(lines) + "\n"
 
 
@@ -98,11 +102,13 @@ def main():
     if not arguments.page:
         logs = pathlib.Path(arguments.logs)
         logs.mkdir(parents=True, exist_ok=True)
-        record["cases"] = arguments.cases
         for kind in arguments.kind or KINDS:
+            record.setdefault("cases", {})[kind] = arguments.cases
             record[kind] = {}
+            names = all_faults(kind)
             for seed in arguments.seeds.split(","):
-                record[kind][seed] = hunt(kind, seed, arguments.cases, arguments.jobs, logs / f"{kind}-{seed}.tsv")
+                record[kind][seed] = hunt(kind, names, seed, arguments.cases, arguments.jobs, logs / f"{kind}-{seed}.tsv")
+                names = unfound(record[kind][seed])
         FOUND.write_text(json.dumps(record, indent=0) + "\n")
     for kind in (k for k in KINDS if k in record):
         print(kind, summary(record, reasons, kind))

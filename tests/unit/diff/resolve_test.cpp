@@ -176,6 +176,15 @@ TEST(Resolve, AverageOfFloatsWithinTheBoundOfTheSum) {
     EXPECT_EQ(give(std::numeric_limits<float>::quiet_NaN()), 1U);
 }
 
+TEST(Resolve, NothingIsKnownOfASumWithInfinity) {
+    constexpr uint32_t kInfinity = 0x7f800000, kMinusInfinity = 0xff800000, kOne = 0x3f800000;
+    EXPECT_TRUE(
+        judge(colored(ColorFormat::r32_float, Resolve::average, {kInfinity, kOne})).empty());
+    EXPECT_TRUE(judge(colored(ColorFormat::r32_float, Resolve::average,
+                              {kOne, kInfinity, kMinusInfinity, kOne}))
+                    .empty());
+}
+
 TEST(Resolve, SampleZeroOfIntegersIsExact) {
     capture::Capture c = colored(ColorFormat::r32_uint, Resolve::sample_zero, {7, 9, 9, 9});
     EXPECT_EQ(c.resolved_color[0][0], 7U);

@@ -109,7 +109,7 @@ TEST(ChangedSource, MakesTheSameCasesOnEveryMachine) {
     for (const Source::Made& made : all_of(source, 64)) {
         hash = cases::stable_hash(made.text, hash);
     }
-    EXPECT_EQ(cases::hex(hash), "b99972e758dec544");
+    EXPECT_EQ(cases::hex(hash), "f22631521fe58af4");
     ChangedSource other(2, starts());
     uint64_t hash_of_other = 0;
     for (const Source::Made& made : all_of(other, 64)) {
@@ -286,6 +286,92 @@ vertices = [[0, 0, 0.125], [8, 0, 0.125], [0, 8, 0.125]]
                     "no bounds", "just without the clear value", "one depth", "no depth written",
                     "its own depth written", "two depths", "near the clear value", "a promise",
                     "no logical operation", "another operation", "a query"));
+}
+
+TEST(ChangedSource, ChangesWhatAStencilDoes) {
+    const std::string toml = R"(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [8, 8]
+stencil = true
+[[draw]]
+vertices = [[0, 0], [8, 0], [0, 8]]
+[[draw]]
+stencil = { compare = "equal", pass = "replace", reference = 3 }
+vertices = [[0, 0], [8, 0], [0, 8]]
+)";
+    auto loaded = cases::load_text(toml, "f", "f");
+    ASSERT_TRUE(loaded) << cases::to_string(loaded.error().front());
+    ChangedSource source(
+        1, std::make_shared<const std::vector<Start>>(std::vector<Start>{{loaded->front(), {}}}));
+    std::set<std::string> seen;
+    const auto see = [&](bool what, const char* words) {
+        if (what) {
+            seen.insert(words);
+        }
+    };
+    for (uint64_t group = 0; group < 4000; ++group) {
+        source.enter(group);
+        const Source::Made made = source.make(group * source.group_size());
+        if (!made.data || made.data->draws.size() != 2) {
+            continue;
+        }
+        const cases::StencilState& state = made.data->draws[1].stencil;
+        const cases::StencilState usual;
+        see(made.data->draws[0].stencil != usual, "one more");
+        see(state == usual, "none");
+        see(state != usual && state.front != state.back, "faces differ");
+        see(state.front.compare == cases::CompareOp::greater, "another comparison");
+        see(state.front.fail == cases::StencilOp::zero, "another operation");
+        see(state.back.write_mask == 254, "a mask");
+        see(state.back.reference == 255, "another reference");
+        see(made.data->target.stencil_clear == 255, "another clear value");
+    }
+    EXPECT_THAT(seen,
+                testing::UnorderedElementsAre("one more", "none", "faces differ",
+                                              "another comparison", "another operation", "a mask",
+                                              "another reference", "another clear value"));
+}
+
+TEST(ChangedSource, ChangesABlit) {
+    const std::string toml = R"(format = 1
+description = "d"
+rules = ["blit.nearest"]
+[target]
+size = [8, 8]
+color = { format = "rgba8-unorm" }
+[blit]
+size = [4, 4]
+from = [0, 0, 3, 4]
+to = [1, 1, 7, 5]
+)";
+    auto loaded = cases::load_text(toml, "f", "f");
+    ASSERT_TRUE(loaded) << cases::to_string(loaded.error().front());
+    ChangedSource source(
+        1, std::make_shared<const std::vector<Start>>(std::vector<Start>{{loaded->front(), {}}}));
+    std::set<std::string> seen;
+    const auto see = [&](bool what, const char* words) {
+        if (what) {
+            seen.insert(words);
+        }
+    };
+    for (uint64_t group = 0; group < 400; ++group) {
+        source.enter(group);
+        const Source::Made made = source.make(group * source.group_size());
+        if (!made.data) {
+            continue;
+        }
+        ASSERT_TRUE(made.data->blit);
+        const cases::Blit& blit = *made.data->blit;
+        see(blit.filter == cases::BlitFilter::linear, "filtered");
+        see(blit.pattern == cases::BlitPattern::ramp, "another pattern");
+        see(blit.source_format != made.data->target.color->format, "converted");
+        see(blit.source.x1 < blit.source.x0, "mirrored");
+        see(blit.destination.y1 < blit.destination.y0, "upside down");
+    }
+    EXPECT_THAT(seen, testing::UnorderedElementsAre("filtered", "another pattern", "converted",
+                                                    "mirrored", "upside down"));
 }
 
 // A file that says what is open: that is varied, and nothing else.

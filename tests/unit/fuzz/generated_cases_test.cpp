@@ -18,7 +18,7 @@
 namespace fuzz {
 namespace {
 
-constexpr uint64_t kSeeds = 3, kPosesOfSeed = 32;  // 4096 cases of each seed
+constexpr uint64_t kSeeds = 3, kPosesOfSeed = 64;  // 4096 cases of each seed
 constexpr size_t kUsualShares = 96;
 
 size_t all_values() {

@@ -170,6 +170,30 @@ TEST(Blend, MinAndMaxIgnoreFactors) {
               "r 255, g 255, b 0, a 0");
 }
 
+// Infinity times 0 and infinity less infinity are NaN: nothing is known of what comes of them,
+// until it is replaced. Red overflows where it is stored, green in two products.
+TEST(Blend, NothingIsKnownOfInfinity) {
+    const Unit unit{ColorFormat::rg16_float, Profile::vulkan};
+    const Color before = unit.write({}, color_of({70000, 60000, 0, 1}), {});
+    EXPECT_EQ(unit.text_of(before), "r 65504 to 70000, g 60000");
+    cases::ColorOutput output;
+    output.blend = cases::Blend{{BlendFactor::constant_color, BlendFactor::zero, BlendOp::add}, {}};
+    const Color after = unit.write(output, color_of({1, 1, 0, 1}), before);
+    EXPECT_EQ(unit.text_of(after), "r anything, g 0");
+    EXPECT_TRUE(unit.allows(after, {0x7e00, 0, 0, 0}));   // NaN
+    EXPECT_FALSE(unit.allows(after, {0x7e00, 1, 0, 0}));  // green is known
+    // Minimum and maximum compute nothing, so that infinity is a number to them.
+    output.blend->color.op = BlendOp::min;
+    EXPECT_EQ(unit.text_of(unit.write(output, color_of({1, 1, 0, 1}), before)), "r 1, g 1");
+    EXPECT_EQ(unit.text_of(unit.write(output, color_of({1, 1, 0, 1}), after)), "r anything, g 0");
+    EXPECT_EQ(unit.text_of(unit.write({}, color_of({1, 1, 0, 1}), after)), "r 1, g 1");
+    output.blend = cases::Blend{
+        {BlendFactor::constant_color, BlendFactor::constant_color, BlendOp::subtract}, {}};
+    output.blend->constants = {1, 2, 1, 1};
+    EXPECT_EQ(unit.text_of(unit.write(output, color_of({1, 60000, 0, 1}), before)),
+              "r anything, g anything");
+}
+
 // A blend unit written for this test: numbers of type T, rounded after every step by `round`.
 template <class T, class Round>
 std::array<T, 4> simulate(const cases::Blend& blend, std::array<T, 4> s, std::array<T, 4> d,
