@@ -60,8 +60,9 @@ std::string component(const cases::ColorFormatRow& row, uint32_t k, bool is_code
 
 std::string factors(const Pose& pose, Dice& dice) {
     const auto factor = [&dice] {
+        // Those of a second source, which the instruments leave no room for, come last.
         const auto& words = cases::kWords<cases::BlendFactor>;
-        return words[dice.below(words.size())];
+        return words[dice.below(static_cast<size_t>(cases::BlendFactor::src1_color))];
     };
     const auto& ops = cases::kWords<cases::BlendOp>;
     const std::string_view source = factor(), destination = factor();
