@@ -52,8 +52,8 @@ endforeach()
 
 # Fragment shaders: attributes x the combinations of features below, one letter each:
 # p probes, l lod, b barycentrics, m mask in, s sample, o mask out, k discard, z depth, c colour (float), u colour (uint),
-# n no instruments, t split instruments, d split with attributes in pairs (at most 8 colour attachments).
-set(plain_features "-" o c u co uo cn un con uon k kc ku kcn kun z zc zu zn zcn zun kz kzc kzu kzcn kzun)
+# w two sources of colour (float), n no instruments, t split instruments, d split with attributes in pairs (at most 8 colour attachments).
+set(plain_features "-" o c u co uo cn un con uon k kc ku kcn kun z zc zu zn zcn zun kz kzc kzu kzcn kzun wn won kwn zwn kzwn)
 set(attribute_features p pl b m ms mo mso pb pm pms po bms bm)
 set(fragment_table "")
 foreach(count RANGE 4)
@@ -97,6 +97,9 @@ foreach(count RANGE 4)
         elseif(feature MATCHES u)
             string(APPEND defines ",-DCOLOR=2")
             string(APPEND row ", ColorKind::integer")
+        elseif(feature MATCHES w)
+            string(APPEND defines ",-DCOLOR=3")
+            string(APPEND row ", ColorKind::two_numbers")
         else()
             string(APPEND defines ",-DCOLOR=0")
             string(APPEND row ", ColorKind::none")

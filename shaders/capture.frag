@@ -6,8 +6,8 @@
 //
 // Defined by the build is only what changes capabilities or what is statically used: ATTRIBUTES (0..4),
 // PROBES (interpolateAt*, derivatives), LOD (textureQueryLod), BARYCENTRICS, MASK_IN (gl_SampleMaskIn),
-// SAMPLE (gl_SampleID, gl_SamplePosition), MASK_OUT (gl_SampleMask), DISCARD, DEPTH (gl_FragDepth), COLOR (0 none, 1 float, 2 uint),
-// INSTRUMENTS (0: the colour output alone), SPLIT (the instruments as four small outputs), PAIRS (with them
+// SAMPLE (gl_SampleID, gl_SamplePosition), MASK_OUT (gl_SampleMask), DISCARD, DEPTH (gl_FragDepth), COLOR (0 none, 1 float, 2 uint,
+// 3 two sources of float), INSTRUMENTS (0: the colour output alone), SPLIT (the instruments as four small outputs), PAIRS (with them
 // each attribute as two). What an attribute holds is chosen by specialization
 // constants (shaders.hpp). All inputs are smooth here: Flat, NoPerspective, Centroid and Sample are
 // added to the compiled module (shaders/spirv_variant.hpp), where the input at location 7 may also
@@ -32,6 +32,9 @@ layout(push_constant) uniform Draw {
     layout(offset = 92) float other_depth;
     layout(offset = 96) uint other_where;  // numbered as cases::Discard
     layout(offset = 100) uint depth_is_coord;
+#if COLOR == 3
+    layout(offset = 112) vec4 second;
+#endif
 }
 draw;
 
@@ -114,6 +117,9 @@ ATTRIBUTE_OUTPUT(3)
 layout(location = COLOR_LOCATION) out vec4 out_color;
 #elif COLOR == 2
 layout(location = COLOR_LOCATION) out uvec4 out_color;
+#elif COLOR == 3
+layout(location = COLOR_LOCATION, index = 0) out vec4 out_color;
+layout(location = COLOR_LOCATION, index = 1) out vec4 out_second;
 #endif
 
 // Choices are numbered as shaders::Choice.
@@ -231,8 +237,11 @@ void main() {
 #if ATTRIBUTES > 3
     color = kColorAttribute == 3 ? in_attribute3 : color;
 #endif
-#if COLOR == 1
+#if COLOR != 2
     out_color = color;
+#if COLOR == 3
+    out_second = draw.second;
+#endif
 #else
     out_color = kColorAttribute < 0 ? draw.color : uvec4(color);
 #endif

@@ -22,8 +22,8 @@ struct VertexVariant {
     friend auto operator<=>(const VertexVariant&, const VertexVariant&) = default;
 };
 
-// Components of the colour output.
-enum class ColorKind : uint8_t { none, number, integer };
+// Components of the colour output. two_numbers: a second one for dual-source blending.
+enum class ColorKind : uint8_t { none, number, integer, two_numbers };
 
 // What capture.frag was compiled for: everything that needs a capability of the device or that has
 // an effect by its mere presence.
@@ -80,9 +80,11 @@ struct DrawConstants {
     float depth = 0, other_depth = 0;
     uint32_t other_where = 0;
     uint32_t depth_is_coord = 0;
+    uint32_t unused_too[2] = {};
+    float second[4] = {};  // the second colour, if the shader writes one
 };
-// Below maxPushConstantsSize, which is at least 128.
-static_assert(sizeof(DrawConstants) == 104);
+// maxPushConstantsSize is at least 128.
+static_assert(sizeof(DrawConstants) == 128);
 
 // The module of a variant; empty if the build made none of that combination.
 std::span<const uint32_t> capture_vertex(const VertexVariant& variant);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string_view>
 #include <utility>
 
 namespace shaders {
@@ -16,6 +17,7 @@ namespace {
 constexpr uint32_t kMagic = 0x07230203;
 constexpr uint32_t kHeaderWords = 5;
 enum Op : uint32_t {
+    kOpExtension = 10,
     kOpEntryPoint = 15,
     kOpExecutionMode = 16,
     kOpCapability = 17,
@@ -23,6 +25,10 @@ enum Op : uint32_t {
     kOpDecorate = 71,
     kOpDecorationGroup = 73,
     kOpGroupDecorate = 74,
+    kOpKill = 252,
+    kOpReturn = 253,
+    kOpTerminateInvocation = 4416,
+    kOpDemoteToHelperInvocation = 5380,
 };
 enum Decoration : uint32_t {
     kBuiltIn = 11,
@@ -32,7 +38,11 @@ enum Decoration : uint32_t {
     kSample = 17,
     kLocation = 30,
 };
-enum Capability : uint32_t { kGeometry = 2, kSampleRateShading = 35 };
+enum Capability : uint32_t {
+    kGeometry = 2,
+    kSampleRateShading = 35,
+    kDemoteToHelperInvocation = 5379
+};
 constexpr uint32_t kStorageInput = 1;
 constexpr uint32_t kBuiltInPrimitiveId = 7;
 
@@ -236,6 +246,48 @@ tl::expected<std::vector<uint32_t>, std::string> with_modes(std::span<const uint
             }
         }
         out.insert(out.end(), i->words.begin(), i->words.end());
+    }
+    return out;
+}
+
+tl::expected<std::vector<uint32_t>, std::string> with_ending(std::span<const uint32_t> module,
+                                                             Ending ending) {
+    auto code = split(module);
+    if (!code) {
+        return Error(code.error());
+    }
+    const auto is = [](uint32_t op) { return [op](const Instruction& i) { return i.op == op; }; };
+    if (std::none_of(code->begin(), code->end(), is(kOpKill))) {
+        return Error("the module discards nothing");
+    }
+    if (ending == Ending::kill) {
+        return std::vector<uint32_t>(module.begin(), module.end());
+    }
+    const bool is_demoted = ending == Ending::demote;
+    std::vector<uint32_t> out(module.begin(), module.begin() + kHeaderWords);
+    if (is_demoted) {
+        out.insert(out.end(), {first_word(kOpCapability, 2), kDemoteToHelperInvocation});
+    }
+    const auto behind = std::find_if_not(code->begin(), code->end(), is(kOpCapability));
+    for (auto i = code->begin(); i != code->end(); ++i) {
+        if (i == behind) {
+            const std::string_view name =
+                is_demoted ? "SPV_EXT_demote_to_helper_invocation" : "SPV_KHR_terminate_invocation";
+            std::vector<uint32_t> letters(name.size() / 4 + 1);  // ends with a zero
+            for (size_t k = 0; k < name.size(); ++k) {
+                letters[k / 4] |= static_cast<uint32_t>(name[k]) << (8 * (k % 4));
+            }
+            out.push_back(first_word(kOpExtension, static_cast<uint32_t>(letters.size()) + 1));
+            out.insert(out.end(), letters.begin(), letters.end());
+        }
+        if (i->op != kOpKill) {
+            out.insert(out.end(), i->words.begin(), i->words.end());
+        } else if (is_demoted) {
+            out.insert(out.end(),
+                       {first_word(kOpDemoteToHelperInvocation, 1), first_word(kOpReturn, 1)});
+        } else {
+            out.push_back(first_word(kOpTerminateInvocation, 1));
+        }
     }
     return out;
 }

@@ -51,4 +51,13 @@ enum ExecutionMode : uint32_t {
 tl::expected<std::vector<uint32_t>, std::string> with_modes(std::span<const uint32_t> module,
                                                             std::span<const uint32_t> modes);
 
+// What takes the place of OpKill.
+enum class Ending : uint8_t { kill, demote, terminate };
+
+// The module of a fragment shader that discards at its end, by another instruction:
+// OpDemoteToHelperInvocation and OpReturn (SPV_EXT_demote_to_helper_invocation), or
+// OpTerminateInvocation (SPV_KHR_terminate_invocation). Errors: as above, and no OpKill.
+tl::expected<std::vector<uint32_t>, std::string> with_ending(std::span<const uint32_t> module,
+                                                             Ending ending);
+
 }  // namespace shaders

@@ -185,6 +185,23 @@ std::optional<Rejection> check_color(const Capabilities& c, const cases::Case& t
     if (operates && test.target.has_instruments) {
         return invalid("a logical operation switches off the blending that counts hits");
     }
+    const bool takes_second = std::any_of(test.draws.begin(), test.draws.end(), [](const auto& d) {
+        return d.color.blend && cases::takes_second(*d.color.blend);
+    });
+    if (takes_second && !c.dual_source) {
+        return unsupported("the device lacks the feature dualSrcBlend");
+    }
+    if (takes_second && test.target.has_instruments) {
+        return invalid("a second source is blended beside the attachments that count hits");
+    }
+    const bool is_one = std::any_of(test.draws.begin(), test.draws.end(),
+                                    [](const auto& draw) { return draw.color.alpha_to_one; });
+    if (is_one && !c.alpha_to_one) {
+        return unsupported("the device lacks the feature alphaToOne");
+    }
+    if (is_one && test.target.has_instruments) {
+        return invalid("alpha to one changes the attachments that tell of fragments");
+    }
     const bool multisampled = test.target.samples > 1;
     if (blends && !c.portability.constant_alpha_factors &&
         std::any_of(test.draws.begin(), test.draws.end(), names_constant_alpha)) {
@@ -459,6 +476,12 @@ std::optional<Rejection> check_case(const Capabilities& capabilities, const case
             return invalid("a draw goes to layer {} of {}", draw.layer, c.target.layers);
         }
         const PipelineKey key = pipeline_key(c, draw, layout);
+        if (key.discard_by == cases::DiscardBy::demote && !capabilities.discard.demote) {
+            return unsupported("the device lacks the feature shaderDemoteToHelperInvocation");
+        }
+        if (key.discard_by == cases::DiscardBy::terminate && !capabilities.discard.terminate) {
+            return unsupported("the device lacks the feature shaderTerminateInvocation");
+        }
         if (shaders::capture_vertex(vertex_variant(key)).empty() ||
             shaders::capture_fragment(fragment_variant(key)).empty()) {
             return invalid(

@@ -111,12 +111,17 @@ bool BatchRenderer::plan(CasePlan& plan, Rendered& result) {
     plan.input_count = input_count(test);
     const TargetLayout layout = target_layout(device_->capabilities(), test);
     for (const cases::Draw& draw : test.draws) {
-        auto pipeline = pipelines_.get(pipeline_key(test, draw, layout));
+        DrawPlan item;
+        PipelineKey own = pipeline_key(test, draw, layout);
+        if (test.variation.door == cases::Door::state_output) {
+            item.outputs = output_state(own);
+            own = without_outputs(own);
+        }
+        auto pipeline = pipelines_.get(own);
         if (!pipeline) {
             reject(result, pipeline.error());
             return false;
         }
-        DrawPlan item;
         item.draw = &draw;
         item.pipeline = *pipeline;
         if (test.variation.door == cases::Door::state_after_static) {

@@ -130,6 +130,32 @@ int32_t read_attribute_name(LeafContext& context, const TomlValue& value, const 
     return static_cast<int32_t>(found - attributes.begin());
 }
 
+// The colour that factors of the second source take.
+void read_second(LeafContext& context, const TomlValue& table, const Target& target,
+                 ColorOutput& out) {
+    const bool takes = out.blend && takes_second(*out.blend);
+    const TomlValue* second = table.find("second");
+    if (second == nullptr) {
+        if (takes) {
+            context.error(table.where,
+                          "blend has a factor of the second source; write second = [r, g, b, a]");
+        }
+        return;
+    }
+    if (!takes) {
+        context.error(second->where,
+                      "second without a factor of the second source means nothing; leave it out");
+        return;
+    }
+    if (target.has_instruments) {
+        context.error(second->where,
+                      "a device may blend a second source into one attachment alone; write "
+                      "attachments = \"color\" or \"color+depth\" in [target]");
+    }
+    out.blend->second =
+        read_color(context, *second, "second", target.color->format).value_or(glm::vec4(0));
+}
+
 }  // namespace
 
 Blend blend_of_word(size_t index) {
@@ -181,7 +207,8 @@ ColorOutput read_color_output(LeafContext& context, const TomlValue& value, cons
         return out;
     }
     context.known_keys(value, "color",
-                       {"value", "attribute", "blend", "constants", "logic", "write_mask"});
+                       {"value", "attribute", "blend", "constants", "second", "logic",
+                        "alpha_to_one", "write_mask"});
     const TomlValue* constant = value.find("value");
     const TomlValue* attribute = value.find("attribute");
     if ((constant != nullptr) == (attribute != nullptr)) {
@@ -207,11 +234,20 @@ ColorOutput read_color_output(LeafContext& context, const TomlValue& value, cons
                 read_color(context, *constants, "constants", color.format).value_or(glm::vec4(0));
         }
     }
+    read_second(context, value, target, out);
     if (const TomlValue* logic = value.find("logic")) {
         out.logic = context.enumerator<LogicOp>(*logic, "the logical operation");
         if (target.has_instruments) {
             context.error(logic->where,
                           "a logical operation switches off the blending that counts hits; write "
+                          "attachments = \"color\" or \"color+depth\" in [target]");
+        }
+    }
+    if (const TomlValue* one = value.find("alpha_to_one")) {
+        out.alpha_to_one = context.boolean(*one, "alpha_to_one").value_or(false);
+        if (out.alpha_to_one && target.has_instruments) {
+            context.error(one->where,
+                          "alpha to one changes the attachments that tell of fragments; write "
                           "attachments = \"color\" or \"color+depth\" in [target]");
         }
     }

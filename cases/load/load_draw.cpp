@@ -42,7 +42,7 @@ class DrawLoader {
                              "offset",        "winding",     "first",        "order",
                              "color",         "sample_mask", "shader_mask",  "min_sample_shading",
                              "stencil",       "discard",     "early_tests",  "frag_depth",
-                             "query"});
+                             "query",         "discard_by"});
         draw_.where = table_.where;
         context_.read(table_, "topology", draw_.topology);
         context_.read(table_, "cull", draw_.cull);
@@ -51,6 +51,11 @@ class DrawLoader {
         draw_.multisample = load_multisample(context_, table_);
         context_.read(table_, "rasterizer_discard", draw_.rasterizer_discard);
         context_.read(table_, "discard", draw_.discard);
+        context_.read(table_, "discard_by", draw_.discard_by);
+        if (const TomlValue* by = table_.find("discard_by");
+            by != nullptr && draw_.discard == Discard::none) {
+            context_.error(by->where, "discard_by without discard means nothing; leave it out");
+        }
         context_.read(table_, "early_tests", draw_.early_tests);
         if (draw_.early_tests && draw_.multisample.shader_mask) {
             context_.error(table_.find("early_tests")->where,

@@ -29,8 +29,16 @@ enum class BlendFactor : uint8_t {  // numbered as VkBlendFactor
     one_minus_constant_color,
     constant_alpha,
     one_minus_constant_alpha,
-    src_alpha_saturate
+    src_alpha_saturate,
+    // Of the second source colour (dual-source blending).
+    src1_color,
+    one_minus_src1_color,
+    src1_alpha,
+    one_minus_src1_alpha
 };
+constexpr bool is_second(BlendFactor factor) {
+    return factor >= BlendFactor::src1_color;
+}
 enum class BlendOp : uint8_t { add, subtract, reverse_subtract, min, max };  // as VkBlendOp
 struct BlendEquation {
     BlendFactor source = BlendFactor::one, destination = BlendFactor::zero;
@@ -45,13 +53,20 @@ struct BlendEquation {
 struct Blend {
     BlendEquation color, alpha;
     glm::vec4 constants{};
+    glm::vec4 second{};  // source colour of every fragment, if takes_second
     static void fields(auto&& visit, auto&... b) {
         visit("color", b.color...);
         visit("alpha", b.alpha...);
         visit("constants", b.constants...);
+        visit("second", b.second...);
     }
     friend bool operator==(const Blend&, const Blend&) = default;
 };
+// Whether a factor is of the second source, also where the operation ignores factors.
+constexpr bool takes_second(const Blend& blend) {
+    return is_second(blend.color.source) || is_second(blend.color.destination) ||
+           is_second(blend.alpha.source) || is_second(blend.alpha.destination);
+}
 
 // What becomes of the bits of a fragment's colour and of the target's.
 enum class LogicOp : uint8_t {  // numbered as VkLogicOp
@@ -82,12 +97,16 @@ struct ColorOutput {
     // With one nothing is blended. Floating-point and sRGB formats are
     // written as without it.
     std::optional<LogicOp> logic = {};
+    // The shader's first alpha counts as 1, before anything is blended. Integer formats are written
+    // as without it.
+    bool alpha_to_one = false;
     static void fields(auto&& visit, auto&... c) {
         visit("value", c.value...);
         visit("attribute", c.attribute...);
         visit("blend", c.blend...);
         visit("write_mask", c.write_mask...);
         visit("logic", c.logic...);
+        visit("alpha_to_one", c.alpha_to_one...);
     }
     friend bool operator==(const ColorOutput&, const ColorOutput&) = default;
 };

@@ -212,6 +212,12 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
      "is recorded with it under empty scissors; then come the usual pipeline and its dynamic "
      "state.",
      "", "no list with restart, no bias whose unit is chosen", can_be_static},
+    {Door::state_output, "state-output", kState, kRight, rule::door_state,
+     "What becomes of a fragment's outputs is dynamic: blending and its equations, write masks, "
+     "logical operations, the sample mask and alpha to one; by its pipeline nothing is written.",
+     "the states of blending, logical operations, sample masks and alpha to one of "
+     "VK_EXT_extended_dynamic_state3, and extendedDynamicState2LogicOp",
+     kAny, is_any},
     {Door::unoptimized, "unoptimized", kState, kRight, rule::door_state,
      "Pipelines are made with VK_PIPELINE_CREATE_DISABLE_OPTIMIZATION_BIT.", "", kAny, is_any},
     {Door::secondary, "secondary", kRecording, kSame, rule::door_recording,

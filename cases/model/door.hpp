@@ -49,6 +49,7 @@ enum class Door : uint8_t {
     state_stale,
     state_static,
     state_after_static,
+    state_output,
     unoptimized,
     secondary,
     secondary_each,

@@ -27,6 +27,8 @@ enum class ProvokingVertex : uint8_t { first, last };
 // Which of a draw's fragments the fragment shader discards: those in every second column, row or
 // both, pixel (0, 0) not among them, or those of one face.
 enum class Discard : uint8_t { none, odd_columns, odd_rows, checker, front, back };
+// By which instruction: OpKill, OpDemoteToHelperInvocation or OpTerminateInvocation.
+enum class DiscardBy : uint8_t { kill, demote, terminate };
 // The occlusion query that counts a draw's samples; one that is not precise tells only whether any
 // passed.
 enum class Query : uint8_t { none, occlusion, occlusion_precise };
@@ -284,6 +286,7 @@ struct Draw {
     ProvokingVertex provoking = ProvokingVertex::first;
     bool rasterizer_discard = false;  // rasterizerDiscardEnable: no fragment comes of it
     Discard discard = Discard::none;  // by the fragment shader
+    DiscardBy discard_by = DiscardBy::kill;
     // EarlyFragmentTests: depth and stencil are tested and stored before the fragment shader, and
     // what it discards has been stored.
     bool early_tests = false;
@@ -311,6 +314,7 @@ struct Draw {
         visit("provoking_vertex", d.provoking...);
         visit("rasterizer_discard", d.rasterizer_discard...);
         visit("discard", d.discard...);
+        visit("discard_by", d.discard_by...);
         visit("early_tests", d.early_tests...);
         visit("frag_depth", d.frag_depth...);
         visit({"query", kNotExported}, d.query...);  // planes alone are delivered

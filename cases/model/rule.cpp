@@ -121,6 +121,13 @@ constexpr std::array kRules = {
          "Bit s of pSampleMask, and bit s of what the shader writes to gl_SampleMask, let sample s "
          "be written: coverage is their AND.",
          "fragops-samplemask", "17.17", "cases/model/sample.cpp"},
+    Rule{
+        rule::sample_alpha_to_one, Profile::vulkan, "Alpha to one replaces the shader's alpha by 1",
+        "Before blending and logical operations the alpha of the output with location 0 and index "
+        "0 "
+        "becomes 1, with one sample as with several; a second source keeps its own, and outputs of "
+        "integers are left as they are.",
+        "fragops-covg", "", "ref/color/blend.hpp"},
     Rule{rule::sample_mask_in, Profile::vulkan,
          "gl_SampleMaskIn holds the samples of the invocation",
          "Without sample shading the covered samples after the sample mask; with it a subset that "
@@ -206,6 +213,13 @@ constexpr std::array kRules = {
          "intermediate may be rounded to a neighbour in the destination's format. Fixed-point "
          "targets clamp source, factors and result. What is representable throughout is exact.",
          "framebuffer-blending", "17.5", "ref/color/blend.hpp"},
+    Rule{
+        rule::blend_second_source, Profile::vulkan,
+        "Factors of the second source are the shader's second colour",
+        "SRC1_COLOR and SRC1_ALPHA are the color and the alpha of the output with index 1, clamped "
+        "and rounded as those of the first source are; in all else dual-source blending is "
+        "blending.",
+        "framebuffer-dsb", "17.6", "ref/color/blend.hpp"},
     Rule{rule::logic_operation, Profile::vulkan,
          "A logical operation combines the bits of the colours",
          "Each component's code is combined with the stored one, bit by bit, in place of blending, "

@@ -43,6 +43,8 @@ template <>
 inline constexpr WordList<6> kWords<Discard> = {"none",    "odd-columns", "odd-rows",
                                                 "checker", "front",       "back"};
 template <>
+inline constexpr WordList<3> kWords<DiscardBy> = {"kill", "demote", "terminate"};
+template <>
 inline constexpr WordList<3> kWords<Query> = {"none", "occlusion", "occlusion-precise"};
 template <>
 inline constexpr WordList<4> kWords<DepthLayout> = {"any", "greater", "less", "unchanged"};
@@ -73,7 +75,7 @@ inline constexpr WordList<14> kWords<Probe> = {
     "dfdy",   "dfdx-fine",   "dfdy-fine",     "dfdx-coarse", "dfdy-coarse",
     "fwidth", "fwidth-fine", "fwidth-coarse", "query-lod"};
 template <>
-inline constexpr WordList<15> kWords<BlendFactor> = {"zero",
+inline constexpr WordList<19> kWords<BlendFactor> = {"zero",
                                                      "one",
                                                      "src-color",
                                                      "one-minus-src-color",
@@ -87,7 +89,11 @@ inline constexpr WordList<15> kWords<BlendFactor> = {"zero",
                                                      "one-minus-constant-color",
                                                      "constant-alpha",
                                                      "one-minus-constant-alpha",
-                                                     "src-alpha-saturate"};
+                                                     "src-alpha-saturate",
+                                                     "src1-color",
+                                                     "one-minus-src1-color",
+                                                     "src1-alpha",
+                                                     "one-minus-src1-alpha"};
 template <>
 inline constexpr WordList<5> kWords<BlendOp> = {"add", "subtract", "reverse-subtract", "min",
                                                 "max"};
@@ -131,7 +137,7 @@ static_assert(detail::ends_with(Topology::triangle_fan) &&
               detail::ends_with(DepthFormat::d16_unorm) &&
               detail::ends_with(DepthBiasRepresentation::floating) &&
               detail::ends_with(Source::sample_position) && detail::ends_with(Probe::lod) &&
-              detail::ends_with(BlendFactor::src_alpha_saturate) &&
+              detail::ends_with(BlendFactor::one_minus_src1_alpha) &&
               detail::ends_with(BlendOp::max) && detail::ends_with(LogicOp::set) &&
               detail::ends_with(Resolve::max) && detail::ends_with(BlitFilter::linear) &&
               detail::ends_with(BlitPattern::ramp) && detail::ends_with(kLastRelationKind));

@@ -295,6 +295,12 @@ constexpr Statement kStatements[] = {
     {91, "the colour write mask", exact, exact,
      "Masked components keep their bits.",
      {"blend.write-mask"}, ""},
+    {125, "dual-source blending", tolerance, tolerance,
+     "Factors of the second source are what the shader wrote there, with the rounding that blending may have.",
+     {"blend.second-source"}, ""},
+    {126, "alpha to one", exact, not_spoken,
+     "The first source's alpha is 1 in all that follows; the second source's is what the shader wrote.",
+     {"sample.alpha-to-one"}, ""},
     {124, "logical operations", exact, not_spoken,
      "What the operation makes of the codes, bit by bit; blending is off, and floating-point and sRGB targets are written "
      "as they are.",

@@ -248,9 +248,15 @@ std::string color_output_text(const Draw& draw) {
         if (!same_color(color.blend->constants, Blend().constants)) {
             table.add("constants", color_text(color.blend->constants));
         }
+        if (takes_second(*color.blend)) {
+            table.add("second", color_text(color.blend->second));
+        }
     }
     if (color.logic) {
         table.add("logic", string_toml(std::string(word_of(*color.logic))));
+    }
+    if (color.alpha_to_one) {
+        table.add("alpha_to_one", "true");
     }
     if (color.write_mask != ColorOutput().write_mask) {
         std::string letters;
@@ -345,6 +351,7 @@ std::string draw_text(const Draw& draw, const Target& target) {
     add_word(table, "provoking", draw.provoking, usual.provoking);
     table.add_flag("rasterizer_discard", draw.rasterizer_discard, usual.rasterizer_discard);
     add_word(table, "discard", draw.discard, usual.discard);
+    add_word(table, "discard_by", draw.discard_by, usual.discard_by);
     table.add_flag("early_tests", draw.early_tests, usual.early_tests);
     if (draw.frag_depth) {
         table.add("frag_depth", frag_depth_text(*draw.frag_depth));

@@ -84,6 +84,8 @@ std::string_view missing_of(const cases::Draw& d) {
         {d.query != cases::Query::none, "a query"},
         {d.depth.bounds.has_value(), "a depth bounds test"},
         {d.color.logic.has_value(), "a logical operation"},
+        {d.color.alpha_to_one, "alpha to one"},
+        {d.color.blend && cases::takes_second(*d.color.blend), "dual-source blending"},
         {d.depth.bias && d.depth.bias->is_controlled(), "a bias by VK_EXT_depth_bias_control"},
     });
 }

@@ -140,7 +140,14 @@ bool DrawCommand::is_discarded(int64_t i, int64_t j, uint32_t s, bool front) con
         (fault == Fault::discard_sample_zero && s != 0)) {
         return false;
     }
-    const bool is_quad = fault == Fault::discard_by_quad;
+    const bool is_demoted = draw_.discard_by == cases::DiscardBy::demote;
+    const bool is_terminated = draw_.discard_by == cases::DiscardBy::terminate;
+    if ((fault == Fault::demote_ignored && is_demoted) ||
+        (fault == Fault::terminate_ignored && is_terminated)) {
+        return false;
+    }
+    const bool is_quad =
+        fault == Fault::discard_by_quad || (fault == Fault::terminate_by_quad && is_terminated);
     const bool has_odd_x = ((is_quad ? i >> 1 : i) & 1) != 0;
     const bool has_odd_y = ((is_quad ? j >> 1 : j) & 1) != 0;
     const bool is_turned = fault == Fault::discard_turned;
@@ -223,9 +230,12 @@ void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const Tri
         return;
     }
     const bool discarded = is_discarded(i, j, s, front);
-    const bool is_early = fault == Fault::discard_tests_early  ? true
-                          : fault == Fault::discard_tests_late ? false
-                                                               : draw_.early_tests;
+    const bool is_early =
+        fault == Fault::discard_tests_early  ? true
+        : fault == Fault::discard_tests_late ? false
+        : fault == Fault::demote_stores_depth && draw_.discard_by == cases::DiscardBy::demote
+            ? true
+            : draw_.early_tests;
     if (discarded && !is_early) {
         end(Ending::discarded);
         return;

@@ -38,8 +38,8 @@ Interval larger(const Interval& a, const Interval& b) {
 }
 
 // Table "Blend Factors". `k`: the component, 3 alpha.
-Interval factor_of(BlendFactor factor, size_t k, const Color& source, const Color& destination,
-                   const Color& constants) {
+Interval factor_of(BlendFactor factor, size_t k, const Color& source, const Color& second,
+                   const Color& destination, const Color& constants) {
     switch (factor) {
         case BlendFactor::zero:
             return point(0);
@@ -69,6 +69,14 @@ Interval factor_of(BlendFactor factor, size_t k, const Color& source, const Colo
             return constants[3];
         case BlendFactor::one_minus_constant_alpha:
             return complement(constants[3]);
+        case BlendFactor::src1_color:
+            return second[k];
+        case BlendFactor::one_minus_src1_color:
+            return complement(second[k]);
+        case BlendFactor::src1_alpha:
+            return second[3];
+        case BlendFactor::one_minus_src1_alpha:
+            return complement(second[3]);
         case BlendFactor::src_alpha_saturate:
             break;
     }
@@ -76,6 +84,10 @@ Interval factor_of(BlendFactor factor, size_t k, const Color& source, const Colo
 }
 
 }  // namespace
+
+bool replaces_alpha(const cases::ColorOutput& output, cases::ColorFormat format) {
+    return output.alpha_to_one && !cases::is_integer(format);
+}
 
 Color Unit::cleared(const cases::ColorTarget& target) const {
     Color out;
@@ -90,8 +102,12 @@ Color Unit::cleared(const cases::ColorTarget& target) const {
     return out;
 }
 
-Color Unit::write(const cases::ColorOutput& output, const Color& source,
+Color Unit::write(const cases::ColorOutput& output, const Color& written,
                   const Color& before) const {
+    Color source = written;
+    if (replaces_alpha(output, format)) {
+        source[3] = point(1);
+    }
     Color out = before;
     if (!output.blend || output.logic) {
         for (uint32_t k = 0; k < 4; ++k) {
@@ -108,16 +124,19 @@ Color Unit::write(const cases::ColorOutput& output, const Color& source,
     // Alpha of the source takes part even where the target has none; then it is not rounded.
     const Component first(cases::component_of(format, 0));
     Color s = source;
-    Color constants;
+    Color second, constants;
     for (uint32_t k = 0; k < 4; ++k) {
+        second[k] = point(static_cast<double>(output.blend->second[static_cast<int>(k)]));
         constants[k] = point(static_cast<double>(output.blend->constants[static_cast<int>(k)]));
         const Component component(cases::component_of(format, k));
         const Component& grid = component.exists() ? component : first;
         if (first.is_fixed_point()) {
             s[k] = clamped(s[k]);
+            second[k] = clamped(second[k]);
             constants[k] = clamped(constants[k]);
         }
         s[k] = grid.either(s[k]);
+        second[k] = grid.either(second[k]);
         constants[k] = grid.either(constants[k]);
     }
     for (uint32_t k = 0; k < 4; ++k) {
@@ -133,8 +152,8 @@ Color Unit::write(const cases::ColorOutput& output, const Color& source,
             result = larger(s[k], before[k]);
         } else {
             const auto scaled = [&](const Interval& value, BlendFactor factor) {
-                return component.either(
-                    product(value, component.either(factor_of(factor, k, s, before, constants))));
+                return component.either(product(
+                    value, component.either(factor_of(factor, k, s, second, before, constants))));
             };
             const Interval a = scaled(s[k], equation.source);
             const Interval b = scaled(before[k], equation.destination);

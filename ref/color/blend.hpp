@@ -25,12 +25,16 @@ namespace ref::color {
 
 using Color = std::array<Interval, 4>;  // red, green, blue, alpha
 
+// Whether alpha to one ("Multisample Coverage") replaces the alpha that the shader wrote: the one
+// of location 0 and index 0, and not that of a second source.
+bool replaces_alpha(const cases::ColorOutput& output, cases::ColorFormat format);
+
 // Computes the target's colour after one fragment; integer formats are not blended.
 struct Unit {
     cases::ColorFormat format;
     cases::Profile profile;
-    // `source`: what the shader wrote; `before`: what the target held.
-    Color write(const cases::ColorOutput& output, const Color& source, const Color& before) const;
+    // `written`: by the shader; `before`: what the target held.
+    Color write(const cases::ColorOutput& output, const Color& written, const Color& before) const;
     // Is the target's colour after a clear.
     Color cleared(const cases::ColorTarget& target) const;
     // Codes in the middle of what is allowed.

@@ -173,6 +173,7 @@ std::optional<bool> ColorReference::may_write(uint32_t triangle, cases::SampleId
                                               const glm::vec4* written,
                                               const std::array<uint32_t, 4>& codes) {
     const color::Source source = source_of(triangle, id, written);
+    const bool is_one = color::replaces_alpha(output_of(triangle), unit_.format);
     bool is_known = true;
     for (uint32_t k = 0; k < 4; ++k) {
         const color::Component component(cases::component_of(unit_.format, k));
@@ -180,7 +181,8 @@ std::optional<bool> ColorReference::may_write(uint32_t triangle, cases::SampleId
             continue;
         }
         const std::optional<bool> may =
-            component.may_store(source.low[k], source.high[k], codes[k], unit_.profile);
+            component.may_store(is_one && k == 3 ? 1 : source.low[k],
+                                is_one && k == 3 ? 1 : source.high[k], codes[k], unit_.profile);
         if (may && !*may) {
             return false;
         }
@@ -210,12 +212,19 @@ bool ColorReference::leaves(const Sequence& sequence, cases::SampleId id, const 
 std::string ColorReference::rule_of(const Sequence& sequence, bool is_as_unmasked) const {
     const bool blends = std::any_of(sequence.begin(), sequence.end(),
                                     [&](uint32_t t) { return output_of(t).blend.has_value(); });
+    const bool takes_second = std::any_of(sequence.begin(), sequence.end(), [&](uint32_t t) {
+        return output_of(t).blend && cases::takes_second(*output_of(t).blend);
+    });
     const bool operates = std::any_of(sequence.begin(), sequence.end(),
                                       [&](uint32_t t) { return output_of(t).logic.has_value(); });
+    const bool is_one = std::any_of(sequence.begin(), sequence.end(),
+                                    [&](uint32_t t) { return output_of(t).alpha_to_one; });
     const bool masks = std::any_of(sequence.begin(), sequence.end(),
                                    [&](uint32_t t) { return output_of(t).write_mask != 0xf; });
     return std::string(masks && is_as_unmasked ? cases::rule::blend_write_mask
+                       : is_one                ? cases::rule::sample_alpha_to_one
                        : operates              ? cases::rule::logic_operation
+                       : takes_second          ? cases::rule::blend_second_source
                        : blends                ? cases::rule::blend_equation
                        : masks                 ? cases::rule::blend_write_mask
                                : kStoreRules[static_cast<size_t>(row_of(unit_.format).kind)]);

@@ -399,6 +399,30 @@ bool exchange_operands(Case& c) {
     });
 }
 
+bool keep_alpha(Case& c) {
+    return change_draws(c, [](Draw& draw) { return set(draw.color.alpha_to_one, false); });
+}
+
+bool take_first_for_second(Case& c) {
+    using cases::BlendFactor;
+    return change_draws(c, [](Draw& draw) {
+        if (!draw.color.blend || !takes_second(*draw.color.blend)) {
+            return false;
+        }
+        constexpr BlendFactor kFirst[] = {BlendFactor::src_color, BlendFactor::one_minus_src_color,
+                                          BlendFactor::src_alpha, BlendFactor::one_minus_src_alpha};
+        for (cases::BlendEquation* e : {&draw.color.blend->color, &draw.color.blend->alpha}) {
+            for (BlendFactor* factor : {&e->source, &e->destination}) {
+                if (is_second(*factor)) {
+                    *factor = kFirst[static_cast<size_t>(*factor) -
+                                     static_cast<size_t>(BlendFactor::src1_color)];
+                }
+            }
+        }
+        return true;
+    });
+}
+
 bool blend_twice(Case& c) {
     std::vector<Draw> draws;
     for (const Draw& draw : c.draws) {

@@ -101,6 +101,10 @@ bool turn_provoking(cases::Case& c) {
 // Colours.
 bool blend_nothing(cases::Case& c);
 bool exchange_factors(cases::Case& c);
+// Nothing is alpha to one.
+bool keep_alpha(cases::Case& c);
+// Factors of the second source take the first one.
+bool take_first_for_second(cases::Case& c);
 // Logical operations are left out; with their operands exchanged.
 bool operate_nothing(cases::Case& c);
 bool exchange_operands(cases::Case& c);

@@ -230,6 +230,7 @@ bool shows_otherwise(Original& original, uint32_t draw) {
     cases::Case plain = original.of();
     plain.draws[draw].color.blend.reset();
     plain.draws[draw].color.logic.reset();
+    plain.draws[draw].color.alpha_to_one = false;
     plain.draws[draw].color.write_mask = 0xf;
     for (cases::Case* other : {&discarded, &plain}) {
         Difference difference(original, std::move(*other), Differ::hits, {});

@@ -51,6 +51,18 @@ bool factor(Blend& b) {
     return altered;
 }
 
+bool first_for_second(Blend& b) {
+    bool altered = factor<VK_BLEND_FACTOR_SRC1_COLOR, VK_BLEND_FACTOR_SRC_COLOR>(b);
+    altered =
+        factor<VK_BLEND_FACTOR_ONE_MINUS_SRC1_COLOR, VK_BLEND_FACTOR_ONE_MINUS_SRC_COLOR>(b) ||
+        altered;
+    altered = factor<VK_BLEND_FACTOR_SRC1_ALPHA, VK_BLEND_FACTOR_SRC_ALPHA>(b) || altered;
+    altered =
+        factor<VK_BLEND_FACTOR_ONE_MINUS_SRC1_ALPHA, VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA>(b) ||
+        altered;
+    return altered;
+}
+
 template <VkBlendOp from, VkBlendOp to>
 bool op(Blend& b) {
     bool altered = false;
@@ -178,6 +190,13 @@ constexpr std::array kFaults = {
     Fault{"blend-subtract-as-add",
           "SUBTRACT adds.",
           {.pipeline = each_equation<op<VK_BLEND_OP_SUBTRACT, VK_BLEND_OP_ADD>>}},
+    Fault{"dual-source-as-first",
+          "Factors of the second source take the first one.",
+          {.pipeline = each_equation<first_for_second>}},
+    Fault{"dual-source-alpha-as-color",
+          "SRC1_ALPHA takes each component of the second source for itself.",
+          {.pipeline =
+               each_equation<factor<VK_BLEND_FACTOR_SRC1_ALPHA, VK_BLEND_FACTOR_SRC1_COLOR>>}},
     Fault{"logic-op-off", "There are no logical operations.", {.pipeline = stop_operating}},
     Fault{"logic-op-copies",
           "Every logical operation is COPY, which switches blending off, too.",

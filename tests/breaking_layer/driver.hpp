@@ -38,6 +38,9 @@ namespace breaking {
     X(CmdSetDepthBiasEnable) \
     X(CmdSetDepthBias) \
     X(CmdSetBlendConstants) \
+    X(CmdSetColorBlendEnableEXT) \
+    X(CmdSetColorWriteMaskEXT) \
+    X(CmdSetSampleMaskEXT) \
     X(CmdSetStencilOp) \
     X(CmdSetStencilCompareMask) \
     X(CmdSetStencilWriteMask) \

@@ -181,6 +181,10 @@ struct Hooks {
     bool (*depth_bias_enable)(VkBool32&) = nullptr;
     bool (*depth_bias)(DepthBias&) = nullptr;
     bool (*blend_constants)(std::span<float, 4>) = nullptr;
+    // Of attachments, where they are dynamic.
+    bool (*blend_enables)(std::span<VkBool32>) = nullptr;
+    bool (*write_masks)(std::span<VkColorComponentFlags>) = nullptr;
+    bool (*sample_mask)(VkSampleMask&) = nullptr;
     bool (*stencil_ops)(StencilOps&) = nullptr;
     bool (*stencil_compare_mask)(StencilValue&) = nullptr;
     bool (*stencil_write_mask)(StencilValue&) = nullptr;

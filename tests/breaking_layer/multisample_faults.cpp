@@ -18,6 +18,14 @@ bool no_mask(PipelineCopy& p) {
     return altered;
 }
 
+bool keep_alpha(PipelineCopy& p) {
+    return change(p.multisample.alphaToOneEnable, VK_FALSE);
+}
+
+bool keep_alpha_of_one_sample(PipelineCopy& p) {
+    return p.multisample.rasterizationSamples == VK_SAMPLE_COUNT_1_BIT && keep_alpha(p);
+}
+
 bool rotate_mask(PipelineCopy& p) {
     const uint32_t count = p.multisample.rasterizationSamples;
     const VkSampleMask all = (VkSampleMask{2} << (count - 1)) - 1;
@@ -115,6 +123,10 @@ constexpr std::array kFaults = {
         "Alpha makes coverage.",
         {.pipeline =
              [](PipelineCopy& p) { return change(p.multisample.alphaToCoverageEnable, VK_TRUE); }}},
+    Fault{"sample-alpha-to-one-off", "Alpha to one does nothing.", {.pipeline = keep_alpha}},
+    Fault{"sample-alpha-to-one-multisampled",
+          "Alpha to one does nothing with one sample a pixel.",
+          {.pipeline = keep_alpha_of_one_sample}},
     Fault{"sample-locations-centre",
           "All samples with locations of their own lie at the centre.",
           {.pipeline = of_pipeline<all_centre>, .sample_locations = all_centre}},

@@ -91,6 +91,31 @@ constexpr std::array kFaults = {
     Fault{"door-static-cull-mode-stays",
           "The cull mode of a pipeline stays in force when it is set later.",
           {.drop_state = [](StateCall& c) { return c.follows_static && c.state == "cull mode"; }}},
+    Fault{"door-dynamic-blend-of-first",
+          "Dynamic blending is that of the first attachment for all of them.",
+          {.blend_enables =
+               [](std::span<VkBool32> enables) {
+                   bool altered = false;
+                   for (VkBool32& enable : enables) {
+                       altered = change(enable, enables.front()) || altered;
+                   }
+                   return altered;
+               }}},
+    Fault{"door-dynamic-write-mask-no-green",
+          "Dynamic write masks leave out the second component.",
+          {.write_masks =
+               [](std::span<VkColorComponentFlags> masks) {
+                   bool altered = false;
+                   for (VkColorComponentFlags& mask : masks) {
+                       altered =
+                           change(mask, mask & ~VkColorComponentFlags{VK_COLOR_COMPONENT_G_BIT}) ||
+                           altered;
+                   }
+                   return altered;
+               }}},
+    Fault{"door-dynamic-sample-mask-empty",
+          "A dynamic sample mask takes away every sample.",
+          {.sample_mask = [](VkSampleMask& mask) { return change(mask, VkSampleMask{0}); }}},
     Fault{"door-unoptimized-writes-no-green",
           "Pipelines that are not optimized do not write the second component.",
           {.pipeline =

@@ -30,6 +30,8 @@ enum Op : uint32_t {
     kOpFNegate = 127,
     kOpKill = 252,
     kOpReturn = 253,
+    kOpTerminateInvocation = 4416,
+    kOpDemoteToHelperInvocation = 5380,
 };
 constexpr uint32_t kEarlyFragmentTests = 9, kDepthReplacing = 12;  // execution modes
 constexpr uint32_t kVertexModel = 0;
@@ -235,6 +237,26 @@ bool ShaderWords::discard_nothing() {
         }
     }
     return is_changed;
+}
+
+bool ShaderWords::demote_nothing() {
+    for (const Instruction& i : instructions()) {
+        if (i.op == kOpDemoteToHelperInvocation) {
+            words_.erase(words_.begin() + static_cast<std::ptrdiff_t>(i.at));
+            return true;
+        }
+    }
+    return false;
+}
+
+bool ShaderWords::terminate_nothing() {
+    for (const Instruction& i : instructions()) {
+        if (i.op == kOpTerminateInvocation) {
+            words_[i.at] = first_word(kOpReturn, 1);
+            return true;
+        }
+    }
+    return false;
 }
 
 bool ShaderWords::lose_early_tests() {

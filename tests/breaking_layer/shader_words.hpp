@@ -38,6 +38,8 @@ class ShaderWords {
     bool rename_distances(BuiltIn from, BuiltIn to);
     // What a fragment shader discards is drawn.
     bool discard_nothing();
+    bool demote_nothing();
+    bool terminate_nothing();
     // A fragment shader loses the execution mode EarlyFragmentTests, or one that discards gets it.
     bool lose_early_tests();
     bool test_discards_early();

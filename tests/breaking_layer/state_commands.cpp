@@ -124,6 +124,32 @@ VKAPI_ATTR void VKAPI_CALL set_blend_constants(VkCommandBuffer commands, const f
                 [=] { driver_of_handle(commands).CmdSetBlendConstants(commands, own.data()); });
 }
 
+VKAPI_ATTR void VKAPI_CALL set_blend_enables(VkCommandBuffer commands, uint32_t first,
+                                             uint32_t count, const VkBool32* given) {
+    std::vector<VkBool32> own(given, given + count);
+    alter(hooks().blend_enables, std::span(own));
+    set_dynamic(commands, {"blend enables", first}, [=] {
+        driver_of_handle(commands).CmdSetColorBlendEnableEXT(commands, first, count, own.data());
+    });
+}
+
+VKAPI_ATTR void VKAPI_CALL set_write_masks(VkCommandBuffer commands, uint32_t first, uint32_t count,
+                                           const VkColorComponentFlags* given) {
+    std::vector<VkColorComponentFlags> own(given, given + count);
+    alter(hooks().write_masks, std::span(own));
+    set_dynamic(commands, {"write masks", first}, [=] {
+        driver_of_handle(commands).CmdSetColorWriteMaskEXT(commands, first, count, own.data());
+    });
+}
+
+VKAPI_ATTR void VKAPI_CALL set_sample_mask(VkCommandBuffer commands, VkSampleCountFlagBits samples,
+                                           const VkSampleMask* given) {
+    VkSampleMask own = *given;
+    alter(hooks().sample_mask, own);
+    set_dynamic(commands, {"sample mask", 0},
+                [=] { driver_of_handle(commands).CmdSetSampleMaskEXT(commands, samples, &own); });
+}
+
 VKAPI_ATTR void VKAPI_CALL set_stencil_op(VkCommandBuffer commands, VkStencilFaceFlags faces,
                                           VkStencilOp fail, VkStencilOp pass,
                                           VkStencilOp depth_fail, VkCompareOp compare) {
@@ -291,6 +317,9 @@ const OwnCommand kCommands[] = {
     BREAKING_OWN(CmdSetDepthBiasEnable, set_depth_bias_enable),
     BREAKING_OWN(CmdSetDepthBias, set_depth_bias),
     BREAKING_OWN(CmdSetBlendConstants, set_blend_constants),
+    BREAKING_OWN(CmdSetColorBlendEnableEXT, set_blend_enables),
+    BREAKING_OWN(CmdSetColorWriteMaskEXT, set_write_masks),
+    BREAKING_OWN(CmdSetSampleMaskEXT, set_sample_mask),
     BREAKING_OWN(CmdSetStencilOp, set_stencil_op),
     BREAKING_OWN(CmdSetStencilCompareMask, set_stencil_compare_mask),
     BREAKING_OWN(CmdSetStencilWriteMask, set_stencil_write_mask),

@@ -32,6 +32,7 @@ bool each_feature(void* structure, Visit&& visit) {
             DEVICE_CLASSES_FEATURE(sampleRateShading)
             DEVICE_CLASSES_FEATURE(dualSrcBlend)
             DEVICE_CLASSES_FEATURE(logicOp)
+            DEVICE_CLASSES_FEATURE(alphaToOne)
             DEVICE_CLASSES_FEATURE(multiDrawIndirect)
             DEVICE_CLASSES_FEATURE(depthClamp)
             DEVICE_CLASSES_FEATURE(depthBiasClamp)
@@ -80,6 +81,17 @@ bool each_feature(void* structure, Visit&& visit) {
         case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_EXTENDED_DYNAMIC_STATE_2_FEATURES_EXT: {
             auto& s = *static_cast<VkPhysicalDeviceExtendedDynamicState2FeaturesEXT*>(structure);
             DEVICE_CLASSES_FEATURE(extendedDynamicState2)
+            return true;
+        }
+        case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_DEMOTE_TO_HELPER_INVOCATION_FEATURES: {
+            auto& s =
+                *static_cast<VkPhysicalDeviceShaderDemoteToHelperInvocationFeatures*>(structure);
+            DEVICE_CLASSES_FEATURE(shaderDemoteToHelperInvocation)
+            return true;
+        }
+        case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_TERMINATE_INVOCATION_FEATURES: {
+            auto& s = *static_cast<VkPhysicalDeviceShaderTerminateInvocationFeatures*>(structure);
+            DEVICE_CLASSES_FEATURE(shaderTerminateInvocation)
             return true;
         }
         case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PORTABILITY_SUBSET_FEATURES_KHR: {

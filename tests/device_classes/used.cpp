@@ -85,7 +85,10 @@ VKAPI_ATTR VkResult VKAPI_CALL create_shader_module(VkDevice device,
             need(capability == 69, "shaderOutputLayer");
             need(capability == 70, "shaderOutputViewportIndex");
             need(capability == 5284, "fragmentShaderBarycentric");
+            need(capability == 5379, "shaderDemoteToHelperInvocation");
         }
+        constexpr uint32_t kOpTerminateInvocation = 4416;
+        need((word & 0xffffU) == kOpTerminateInvocation, "shaderTerminateInvocation");
         at += std::max(word >> 16U, 1U);
     }
     return driver_of(device).CreateShaderModule(device, info, allocator, out);
@@ -95,6 +98,7 @@ void check_pipeline(const VkGraphicsPipelineCreateInfo& info) {
     const DeviceClass& shown = *shown_class();
     if (info.pMultisampleState != nullptr) {
         need(info.pMultisampleState->sampleShadingEnable == VK_TRUE, "sampleRateShading");
+        need(info.pMultisampleState->alphaToOneEnable == VK_TRUE, "alphaToOne");
         need_samples(info.pMultisampleState->rasterizationSamples);
     }
     if (info.pRasterizationState != nullptr) {
@@ -119,7 +123,15 @@ void check_pipeline(const VkGraphicsPipelineCreateInfo& info) {
             if (lacks(format, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT)) {
                 complain(format_text(format) + " as a colour attachment");
             }
-            if (info.pColorBlendState->pAttachments[k].blendEnable == VK_TRUE &&
+            const VkPipelineColorBlendAttachmentState& blend =
+                info.pColorBlendState->pAttachments[k];
+            for (const VkBlendFactor factor :
+                 {blend.srcColorBlendFactor, blend.dstColorBlendFactor, blend.srcAlphaBlendFactor,
+                  blend.dstAlphaBlendFactor}) {
+                need(factor >= VK_BLEND_FACTOR_SRC1_COLOR, "dualSrcBlend");
+            }
+            need(info.pColorBlendState->logicOpEnable == VK_TRUE, "logicOp");
+            if (blend.blendEnable == VK_TRUE &&
                 lacks(format, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT)) {
                 complain(format_text(format) + ", blended,");
             }

@@ -40,7 +40,8 @@ class Sources {
     explicit Sources(const std::filesystem::path& folder) {
         for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
             const std::string name = entry.path().filename().string();
-            if (entry.path().extension() == ".cpp" && !name.starts_with("fault")) {
+            const std::filesystem::path extension = entry.path().extension();
+            if ((extension == ".cpp" || extension == ".hpp") && !name.starts_with("fault")) {
                 texts_[name] = contents(entry.path());
             }
         }

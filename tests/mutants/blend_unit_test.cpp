@@ -72,15 +72,17 @@ Fragment any_fragment(Random& random, bool wide, size_t number) {
     if (random.below(4) == 0) {
         out.output.write_mask = static_cast<uint8_t>(random.below(16));
     }
+    out.output.alpha_to_one = random.below(4) == 0;
     cases::Blend blend;
-    // Every pair of factors with every operation is the colours' in 15 * 15 * 5 numbers.
-    blend.color = {static_cast<cases::BlendFactor>(number % 15),
-                   static_cast<cases::BlendFactor>(number / 15 % 15),
-                   static_cast<cases::BlendOp>(number / 225 % 5)};
-    blend.alpha = {static_cast<cases::BlendFactor>(random.below(15)),
-                   static_cast<cases::BlendFactor>(random.below(15)),
+    // Every pair of factors with every operation is the colours' in 19 * 19 * 5 numbers.
+    blend.color = {static_cast<cases::BlendFactor>(number % 19),
+                   static_cast<cases::BlendFactor>(number / 19 % 19),
+                   static_cast<cases::BlendOp>(number / 361 % 5)};
+    blend.alpha = {static_cast<cases::BlendFactor>(random.below(19)),
+                   static_cast<cases::BlendFactor>(random.below(19)),
                    static_cast<cases::BlendOp>(random.below(5))};
     blend.constants = random.color(wide);
+    blend.second = random.color(wide);
     if (random.below(8) != 0) {
         out.output.blend = blend;
     }
@@ -108,7 +110,7 @@ Count hold_against_reference(const Device& device, Profile profile, ColorFormat 
     Random random(seed);
     const BlendUnit unit(format, device);
     const ref::color::Unit reference{format, profile};
-    for (size_t number = 0; number < 15 * 15 * 5; number += step) {
+    for (size_t number = 0; number < 19 * 19 * 5; number += step) {
         const glm::vec4 clear = random.color(is_float(format));
         Texel texel = unit.cleared(clear);
         // The reference goes on from the bits that the clear has left.
@@ -219,6 +221,21 @@ TEST(BlendUnit, WrongOnesAreRefused) {
         {Fault::blend_premultiplies, Profile::vulkan, blendable},
         {Fault::blend_shift_only, Profile::vulkan, eight},
         {Fault::blend_floats_clamped, Profile::vulkan, floats},
+        {Fault::alpha_to_one_ignored, Profile::vulkan, blendable},
+        {Fault::alpha_to_one_stored, Profile::vulkan, blendable},
+        {Fault::alpha_to_one_unblended, Profile::vulkan, blendable},
+        {Fault::alpha_to_one_of_second, Profile::vulkan, blendable},
+        {Fault::alpha_to_one_everywhere, Profile::vulkan, blendable},
+        {Fault::second_as_first, Profile::vulkan, blendable},
+        {Fault::second_lost, Profile::vulkan, blendable},
+        {Fault::second_alpha_as_first, Profile::vulkan, blendable},
+        {Fault::second_alpha_as_color, Profile::vulkan, blendable},
+        {Fault::second_complement_forgotten, Profile::vulkan, blendable},
+        {Fault::second_unclamped,
+         Profile::vulkan,
+         {ColorFormat::rgb10a2_unorm, ColorFormat::r5g6b5_unorm, ColorFormat::rgba16_unorm,
+          ColorFormat::rgba8_srgb}},
+        {Fault::sources_exchanged, Profile::vulkan, blendable},
         {Fault::write_mask_ignored, Profile::vulkan, blendable},
         {Fault::write_mask_ignored_blending, Profile::vulkan, blendable},
         {Fault::write_mask_shifted, Profile::vulkan, blendable},

@@ -403,8 +403,9 @@ std::vector<ExpectedCatch> expected_catches() {
          {"derivative/linear", "lod/powers", "combination/probes-together"}},
         {Fault::lod_norm, Profile::vulkan, {"combination/probes-together", "lod/one-axis"}},
     };
-    const std::vector<ExpectedCatch> colors = expected_color_catches();
-    out.insert(out.end(), colors.begin(), colors.end());
+    for (const auto& part : {expected_color_catches(), expected_fragment_catches()}) {
+        out.insert(out.end(), part.begin(), part.end());
+    }
     return out;
 }
 

@@ -19,7 +19,9 @@ struct ExpectedCatch {
 };
 // One row for each fault.
 std::vector<ExpectedCatch> expected_catches();
-// The part of it that is about colours, stencil and resolves.
+// The parts of it that are about colours, resolves and blits, and about the stencil, discards,
+// written depths and depth bounds.
 std::vector<ExpectedCatch> expected_color_catches();
+std::vector<ExpectedCatch> expected_fragment_catches();
 
 }  // namespace mutants

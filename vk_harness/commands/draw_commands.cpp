@@ -61,6 +61,11 @@ void push_constants(const Device& device, const PipelineCache& pipelines, VkComm
         constants.offsets[k][1] = draw.attributes[k].probe_offset[1];
         constants.sample_numbers[k] = static_cast<int32_t>(draw.attributes[k].probe_sample);
     }
+    if (draw.color.blend) {
+        for (int k = 0; k < 4; ++k) {
+            constants.second[k] = draw.color.blend->second[k];
+        }
+    }
     constants.sample_mask = draw.multisample.shader_mask.value_or(0xffffffffU);
     constants.discarded = static_cast<uint32_t>(draw.discard);
     if (draw.frag_depth) {
@@ -155,6 +160,9 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
     }
     if (door != Door::state_first) {
         bind(plan.pipeline);
+    }
+    if (plan.outputs) {
+        set_outputs(device, commands, *plan.outputs);
     }
     if (door == Door::state_stale) {
         const DrawState other = other_state(state, Leaves::rasterization_off);

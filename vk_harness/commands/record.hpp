@@ -11,6 +11,7 @@
 #include "vk_harness/commands/blit.hpp"
 #include "vk_harness/commands/query.hpp"
 #include "vk_harness/door/feed.hpp"
+#include "vk_harness/pipeline/output_state.hpp"
 #include "vk_harness/pipeline/pipeline_cache.hpp"
 #include "vk_harness/target/readback.hpp"
 #include "vk_harness/target/target.hpp"
@@ -26,9 +27,10 @@ struct DrawPlan {
     std::array<VkDeviceSize, 1 + cases::kMaxAttributes> vertices{};  // positions, attributes
     DistancePlaces distances{};
     VkDeviceSize indices = 0;
-    bool has_integer_color = false;  // the colour target's format holds integers
-    bool is_split = false;           // TargetLayout::split
-    std::shared_ptr<Feed> feed;      // of a door that feeds vertices in another way
+    bool has_integer_color = false;           // the colour target's format holds integers
+    bool is_split = false;                    // TargetLayout::split
+    std::shared_ptr<Feed> feed;               // of a door that feeds vertices in another way
+    std::optional<OutputState> outputs = {};  // of the door state_output: set before the draw
 };
 
 struct CasePlan {

@@ -171,6 +171,8 @@ void query_optional_features(Capabilities& c) {
     c.depth_bias_clamp = features.features.depthBiasClamp == VK_TRUE;
     c.depth_bounds = features.features.depthBounds == VK_TRUE;
     c.logic_op = features.features.logicOp == VK_TRUE;
+    c.alpha_to_one = features.features.alphaToOne == VK_TRUE;
+    c.dual_source = features.features.dualSrcBlend == VK_TRUE;
     c.precise_queries = features.features.occlusionQueryPrecise == VK_TRUE;
     c.depth_clip_enable = depth_clip.depthClipEnable == VK_TRUE;
     c.depth_bias = query_depth_bias_support(c.physical, has_device_extension);
@@ -184,6 +186,7 @@ void query_optional_features(Capabilities& c) {
     c.layer_output = features12.shaderOutputLayer == VK_TRUE;
     c.max_layers = std::min(c.limits.maxFramebufferLayers, c.limits.maxImageArrayLayers);
     c.doors = query_door_support(c.physical, has_device_extension);
+    c.discard = query_discard_support(c.physical, c.info.api_version, has_device_extension);
     c.clip = query_clip_support(c.physical, has_device_extension);
     c.barycentrics = barycentric.fragmentShaderBarycentric == VK_TRUE;
     if (c.barycentrics) {

@@ -11,6 +11,7 @@
 #include "vk_harness/device/clip_support.hpp"
 #include "vk_harness/device/core_support.hpp"
 #include "vk_harness/device/depth_bias_control.hpp"
+#include "vk_harness/device/discard_support.hpp"
 #include "vk_harness/device/door_support.hpp"
 #include "vk_harness/device/instance.hpp"
 
@@ -55,6 +56,8 @@ struct Capabilities {
     bool depth_clamp = false, depth_bias_clamp = false, depth_clip_enable = false;
     bool depth_bounds = false;
     bool logic_op = false;
+    bool alpha_to_one = false;
+    bool dual_source = false;      // dualSrcBlend
     bool precise_queries = false;  // occlusionQueryPrecise
     DepthBiasSupport depth_bias;
     PortabilitySupport portability;
@@ -65,6 +68,7 @@ struct Capabilities {
     uint32_t max_layers = 1;    // of a target
     bool layer_output = false;  // shaderOutputLayer: gl_Layer in a vertex shader
     ClipSupport clip;
+    DiscardSupport discard;
     DoorSupport doors;
     bool barycentrics = false;  // VK_KHR_fragment_shader_barycentric
 };

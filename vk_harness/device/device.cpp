@@ -154,6 +154,8 @@ Result<Device> Device::create(const Capabilities& capabilities) {
     features.features.sampleRateShading = capabilities.has_sample_shading ? VK_TRUE : VK_FALSE;
     features.features.depthClamp = capabilities.depth_clamp ? VK_TRUE : VK_FALSE;
     features.features.depthBiasClamp = capabilities.depth_bias_clamp ? VK_TRUE : VK_FALSE;
+    features.features.dualSrcBlend = capabilities.dual_source ? VK_TRUE : VK_FALSE;
+    features.features.alphaToOne = capabilities.alpha_to_one ? VK_TRUE : VK_FALSE;
     features.features.logicOp = capabilities.logic_op ? VK_TRUE : VK_FALSE;
     features.features.depthBounds = capabilities.depth_bounds ? VK_TRUE : VK_FALSE;
     features.features.occlusionQueryPrecise = capabilities.precise_queries ? VK_TRUE : VK_FALSE;
@@ -161,6 +163,8 @@ Result<Device> Device::create(const Capabilities& capabilities) {
 
     ClipFeatures clip;
     enable_clip_features(capabilities.clip, features, extensions, clip);
+    DiscardFeatures discard;
+    enable_discard_features(capabilities.discard, features, extensions, discard);
     DoorFeatures doors;
     enable_door_features(capabilities.doors, features, features12, extensions, doors);
     DepthBiasControlFeatures bias_control;

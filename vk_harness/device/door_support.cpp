@@ -33,7 +33,24 @@ DoorSupport query_door_support(VkPhysicalDevice physical, HasExtension has_exten
         chain(features, optional.multi_draw);
         get_properties(physical, multi_draw);
     }
+    // Before 1.3 the first of these structures is chained for what every case needs.
+    const bool has_dynamic_outputs =
+        properties.apiVersion >= VK_API_VERSION_1_3 &&
+        has_extension(physical, VK_EXT_EXTENDED_DYNAMIC_STATE_2_EXTENSION_NAME) &&
+        has_extension(physical, VK_EXT_EXTENDED_DYNAMIC_STATE_3_EXTENSION_NAME);
+    if (has_dynamic_outputs) {
+        chain(features, optional.dynamic_state2);
+        chain(features, optional.dynamic_state3);
+    }
     vkGetPhysicalDeviceFeatures2(physical, &features);
+    const VkPhysicalDeviceExtendedDynamicState3FeaturesEXT& three = optional.dynamic_state3;
+    out.dynamic_outputs = optional.dynamic_state2.extendedDynamicState2LogicOp == VK_TRUE &&
+                          three.extendedDynamicState3ColorBlendEnable == VK_TRUE &&
+                          three.extendedDynamicState3ColorBlendEquation == VK_TRUE &&
+                          three.extendedDynamicState3ColorWriteMask == VK_TRUE &&
+                          three.extendedDynamicState3LogicOpEnable == VK_TRUE &&
+                          three.extendedDynamicState3AlphaToOneEnable == VK_TRUE &&
+                          three.extendedDynamicState3SampleMask == VK_TRUE;
     out.index_8 = optional.index_8.indexTypeUint8 == VK_TRUE;
     out.indirect_count = features12.drawIndirectCount == VK_TRUE;
     out.multi_indirect = features.features.multiDrawIndirect == VK_TRUE &&
@@ -53,6 +70,20 @@ void enable_door_features(const DoorSupport& support, VkPhysicalDeviceFeatures2&
         chain(features, enabled.index_8);
         extensions.push_back(VK_EXT_INDEX_TYPE_UINT8_EXTENSION_NAME);
     }
+    if (support.dynamic_outputs) {
+        enabled.dynamic_state2.extendedDynamicState2LogicOp = VK_TRUE;
+        chain(features, enabled.dynamic_state2);
+        extensions.push_back(VK_EXT_EXTENDED_DYNAMIC_STATE_2_EXTENSION_NAME);
+        VkPhysicalDeviceExtendedDynamicState3FeaturesEXT& three = enabled.dynamic_state3;
+        three.extendedDynamicState3ColorBlendEnable = VK_TRUE;
+        three.extendedDynamicState3ColorBlendEquation = VK_TRUE;
+        three.extendedDynamicState3ColorWriteMask = VK_TRUE;
+        three.extendedDynamicState3LogicOpEnable = VK_TRUE;
+        three.extendedDynamicState3AlphaToOneEnable = VK_TRUE;
+        three.extendedDynamicState3SampleMask = VK_TRUE;
+        chain(features, three);
+        extensions.push_back(VK_EXT_EXTENDED_DYNAMIC_STATE_3_EXTENSION_NAME);
+    }
     if (support.multi_draw) {
         enabled.multi_draw.multiDraw = VK_TRUE;
         chain(features, enabled.multi_draw);
@@ -68,6 +99,7 @@ std::optional<std::string> missing_door_support(const DoorSupport& support, case
         (door == Door::multi_indirect && !support.multi_indirect) ||
         (door == Door::indirect_after_count &&
          !(support.indirect_count && support.multi_indirect)) ||
+        (door == Door::state_output && !support.dynamic_outputs) ||
         ((door == Door::multi_draw || door == Door::multi_draw_empty) && !support.multi_draw);
     return is_missing ? std::optional(fmt::format("the device lacks {}", cases::row_of(door).needs))
                       : std::nullopt;

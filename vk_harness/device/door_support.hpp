@@ -14,10 +14,11 @@
 namespace vk_harness {
 
 struct DoorSupport {
-    bool index_8 = false;         // indexTypeUint8
-    bool indirect_count = false;  // drawIndirectCount
-    bool multi_indirect = false;  // multiDrawIndirect, with room for three draws
-    bool multi_draw = false;      // multiDraw, with room for three draws
+    bool index_8 = false;          // indexTypeUint8
+    bool indirect_count = false;   // drawIndirectCount
+    bool multi_indirect = false;   // multiDrawIndirect, with room for three draws
+    bool multi_draw = false;       // multiDraw, with room for three draws
+    bool dynamic_outputs = false;  // all that pipeline/output_state.hpp sets
 };
 
 DoorSupport query_door_support(VkPhysicalDevice physical, HasExtension has_extension);
@@ -28,6 +29,10 @@ struct DoorFeatures {
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_INDEX_TYPE_UINT8_FEATURES_EXT};
     VkPhysicalDeviceMultiDrawFeaturesEXT multi_draw =
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MULTI_DRAW_FEATURES_EXT};
+    VkPhysicalDeviceExtendedDynamicState2FeaturesEXT dynamic_state2 =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_EXTENDED_DYNAMIC_STATE_2_FEATURES_EXT};
+    VkPhysicalDeviceExtendedDynamicState3FeaturesEXT dynamic_state3 =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_EXTENDED_DYNAMIC_STATE_3_FEATURES_EXT};
 };
 // Puts what is supported before `features`' chain, and the names of its extensions into the list.
 void enable_door_features(const DoorSupport& support, VkPhysicalDeviceFeatures2& features,

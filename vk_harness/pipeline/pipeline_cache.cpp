@@ -23,6 +23,18 @@ VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage, VkShader
     return info;
 }
 
+shaders::Ending ending_of(const PipelineKey& key) {
+    switch (key.discard_by) {
+        case cases::DiscardBy::kill:
+            break;
+        case cases::DiscardBy::demote:
+            return shaders::Ending::demote;
+        case cases::DiscardBy::terminate:
+            return shaders::Ending::terminate;
+    }
+    return shaders::Ending::kill;
+}
+
 Result<Handle<VkPipelineLayout>> make_layout(const Device& device, VkShaderStageFlags stage,
                                              uint32_t bytes, VkDescriptorSetLayout set) {
     const VkPushConstantRange range{stage, 0, bytes};
@@ -84,8 +96,9 @@ Result<PipelineCache> PipelineCache::create(const Device& device) {
 
 Result<VkShaderModule> PipelineCache::shader_module(std::span<const uint32_t> code,
                                                     std::vector<shaders::InputChange> changes,
-                                                    std::vector<uint32_t> modes) {
-    std::tuple key(code.data(), std::move(changes), std::move(modes));
+                                                    std::vector<uint32_t> modes,
+                                                    shaders::Ending ending) {
+    std::tuple key(code.data(), std::move(changes), std::move(modes), ending);
     const auto found = modules_.find(key);
     if (found != modules_.end()) {
         return found->second.get();
@@ -93,6 +106,9 @@ Result<VkShaderModule> PipelineCache::shader_module(std::span<const uint32_t> co
     auto changed = shaders::change_inputs(code, std::get<1>(key));
     if (changed && !std::get<2>(key).empty()) {
         changed = shaders::with_modes(*changed, std::get<2>(key));
+    }
+    if (changed && ending != shaders::Ending::kill) {
+        changed = shaders::with_ending(*changed, ending);
     }
     if (!changed) {
         return fail(Stage::shader, changed.error());
@@ -151,7 +167,7 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
     }
     auto fragment = shader_module(shaders::capture_fragment(fragment_variant(key)),
                                   input_changes(key, device_->capabilities().info.has_primitive_id),
-                                  execution_modes(key));
+                                  execution_modes(key), ending_of(key));
     if (!fragment) {
         return fail(fragment.error());
     }

@@ -32,11 +32,12 @@ class PipelineCache {
 
   private:
     explicit PipelineCache(const Device& device) : device_(&device) {}
-    // The module `code`, embedded in the program, with changes to its inputs, and with more
-    // execution modes.
+    // The module `code`, embedded in the program, with changes to its inputs, with more execution
+    // modes, and with another instruction that discards.
     Result<VkShaderModule> shader_module(std::span<const uint32_t> code,
                                          std::vector<shaders::InputChange> changes = {},
-                                         std::vector<uint32_t> modes = {});
+                                         std::vector<uint32_t> modes = {},
+                                         shaders::Ending ending = shaders::Ending::kill);
     Result<Handle<VkPipeline>> make_graphics(const PipelineKey& key);
 
     const Device* device_;
@@ -45,8 +46,9 @@ class PipelineCache {
     Handle<VkPipelineLayout> layout_;
     Handle<VkDescriptorSetLayout> copy_set_layout_;
     Handle<VkPipelineLayout> copy_layout_;
-    // By the embedded code's address, the changes and the execution modes.
-    std::map<std::tuple<const uint32_t*, std::vector<shaders::InputChange>, std::vector<uint32_t>>,
+    // By the embedded code's address, the changes, the execution modes and the instruction.
+    std::map<std::tuple<const uint32_t*, std::vector<shaders::InputChange>, std::vector<uint32_t>,
+                        shaders::Ending>,
              Handle<VkShaderModule>>
         modules_;
     std::map<PipelineKey, Handle<VkPipeline>> pipelines_;

@@ -29,6 +29,7 @@ ColorKey color_key(const cases::ColorTarget& target, const cases::ColorOutput& o
     key.format = to_vulkan(target.format);
     key.write_mask = output.write_mask;
     key.logic = output.logic;
+    key.alpha_to_one = output.alpha_to_one;
     if (output.blend) {
         key.blends = true;
         const cases::BlendEquation& c = output.blend->color;
@@ -64,6 +65,7 @@ PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw,
     key.provoking = draw.provoking;
     key.writes_mask = draw.multisample.shader_mask.has_value();
     key.discards = draw.discard != cases::Discard::none;
+    key.discard_by = draw.discard_by;
     key.early_tests = draw.early_tests;
     key.writes_depth = draw.frag_depth.has_value();
     key.depth_layout = draw.frag_depth ? draw.frag_depth->layout : cases::DepthLayout::any;
@@ -91,6 +93,9 @@ PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw,
         // Without instruments the only input is the colour.
         key.color_attribute =
             key.instruments ? draw.color.attribute : std::min(draw.color.attribute, int32_t{0});
+        if (draw.color.blend && cases::takes_second(*draw.color.blend)) {
+            key.color = shaders::ColorKind::two_numbers;
+        }
         key.color_target = color_key(*c.target.color, draw.color);
     }
     return key;

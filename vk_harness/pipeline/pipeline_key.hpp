@@ -35,6 +35,7 @@ struct ColorKey {
     std::array<uint8_t, 6> equation{};  // source, destination, op of colour, then of alpha
     uint8_t write_mask = 0xf;
     std::optional<cases::LogicOp> logic = {};
+    bool alpha_to_one = false;
     friend auto operator<=>(const ColorKey&, const ColorKey&) = default;
 };
 
@@ -52,6 +53,7 @@ struct PipelineKey {
     // Multisampling.
     bool writes_mask = false;  // gl_SampleMask
     bool discards = false, early_tests = false;
+    cases::DiscardBy discard_by = cases::DiscardBy::kill;
     bool writes_depth = false;  // gl_FragDepth
     cases::DepthLayout depth_layout = cases::DepthLayout::any;
     uint32_t sample_mask = 0xffffffffU;
@@ -73,6 +75,7 @@ struct PipelineKey {
     uint32_t masked = 0;
     std::optional<DrawState> fixed = {};  // static; nothing: all of it is dynamic
     bool is_unoptimized = false;
+    bool outputs_are_dynamic = false;  // output_state.hpp
     ColorKey color_target;
     friend auto operator<=>(const PipelineKey&, const PipelineKey&) = default;
 };

@@ -107,12 +107,16 @@ void multisample_state(const PipelineKey& key, MultisampleState& state) {
     state.info.pSampleMask = &state.sample_mask;
     state.info.sampleShadingEnable = key.min_shading_bits ? VK_TRUE : VK_FALSE;
     state.info.minSampleShading = std::bit_cast<float>(key.min_shading_bits.value_or(0U));
+    state.info.alphaToOneEnable = key.color_target.alpha_to_one ? VK_TRUE : VK_FALSE;
     state.places = sample_places(key.sample_locations);
     state.locations.sType = VK_STRUCTURE_TYPE_PIPELINE_SAMPLE_LOCATIONS_STATE_CREATE_INFO_EXT;
     state.locations.sampleLocationsEnable = VK_TRUE;
     state.locations.sampleLocationsInfo = sample_locations_info(state.places);
     if (!state.places.empty()) {
         state.info.pNext = &state.locations;
+    }
+    if (key.outputs_are_dynamic) {
+        state.sample_mask = 0;
     }
 }
 
@@ -217,6 +221,9 @@ void color_state(const PipelineKey& key, ColorState& state) {
         state.formats.push_back(key.color_target.format);
     }
     state.info.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
+    if (key.outputs_are_dynamic) {
+        state.blends.assign(state.blends.size(), {});  // nothing is written
+    }
     state.info.attachmentCount = static_cast<uint32_t>(state.blends.size());
     state.info.pAttachments = state.blends.data();
     if (key.color_target.logic) {
@@ -253,6 +260,14 @@ std::vector<VkDynamicState> dynamic_states(const PipelineKey& key) {
     if (!key.fixed && key.tests_bounds) {
         out.insert(out.end(),
                    {VK_DYNAMIC_STATE_DEPTH_BOUNDS_TEST_ENABLE, VK_DYNAMIC_STATE_DEPTH_BOUNDS});
+    }
+    if (key.outputs_are_dynamic) {
+        out.insert(
+            out.end(),
+            {VK_DYNAMIC_STATE_COLOR_BLEND_ENABLE_EXT, VK_DYNAMIC_STATE_COLOR_BLEND_EQUATION_EXT,
+             VK_DYNAMIC_STATE_COLOR_WRITE_MASK_EXT, VK_DYNAMIC_STATE_LOGIC_OP_ENABLE_EXT,
+             VK_DYNAMIC_STATE_LOGIC_OP_EXT, VK_DYNAMIC_STATE_ALPHA_TO_ONE_ENABLE_EXT,
+             VK_DYNAMIC_STATE_SAMPLE_MASK_EXT});
     }
     if (key.way.dynamic_stride) {
         out.push_back(VK_DYNAMIC_STATE_VERTEX_INPUT_BINDING_STRIDE);

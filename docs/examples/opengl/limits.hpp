@@ -29,6 +29,8 @@ inline std::string draw_refusal(const Json& draw, GLint samples) {
 inline std::string refusal(const Context& gl, const Json& c) {
     static const std::map<std::string, std::string> never = {
         {"barycentrics", "OpenGL has no barycentric coordinates"},
+        {"alpha-to-one", "OpenGL has it with several samples alone"},
+        {"dual-source-blend", "this program writes one source of colour"},
         {"depth-bias-control", "OpenGL has no other representation of depth bias"}};
     static const std::map<std::string, std::string> extensions = {
         {"layers", "GL_AMD_vertex_shader_layer"},

@@ -40,6 +40,8 @@ const NEVER = {
   'sample-inputs': 'this program reads no sample inputs',
   'interpolate-at': 'WebGPU has no interpolation elsewhere',
   'query-lod': 'WebGPU has no textureQueryLod',
+  'dual-source-blend': 'this program writes one source of colour',
+  'alpha-to-one': 'WebGPU has no alpha to one',
   'logic-operation': 'WebGPU has no logical operations',
 };
 

@@ -3,166 +3,12 @@
 #include "rasterizers/software/target/blend_unit.hpp"
 
 #include <algorithm>
-#include <cmath>
+
+#include "rasterizers/software/target/blend_math.hpp"
 
 namespace software {
 
 namespace {
-
-using cases::BlendFactor;
-using cases::BlendOp;
-
-// Numbers that a blend unit computes with. One is what 1.0 is.
-struct FloatMath {
-    using Value = float;
-    static constexpr float kOne = 1.0F;
-    bool fused;
-
-    // s f + d g and the like: the first product may be kept in full.
-    float add(float s, float f, float d, float g) const {
-        return fused ? std::fma(s, f, d * g) : s * f + d * g;
-    }
-    float subtract(float s, float f, float d, float g) const {
-        return fused ? std::fma(s, f, -(d * g)) : s * f - d * g;
-    }
-    float scale(float a, float b) const { return a * b; }
-};
-
-// 8 bits: every step is clamped to 0..255.
-struct FixedMath {
-    using Value = uint32_t;
-    static constexpr uint32_t kOne = 255;
-    FixedMultiply multiply;
-    bool truncates;
-    bool is_shift_only;  // a fault
-
-    uint32_t scale(uint32_t a, uint32_t b) const {
-        if (is_shift_only) {
-            return a * b >> 8;
-        }
-        if (truncates) {
-            return a * b / 255;
-        }
-        if (multiply == FixedMultiply::divide) {
-            return (a * b + 127) / 255;
-        }
-        const uint32_t t = a * b + 128;
-        return (t + (t >> 8)) >> 8;
-    }
-    uint32_t add(uint32_t s, uint32_t f, uint32_t d, uint32_t g) const {
-        return std::min(scale(s, f) + scale(d, g), 255U);
-    }
-    uint32_t subtract(uint32_t s, uint32_t f, uint32_t d, uint32_t g) const {
-        const uint32_t a = scale(s, f);
-        const uint32_t b = scale(d, g);
-        return a > b ? a - b : 0U;
-    }
-};
-
-template <class Math>
-struct Operands {
-    using Value = typename Math::Value;
-    std::array<Value, 4> source, destination, constants;
-};
-
-template <class Math>
-typename Math::Value factor_of(BlendFactor factor, size_t k, const Operands<Math>& o, Fault fault) {
-    const auto one = Math::kOne;
-    const auto minus = [&](auto v) {
-        return fault == Fault::blend_complement_forgotten ? v : one - v;
-    };
-    const size_t constant = fault == Fault::blend_constants_alpha ? 3 : k;
-    switch (factor) {
-        case BlendFactor::zero:
-            return 0;
-        case BlendFactor::one:
-            return one;
-        case BlendFactor::src_color:
-            return o.source[k];
-        case BlendFactor::one_minus_src_color:
-            return minus(o.source[k]);
-        case BlendFactor::dst_color:
-            return o.destination[k];
-        case BlendFactor::one_minus_dst_color:
-            return minus(o.destination[k]);
-        case BlendFactor::src_alpha:
-            return o.source[3];
-        case BlendFactor::one_minus_src_alpha:
-            return minus(o.source[3]);
-        case BlendFactor::dst_alpha:
-            return o.destination[3];
-        case BlendFactor::one_minus_dst_alpha:
-            return minus(o.destination[3]);
-        case BlendFactor::constant_color:
-            return o.constants[constant];
-        case BlendFactor::one_minus_constant_color:
-            return minus(o.constants[constant]);
-        case BlendFactor::constant_alpha:
-            return o.constants[3];
-        case BlendFactor::one_minus_constant_alpha:
-            return minus(o.constants[3]);
-        case BlendFactor::src_alpha_saturate:
-            break;
-    }
-    if (k == 3 && fault != Fault::blend_saturate_alpha) {
-        return one;
-    }
-    return fault == Fault::blend_saturate_ignored ? o.source[3]
-                                                  : std::min(o.source[3], minus(o.destination[3]));
-}
-
-template <class Math>
-std::array<typename Math::Value, 4> blend_all(const cases::Blend& blend, Operands<Math> o,
-                                              const Math& math, Fault fault) {
-    if (fault == Fault::blend_premultiplies) {
-        for (size_t k = 0; k < 3; ++k) {
-            o.source[k] = math.scale(o.source[k], o.source[3]);
-        }
-    }
-    std::array<typename Math::Value, 4> out{};
-    for (size_t k = 0; k < 4; ++k) {
-        const bool is_alpha = fault == Fault::blend_alpha_for_color   ? true
-                              : fault == Fault::blend_color_for_alpha ? false
-                                                                      : k == 3;
-        const cases::BlendEquation& equation = is_alpha ? blend.alpha : blend.color;
-        auto f = factor_of(equation.source, k, o, fault);
-        auto g = factor_of(equation.destination, k, o, fault);
-        if (fault == Fault::blend_factors_exchanged) {
-            std::swap(f, g);
-        }
-        const auto s = o.source[k];
-        const auto d = o.destination[k];
-        BlendOp op = equation.op;
-        if (fault == Fault::blend_subtract_exchanged && op == BlendOp::subtract) {
-            op = BlendOp::reverse_subtract;
-        } else if (fault == Fault::blend_subtract_exchanged && op == BlendOp::reverse_subtract) {
-            op = BlendOp::subtract;
-        } else if (fault == Fault::blend_op_ignored) {
-            op = BlendOp::add;
-        }
-        const bool scales = fault == Fault::blend_min_max_scaled;
-        const auto a = scales ? math.scale(s, f) : s;
-        const auto b = scales ? math.scale(d, g) : d;
-        switch (op) {
-            case BlendOp::add:
-                out[k] = math.add(s, f, d, g);
-                break;
-            case BlendOp::subtract:
-                out[k] = math.subtract(s, f, d, g);
-                break;
-            case BlendOp::reverse_subtract:
-                out[k] = math.subtract(d, g, s, f);
-                break;
-            case BlendOp::min:
-                out[k] = std::min(a, b);
-                break;
-            case BlendOp::max:
-                out[k] = std::max(a, b);
-                break;
-        }
-    }
-    return out;
-}
 
 float clamp_to_unit(float v) {
     return v > 0 ? v < 1 ? v : 1.0F : 0.0F;
@@ -234,7 +80,8 @@ uint8_t BlendUnit::mask_of(const cases::ColorOutput& output) const {
 
 glm::vec4 BlendUnit::blend(const cases::Blend& blend, const glm::vec4& source,
                            const glm::vec4& destination) const {
-    const Operands<FloatMath> o{to_array(source), to_array(destination), to_array(blend.constants)};
+    const Operands<FloatMath> o{to_array(source), to_array(blend.second), to_array(destination),
+                                to_array(blend.constants)};
     const auto out = blend_all(blend, o, FloatMath{device_.fused}, device_.fault);
     return {out[0], out[1], out[2], out[3]};
 }
@@ -242,8 +89,10 @@ glm::vec4 BlendUnit::blend(const cases::Blend& blend, const glm::vec4& source,
 std::array<uint32_t, 4> BlendUnit::blend_fixed(const cases::Blend& blend,
                                                const std::array<uint32_t, 4>& source,
                                                const std::array<uint32_t, 4>& destination) const {
-    Operands<FixedMath> o{source, destination, {}};
+    Operands<FixedMath> o{source, {}, destination, {}};
     for (size_t k = 0; k < 4; ++k) {
+        o.second[k] =
+            store_channel(blend.second[static_cast<int>(k)], layout_.channels[k], device_);
         o.constants[k] =
             store_channel(blend.constants[static_cast<int>(k)], {Number::unorm, 8}, device_);
     }
@@ -252,8 +101,26 @@ std::array<uint32_t, 4> BlendUnit::blend_fixed(const cases::Blend& blend,
     return blend_all(blend, o, math, device_.fault);
 }
 
-Texel BlendUnit::write(const cases::ColorOutput& output, const glm::vec4& source,
+glm::vec4 BlendUnit::replaced(const cases::ColorOutput& output, const glm::vec4& written) const {
+    const Number number = layout_.channels[0].number;
+    const bool is_on = output.alpha_to_one &&
+                       (number != Number::uint || device_.fault == Fault::alpha_to_one_of_integers);
+    const bool is_lost = device_.fault == Fault::alpha_to_one_ignored ||
+                         device_.fault == Fault::alpha_to_one_stored ||
+                         (device_.fault == Fault::alpha_to_one_unblended && output.blend);
+    if (!is_on || is_lost) {
+        return written;
+    }
+    if (device_.fault == Fault::alpha_to_one_everywhere) {
+        return glm::vec4(1);
+    }
+    const float most = number == Number::uint ? 255.0F : 1.0F;
+    return {written.x, written.y, written.z, most};
+}
+
+Texel BlendUnit::write(const cases::ColorOutput& output, const glm::vec4& written,
                        const Texel& before) const {
+    const glm::vec4 source = replaced(output, written);
     const auto& channels = layout_.channels;
     const bool is_eight_bits = std::all_of(channels.begin(), channels.end(), [](const Channel& c) {
         return c.number == Number::unorm && c.bits == 8;
@@ -277,16 +144,26 @@ Texel BlendUnit::write(const cases::ColorOutput& output, const glm::vec4& source
         if (device_.fault == Fault::blend_dst_alpha_one) {
             d[3] = 255;
         }
-        codes = blend_fixed(*equation, s, d);
+        cases::Blend fixed = *equation;
+        if (output.alpha_to_one && device_.fault == Fault::alpha_to_one_of_second) {
+            fixed.second.w = 1;
+        }
+        codes = blend_fixed(fixed, s, d);
     } else {
         glm::vec4 s = source;
         glm::vec4 d(0, 0, 0, 1);
         cases::Blend clamped = *equation;
+        if (output.alpha_to_one && device_.fault == Fault::alpha_to_one_of_second) {
+            clamped.second.w = 1;
+        }
         for (int k = 0; k < 4; ++k) {
             const auto n = static_cast<size_t>(k);
             if (is_fixed() && device_.fault != Fault::blend_source_unclamped) {
                 s[k] = clamp_to_unit(s[k]);
                 clamped.constants[k] = clamp_to_unit(clamped.constants[k]);
+            }
+            if (is_fixed() && device_.fault != Fault::second_unclamped) {
+                clamped.second[k] = clamp_to_unit(clamped.second[k]);
             }
             if (device_.fault == Fault::blend_floats_clamped && !is_fixed()) {
                 s[k] = clamp_to_unit(s[k]);
@@ -309,6 +186,10 @@ Texel BlendUnit::write(const cases::ColorOutput& output, const glm::vec4& source
                            ? store_channel(result[static_cast<int>(k)], channels[k], rounding)
                            : 0;
         }
+    }
+    if (output.alpha_to_one && device_.fault == Fault::alpha_to_one_stored &&
+        channels[3].bits != 0) {
+        codes[3] = store_channel(1.0F, channels[3], device_);
     }
     for (size_t k = 0; operates && k < 4; ++k) {
         if (has_logic(k)) {
@@ -360,6 +241,17 @@ ColorAttachment::ColorAttachment(const cases::Case& c, const Device& device)
             case Fault::blend_constants_of_first_draw:
                 if (output.blend && first.blend) {
                     output.blend->constants = first.blend->constants;
+                }
+                break;
+            case Fault::alpha_to_one_of_first_draw:
+                output.alpha_to_one = first.alpha_to_one;
+                break;
+            case Fault::alpha_to_one_multisampled:
+                output.alpha_to_one = output.alpha_to_one && c.target.samples > 1;
+                break;
+            case Fault::second_of_first_draw:
+                if (output.blend && first.blend && takes_second(*first.blend)) {
+                    output.blend->second = first.blend->second;
                 }
                 break;
             case Fault::blend_constants_ignored:

@@ -23,8 +23,8 @@ class BlendUnit {
     BlendUnit(cases::ColorFormat format, const Device& device);
 
     Texel cleared(const glm::vec4& color) const;
-    // The texel after a fragment whose shader wrote `source`.
-    Texel write(const cases::ColorOutput& output, const glm::vec4& source,
+    // The texel after a fragment whose shader wrote `written`.
+    Texel write(const cases::ColorOutput& output, const glm::vec4& written,
                 const Texel& before) const;
     // Its codes, red first.
     capture::ColorCodes read_back(const Texel& texel) const;
@@ -34,6 +34,8 @@ class BlendUnit {
 
   private:
     uint8_t mask_of(const cases::ColorOutput& output) const;
+    // What the shader wrote, after alpha to one.
+    glm::vec4 replaced(const cases::ColorOutput& output, const glm::vec4& written) const;
     std::array<uint32_t, 4> blend_fixed(const cases::Blend& blend,
                                         const std::array<uint32_t, 4>& source,
                                         const std::array<uint32_t, 4>& destination) const;

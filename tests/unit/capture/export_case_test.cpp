@@ -88,8 +88,8 @@ std::vector<Change> target_changes() {
 std::vector<Change> draw_changes() {
     [[maybe_unused]] const auto& [topology, positions, indices, primitive_restart, attributes,
                                   viewport, scissor, cull, front_face, provoking,
-                                  rasterizer_discard, discard, early_tests, frag_depth, query,
-                                  depth, stencil, distances, multisample, color, layer,
+                                  rasterizer_discard, discard, discard_by, early_tests, frag_depth,
+                                  query, depth, stencil, distances, multisample, color, layer,
                                   viewport_index, where] = cases::Draw{};
     [[maybe_unused]] const auto& [x, y, width, height, min_depth, max_depth] = cases::Viewport{};
     [[maybe_unused]] const auto& [left, top, columns, rows] = cases::Rect{};
@@ -117,6 +117,7 @@ std::vector<Change> draw_changes() {
         {"provoking", [](Case& c) { draw(c).provoking = cases::ProvokingVertex::last; }},
         {"rasterizer_discard", [](Case& c) { draw(c).rasterizer_discard = true; }},
         {"discard", [](Case& c) { draw(c).discard = cases::Discard::odd_rows; }},
+        {"discard_by", [](Case& c) { draw(c).discard_by = cases::DiscardBy::demote; }},
         {"early_tests", [](Case& c) { draw(c).early_tests = true; }},
         {"frag_depth", [](Case& c) { draw(c).frag_depth = cases::FragDepth{}; }},
         {"depth.bounds",
@@ -169,8 +170,9 @@ std::vector<Change> distance_changes() {
 }
 
 std::vector<Change> color_changes() {
-    [[maybe_unused]] const auto& [value, index, blend, write_mask, logic] = cases::ColorOutput{};
-    [[maybe_unused]] const auto& [color, alpha, constants] = cases::Blend{};
+    [[maybe_unused]] const auto& [value, index, blend, write_mask, logic, alpha_to_one] =
+        cases::ColorOutput{};
+    [[maybe_unused]] const auto& [color, alpha, constants, second] = cases::Blend{};
     [[maybe_unused]] const auto& [source, destination, op] = cases::BlendEquation{};
     using Factor = cases::BlendFactor;
     return {
@@ -185,6 +187,8 @@ std::vector<Change> color_changes() {
         {"blend.alpha.destination",
          [](Case& c) { draw(c).color.blend->alpha.destination = Factor::one; }},
         {"blend.alpha.op", [](Case& c) { draw(c).color.blend->alpha.op = cases::BlendOp::max; }},
+        {"blend.second", [](Case& c) { draw(c).color.blend->second.w = 1; }},
+        {"alpha_to_one", [](Case& c) { draw(c).color.alpha_to_one = true; }},
         {"blend.constants", [](Case& c) { draw(c).color.blend->constants.w = 1; }},
         {"write_mask", [](Case& c) { draw(c).color.write_mask = 7; }},
         {"logic", [](Case& c) { draw(c).color.logic = cases::LogicOp::nand; }},

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The keys of colour: what they mean, and every sentence about a mistake, word for word.
+#include "cases/load/color.hpp"
+
 #include <gtest/gtest.h>
 
 #include <string>
@@ -57,6 +59,35 @@ TEST(Color, IsRead) {
     EXPECT_EQ(out.blend->alpha, (BlendEquation{BlendFactor::one, BlendFactor::one, BlendOp::add}));
 }
 
+TEST(Color, ASecondSourceIsRead) {
+    const std::string text = file(kUnorm,
+                                  "color = { attribute = \"c\", blend = { source = \"src1-color\", "
+                                  "alpha = { destination = \"one-minus-src1-alpha\" } }, second = "
+                                  "[0, \"1/2\", -1, 2] }",
+                                  "size = [8, 8]\nattachments = \"color\"");
+    const auto loaded = load_text(text, "f", "id");
+    ASSERT_TRUE(loaded) << to_string(loaded.error().front());
+    const Blend& blend = *loaded->front().draws[0].color.blend;
+    EXPECT_EQ(blend.second, glm::vec4(0, 0.5F, -1, 2));
+    EXPECT_EQ(blend.color.source, BlendFactor::src1_color);
+    EXPECT_EQ(blend.alpha.destination, BlendFactor::one_minus_src1_alpha);
+    EXPECT_TRUE(takes_second(blend));
+    EXPECT_FALSE(takes_second(blend_of_word(1)));
+}
+
+TEST(Color, AlphaToOneIsRead) {
+    const std::string on = "color = { value = [0, 0, 0, 0], alpha_to_one = ";
+    const std::string target = "size = [8, 8]\nattachments = \"color\"";
+    const auto loaded = load_text(file(kUnorm, on + "true }", target), "f", "id");
+    ASSERT_TRUE(loaded) << to_string(loaded.error().front());
+    EXPECT_TRUE(loaded->front().draws[0].color.alpha_to_one);
+    EXPECT_EQ(error_of(file(kUnorm, on + "false }")), "no error");
+    EXPECT_NE(error_of(file(kUnorm, on + "true }"))
+                  .find("alpha to one changes the attachments that tell of fragments; write "
+                        "attachments = \"color\" or \"color+depth\" in [target]"),
+              std::string::npos);
+}
+
 TEST(Color, MistakesAreNamed) {
     EXPECT_EQ(error_of(file("clear = [0,0,0,0]", kValue)),
               "f:6:1: error: [target.color] has no format; write \"rgba8-unorm\", "
@@ -87,6 +118,16 @@ TEST(Color, MistakesAreNamed) {
          "blend is \"alhpa\"; did you mean \"alpha\"?");
     says(file(kUnorm, "color = { value = [0,0,0,0], blend = { source = \"alpha\" } }"),
          "the blend factor source is \"alpha\"; ");
+    const std::string two = "color = { value = [0,0,0,0], blend = { destination = \"src1-alpha\" }";
+    says(file(kUnorm, two + " }", "size = [8, 8]\nattachments = \"color\""),
+         "blend has a factor of the second source; write second = [r, g, b, a]");
+    says(file(kUnorm, two + ", second = [0,0,0,1] }"),
+         "a device may blend a second source into one attachment alone; write attachments = "
+         "\"color\" or \"color+depth\" in [target]");
+    says(file(kUnorm, "color = { value = [0,0,0,0], blend = \"alpha\", second = [0,0,0,1] }"),
+         "second without a factor of the second source means nothing; leave it out");
+    says(file(kUnorm, two + ", second = [0,0,1] }", "size = [8, 8]\nattachments = \"color\""),
+         "second has 3 numbers instead of 4");
     says(file(kUnorm, "color = { value = [0,0,0,0], logic = \"xor\" }"),
          "a logical operation switches off the blending that counts hits; write attachments = "
          "\"color\" or \"color+depth\" in [target]");

@@ -348,6 +348,16 @@ description = "d"
 rules = ["cover.inside"]
 [target]
 size = [2, 1]
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+discard_by = "demote"
+)~"),
+     R"~(f:8:14: error: discard_by without discard means nothing; leave it out)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [2, 1]
 samples = 4
 [[draw]]
 vertices = [[0,0],[8,0],[0,8]]

@@ -209,6 +209,7 @@ auxiliary = "centroid"
 space      = "clip"
 vertices   = [["nan",0,0,1], ["-inf",-0.0,"bits(0x7fc00001)",0], ["2^-149","0.1f",16777216,1],  [0,1,2,3]]
 discard    = "checker"
+discard_by = "demote"
 frag_depth = { value = 0.5, other = 0.25, where = "odd-rows" }
 color      = { value = [1, 1, 1, 1], blend = { destination = "one", alpha = { source = "zero" } } }
 [[draw.clip_distance]]

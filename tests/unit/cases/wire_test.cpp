@@ -40,6 +40,7 @@ Case sample() {
     draw.provoking = ProvokingVertex::last;
     draw.rasterizer_discard = true;
     draw.discard = cases::Discard::checker;
+    draw.discard_by = cases::DiscardBy::terminate;
     draw.early_tests = true;
     draw.frag_depth = FragDepth{false, 0.25F, 0.5F, Discard::odd_rows, DepthLayout::less};
     draw.query = Query::occlusion_precise;
@@ -56,7 +57,9 @@ Case sample() {
     draw.color.attribute = 1;
     draw.color.blend = Blend{{BlendFactor::src_alpha, BlendFactor::one, BlendOp::max},
                              {BlendFactor::zero, BlendFactor::src_alpha_saturate, BlendOp::min},
-                             {0.1F, 0.2F, 0.3F, 0.4F}};
+                             {0.1F, 0.2F, 0.3F, 0.4F},
+                             {0.5F, 0.6F, 0.7F, 0.8F}};
+    draw.color.alpha_to_one = true;
     draw.color.write_mask = 0x5;
     draw.layer = 2;
     draw.viewport_index = 1;
@@ -139,6 +142,7 @@ TEST(Wire, RoundTripKeepsEveryBit) {
         EXPECT_EQ(a.provoking, b.provoking);
         EXPECT_EQ(a.rasterizer_discard, b.rasterizer_discard);
         EXPECT_EQ(a.discard, b.discard);
+        EXPECT_EQ(a.discard_by, b.discard_by);
         EXPECT_EQ(a.early_tests, b.early_tests);
         EXPECT_EQ(a.frag_depth, b.frag_depth);
         EXPECT_EQ(a.query, b.query);

@@ -194,20 +194,70 @@ TEST(Blend, NothingIsKnownOfInfinity) {
               "r anything, g anything");
 }
 
+// By hand: 1/4 * 1/2 + 3/4 * (1 - 1/8) and so on, exact in binary32.
+TEST(Blend, SecondSource) {
+    const Unit unit{ColorFormat::rgba32_float, Profile::vulkan};
+    cases::ColorOutput output;
+    output.blend =
+        cases::Blend{{BlendFactor::src1_color, BlendFactor::one_minus_src1_alpha, BlendOp::add},
+                     {BlendFactor::one_minus_src1_color, BlendFactor::src1_alpha, BlendOp::add}};
+    output.blend->second = {0.5F, 2.0F, -1.0F, 0.125F};
+    const Color out =
+        unit.write(output, color_of({0.25, 0.5, 1, 0.75}), color_of({0.75, 1, 0.5, 8}));
+    EXPECT_EQ(out[0], point(mpq_class(25, 32)));  // 1/8 + 21/32
+    EXPECT_EQ(out[1], point(mpq_class(15, 8)));   // 1 + 7/8
+    EXPECT_EQ(out[2], point(mpq_class(-9, 16)));  // -1 + 7/16
+    EXPECT_EQ(out[3], point(mpq_class(53, 32)));  // 3/4 * 7/8 + 8 * 1/8
+    // Fixed point: 2 and -1 are 1 and 0.
+    const Unit fixed{ColorFormat::rgba8_unorm, Profile::vulkan};
+    output.blend->color = {BlendFactor::one_minus_src1_color, BlendFactor::src1_color,
+                           BlendOp::add};
+    output.blend->second.x = -1;
+    output.blend->second.w = 1;
+    EXPECT_EQ(fixed.text_of(fixed.write(output, color_of({1, 0, 1, 0}), color_of({0, 1, 0, 1}))),
+              "r 255, g 255, b 255, a 255");
+}
+
+TEST(Blend, AlphaToOneIsOfTheFirstSourceAlone) {
+    const Unit unit{ColorFormat::rgba32_float, Profile::vulkan};
+    cases::ColorOutput output;
+    output.alpha_to_one = true;
+    const Color before = color_of({0.5, 0.5, 0.5, 0.25});
+    EXPECT_EQ(unit.write(output, color_of({1, 0, 1, -3}), before), color_of({1, 0, 1, 1}));
+    output.blend = cases::Blend{{BlendFactor::src_alpha, BlendFactor::src1_alpha, BlendOp::add},
+                                {BlendFactor::src1_alpha, BlendFactor::zero, BlendOp::add}};
+    output.blend->second = {0, 0, 0, 0.125F};
+    // 1/4 + 1/16 and 1 * 1/8
+    EXPECT_EQ(unit.write(output, color_of({0.25, 0.25, 0.25, 0.5}), before),
+              color_of({0.3125, 0.3125, 0.3125, 0.125}));
+    output.blend.reset();
+    const Unit integers{ColorFormat::rgba8_uint, Profile::vulkan};
+    EXPECT_EQ(integers.text_of(integers.write(output, color_of({1, 2, 3, 200}), before)),
+              "r 1, g 2, b 3, a 200");
+}
+
 // A blend unit written for this test: numbers of type T, rounded after every step by `round`.
 template <class T, class Round>
 std::array<T, 4> simulate(const cases::Blend& blend, std::array<T, 4> s, std::array<T, 4> d,
-                          std::array<T, 4> c, bool clamps, Round round) {
+                          bool clamps, Round round) {
     const auto fit = [&](T v) { return round(clamps ? std::clamp(v, T(0), T(1)) : v); };
+    std::array<T, 4> c{}, t{};
     for (size_t k = 0; k < 4; ++k) {
         s[k] = fit(s[k]);
-        c[k] = fit(c[k]);
+        c[k] = fit(static_cast<T>(blend.constants[static_cast<int>(k)]));
+        t[k] = fit(static_cast<T>(blend.second[static_cast<int>(k)]));
     }
     const auto factor = [&](BlendFactor f, size_t k) -> T {
         const std::array<T, 7> of = {0, s[k], d[k], s[3], d[3], c[k], c[3]};
         const auto number = static_cast<size_t>(f);
         if (f == BlendFactor::src_alpha_saturate) {
             return k == 3 ? T(1) : std::min(s[3], round(T(1) - d[3]));
+        }
+        if (cases::is_second(f)) {
+            const T value = f == BlendFactor::src1_color || f == BlendFactor::one_minus_src1_color
+                                ? t[k]
+                                : t[3];
+            return number % 2 == 1 ? value : round(T(1) - value);
         }
         const T value = of[number / 2];
         return number % 2 == 0 ? value : round(T(1) - value);
@@ -242,12 +292,13 @@ std::array<T, 4> simulate(const cases::Blend& blend, std::array<T, 4> s, std::ar
 cases::Blend any_blend() {
     cases::Blend blend;
     for (cases::BlendEquation* e : {&blend.color, &blend.alpha}) {
-        e->source = static_cast<BlendFactor>(*rc::gen::inRange(0, 15));
-        e->destination = static_cast<BlendFactor>(*rc::gen::inRange(0, 15));
+        e->source = static_cast<BlendFactor>(*rc::gen::inRange(0, 19));
+        e->destination = static_cast<BlendFactor>(*rc::gen::inRange(0, 19));
         e->op = static_cast<BlendOp>(*rc::gen::inRange(0, 5));
     }
     for (int k = 0; k < 4; ++k) {
         blend.constants[k] = static_cast<float>(*rc::gen::inRange(-64, 320)) / 256.0F;
+        blend.second[k] = static_cast<float>(*rc::gen::inRange(-64, 320)) / 256.0F;
     }
     return blend;
 }
@@ -265,7 +316,7 @@ RC_GTEST_PROP(Blend, AllowsEveryEightBitUnit, ()) {
     const cases::Blend blend = any_blend();
     const std::array<float, 4> source = any_color();
     std::array<uint32_t, 4> codes{};
-    std::array<double, 4> d{}, s{}, c{};
+    std::array<double, 4> d{}, s{};
     cases::ColorTarget target;
     Color before;
     for (size_t k = 0; k < 4; ++k) {
@@ -273,7 +324,6 @@ RC_GTEST_PROP(Blend, AllowsEveryEightBitUnit, ()) {
         d[k] = codes[k] / 255.0;
         before[k] = point(mpq_class(codes[k]) / 255);
         s[k] = static_cast<double>(source[k]);
-        c[k] = static_cast<double>(blend.constants[static_cast<int>(k)]);
     }
     cases::ColorOutput output;
     output.blend = blend;
@@ -285,7 +335,7 @@ RC_GTEST_PROP(Blend, AllowsEveryEightBitUnit, ()) {
         [](double v) { return std::floor(v * 255 + 1e-9) / 255; },
         [](double v) { return std::ceil(v * 255 - 1e-9) / 255; }, [](double v) { return v; }};
     for (const auto& round : roundings) {
-        const auto out = simulate<double>(blend, s, d, c, true, round);
+        const auto out = simulate<double>(blend, s, d, true, round);
         std::array<uint32_t, 4> got{};
         for (size_t k = 0; k < 4; ++k) {
             got[k] = static_cast<uint32_t>(std::nearbyint(out[k] * 255));
@@ -293,7 +343,7 @@ RC_GTEST_PROP(Blend, AllowsEveryEightBitUnit, ()) {
         RC_ASSERT(unit.allows(allowed, got));
     }
     // And little more: at most three units either way of the exact result.
-    const auto exact = simulate<double>(blend, s, d, c, true, roundings[3]);
+    const auto exact = simulate<double>(blend, s, d, true, roundings[3]);
     for (size_t k = 0; k < 4; ++k) {
         RC_ASSERT(allowed[k].low.get_d() * 255 >= exact[k] * 255 - 5);
         RC_ASSERT(allowed[k].high.get_d() * 255 <= exact[k] * 255 + 5);
@@ -305,17 +355,15 @@ RC_GTEST_PROP(Blend, AllowsBinary32UnitsAndNothingFarFromThem, ()) {
     const cases::Blend blend = any_blend();
     const std::array<float, 4> s = any_color();
     const std::array<float, 4> d = any_color();
-    std::array<float, 4> c{};
     Color before, source;
     for (size_t k = 0; k < 4; ++k) {
-        c[k] = blend.constants[static_cast<int>(k)];
         before[k] = point(static_cast<double>(d[k]));
         source[k] = point(static_cast<double>(s[k]));
     }
     cases::ColorOutput output;
     output.blend = blend;
     const Color allowed = unit.write(output, source, before);
-    const auto got = simulate<float>(blend, s, d, c, false, [](float v) { return v; });
+    const auto got = simulate<float>(blend, s, d, false, [](float v) { return v; });
     std::array<uint32_t, 4> codes{};
     for (size_t k = 0; k < 4; ++k) {
         codes[k] = std::bit_cast<uint32_t>(got[k]);

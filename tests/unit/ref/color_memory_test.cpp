@@ -121,11 +121,12 @@ TEST(MayStore, InfinitiesAndNoNumbers) {
 cases::Blend any_blend(std::mt19937& random) {
     cases::Blend blend;
     for (cases::BlendEquation* e : {&blend.color, &blend.alpha}) {
-        e->source = static_cast<BlendFactor>(random() % 15);
-        e->destination = static_cast<BlendFactor>(random() % 15);
+        e->source = static_cast<BlendFactor>(random() % 19);
+        e->destination = static_cast<BlendFactor>(random() % 19);
         e->op = static_cast<BlendOp>(random() % 5);
     }
     blend.constants = {0.25F, 0.5F, 0.75F, 0.125F};
+    blend.second = {0.5F, 0.125F, 1.0F, 0.25F};
     return blend;
 }
 

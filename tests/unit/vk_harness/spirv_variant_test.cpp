@@ -7,6 +7,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -135,6 +136,38 @@ TEST(SpirvVariant, WhatItRefuses) {
     EXPECT_EQ(error_of(good, {built_in}), "no input of the module has built-in 5286");
 }
 
+constexpr uint32_t kExtension = 10, kKill = 252, kReturn = 253;
+
+// What ends the invocation, by word: the name of the extension is in the module's own byte order.
+TEST(SpirvVariant, AnotherInstructionDiscards) {
+    const Words module = Assembler().add(kCapability, {1}).add(14, {0, 1}).add(kKill, {}).words();
+    const auto name = [](const char* text, size_t words) {
+        Words out(words);
+        std::memcpy(out.data(), text, std::strlen(text));
+        return out;
+    };
+    EXPECT_EQ(shaders::with_ending(module, shaders::Ending::kill).value(), module);
+    EXPECT_EQ(shaders::with_ending(module, shaders::Ending::demote).value(),
+              Assembler()
+                  .add(kCapability, {5379})
+                  .add(kCapability, {1})
+                  .add(kExtension, name("SPV_EXT_demote_to_helper_invocation", 9))
+                  .add(14, {0, 1})
+                  .add(5380, {})
+                  .add(kReturn, {})
+                  .words());
+    EXPECT_EQ(shaders::with_ending(module, shaders::Ending::terminate).value(),
+              Assembler()
+                  .add(kCapability, {1})
+                  .add(kExtension, name("SPV_KHR_terminate_invocation", 8))
+                  .add(14, {0, 1})
+                  .add(4416, {})
+                  .words());
+    const auto plain = shaders::with_ending(small_module().words(), shaders::Ending::demote);
+    ASSERT_FALSE(plain);
+    EXPECT_EQ(plain.error(), "the module discards nothing");
+}
+
 TEST(SpirvVariant, ContradictionsAreRefused) {
     shaders::InputChange change = at_location(2);
     change.flat = true;
@@ -213,6 +246,19 @@ TEST(SpirvVariant, EveryChangedModuleIsValid) {
                 }
             }
         }
+    }
+}
+
+TEST(SpirvVariant, EveryOtherEndingIsValid) {
+    PipelineKey key;
+    key.discards = true;
+    const auto code = shaders::capture_fragment(fragment_variant(key));
+    ASSERT_FALSE(code.empty());
+    for (const auto ending : {shaders::Ending::demote, shaders::Ending::terminate}) {
+        const auto changed = shaders::with_ending(code, ending);
+        ASSERT_TRUE(changed) << changed.error();
+        EXPECT_NE(*changed, std::vector<uint32_t>(code.begin(), code.end()));
+        EXPECT_EQ(validator_says(*changed), "");
     }
 }
 

@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The arithmetic of a blend unit, in binary32 and in 8-bit fixed point: factors and equations.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "cases/model/case.hpp"
+#include "rasterizers/software/choice/device.hpp"
+
+namespace software {
+
+using cases::BlendFactor;
+using cases::BlendOp;
+
+// Numbers that a blend unit computes with. One is what 1.0 is.
+struct FloatMath {
+    using Value = float;
+    static constexpr float kOne = 1.0F;
+    bool fused;
+
+    // s f + d g and the like: the first product may be kept in full.
+    float add(float s, float f, float d, float g) const {
+        return fused ? std::fma(s, f, d * g) : s * f + d * g;
+    }
+    float subtract(float s, float f, float d, float g) const {
+        return fused ? std::fma(s, f, -(d * g)) : s * f - d * g;
+    }
+    float scale(float a, float b) const { return a * b; }
+};
+
+// 8 bits: every step is clamped to 0..255.
+struct FixedMath {
+    using Value = uint32_t;
+    static constexpr uint32_t kOne = 255;
+    FixedMultiply multiply;
+    bool truncates;
+    bool is_shift_only;  // a fault
+
+    uint32_t scale(uint32_t a, uint32_t b) const {
+        if (is_shift_only) {
+            return a * b >> 8;
+        }
+        if (truncates) {
+            return a * b / 255;
+        }
+        if (multiply == FixedMultiply::divide) {
+            return (a * b + 127) / 255;
+        }
+        const uint32_t t = a * b + 128;
+        return (t + (t >> 8)) >> 8;
+    }
+    uint32_t add(uint32_t s, uint32_t f, uint32_t d, uint32_t g) const {
+        return std::min(scale(s, f) + scale(d, g), 255U);
+    }
+    uint32_t subtract(uint32_t s, uint32_t f, uint32_t d, uint32_t g) const {
+        const uint32_t a = scale(s, f);
+        const uint32_t b = scale(d, g);
+        return a > b ? a - b : 0U;
+    }
+};
+
+template <class Math>
+struct Operands {
+    using Value = typename Math::Value;
+    std::array<Value, 4> source, second, destination, constants;
+};
+
+template <class Math>
+typename Math::Value second_factor_of(BlendFactor factor, size_t k, const Operands<Math>& o,
+                                      Fault fault) {
+    const bool is_alpha =
+        factor == BlendFactor::src1_alpha || factor == BlendFactor::one_minus_src1_alpha;
+    const bool is_complement =
+        factor == BlendFactor::one_minus_src1_color || factor == BlendFactor::one_minus_src1_alpha;
+    const size_t from = is_alpha && fault != Fault::second_alpha_as_color ? 3 : k;
+    const auto value =
+        fault == Fault::second_lost ? 0
+        : fault == Fault::second_as_first || (fault == Fault::second_alpha_as_first && is_alpha)
+            ? o.source[from]
+            : o.second[from];
+    return is_complement && fault != Fault::second_complement_forgotten ? Math::kOne - value
+                                                                        : value;
+}
+
+template <class Math>
+typename Math::Value factor_of(BlendFactor factor, size_t k, const Operands<Math>& o, Fault fault) {
+    const auto one = Math::kOne;
+    const auto minus = [&](auto v) {
+        return fault == Fault::blend_complement_forgotten ? v : one - v;
+    };
+    const size_t constant = fault == Fault::blend_constants_alpha ? 3 : k;
+    switch (factor) {
+        case BlendFactor::zero:
+            return 0;
+        case BlendFactor::one:
+            return one;
+        case BlendFactor::src_color:
+            return o.source[k];
+        case BlendFactor::one_minus_src_color:
+            return minus(o.source[k]);
+        case BlendFactor::dst_color:
+            return o.destination[k];
+        case BlendFactor::one_minus_dst_color:
+            return minus(o.destination[k]);
+        case BlendFactor::src_alpha:
+            return o.source[3];
+        case BlendFactor::one_minus_src_alpha:
+            return minus(o.source[3]);
+        case BlendFactor::dst_alpha:
+            return o.destination[3];
+        case BlendFactor::one_minus_dst_alpha:
+            return minus(o.destination[3]);
+        case BlendFactor::constant_color:
+            return o.constants[constant];
+        case BlendFactor::one_minus_constant_color:
+            return minus(o.constants[constant]);
+        case BlendFactor::constant_alpha:
+            return o.constants[3];
+        case BlendFactor::one_minus_constant_alpha:
+            return minus(o.constants[3]);
+        case BlendFactor::src1_color:
+        case BlendFactor::one_minus_src1_color:
+        case BlendFactor::src1_alpha:
+        case BlendFactor::one_minus_src1_alpha:
+            return second_factor_of(factor, k, o, fault);
+        case BlendFactor::src_alpha_saturate:
+            break;
+    }
+    if (k == 3 && fault != Fault::blend_saturate_alpha) {
+        return one;
+    }
+    return fault == Fault::blend_saturate_ignored ? o.source[3]
+                                                  : std::min(o.source[3], minus(o.destination[3]));
+}
+
+template <class Math>
+std::array<typename Math::Value, 4> blend_all(const cases::Blend& blend, Operands<Math> o,
+                                              const Math& math, Fault fault) {
+    if (fault == Fault::sources_exchanged && cases::takes_second(blend)) {
+        std::swap(o.source, o.second);
+    }
+    if (fault == Fault::blend_premultiplies) {
+        for (size_t k = 0; k < 3; ++k) {
+            o.source[k] = math.scale(o.source[k], o.source[3]);
+        }
+    }
+    std::array<typename Math::Value, 4> out{};
+    for (size_t k = 0; k < 4; ++k) {
+        const bool is_alpha = fault == Fault::blend_alpha_for_color   ? true
+                              : fault == Fault::blend_color_for_alpha ? false
+                                                                      : k == 3;
+        const cases::BlendEquation& equation = is_alpha ? blend.alpha : blend.color;
+        auto f = factor_of(equation.source, k, o, fault);
+        auto g = factor_of(equation.destination, k, o, fault);
+        if (fault == Fault::blend_factors_exchanged) {
+            std::swap(f, g);
+        }
+        const auto s = o.source[k];
+        const auto d = o.destination[k];
+        BlendOp op = equation.op;
+        if (fault == Fault::blend_subtract_exchanged && op == BlendOp::subtract) {
+            op = BlendOp::reverse_subtract;
+        } else if (fault == Fault::blend_subtract_exchanged && op == BlendOp::reverse_subtract) {
+            op = BlendOp::subtract;
+        } else if (fault == Fault::blend_op_ignored) {
+            op = BlendOp::add;
+        }
+        const bool scales = fault == Fault::blend_min_max_scaled;
+        const auto a = scales ? math.scale(s, f) : s;
+        const auto b = scales ? math.scale(d, g) : d;
+        switch (op) {
+            case BlendOp::add:
+                out[k] = math.add(s, f, d, g);
+                break;
+            case BlendOp::subtract:
+                out[k] = math.subtract(s, f, d, g);
+                break;
+            case BlendOp::reverse_subtract:
+                out[k] = math.subtract(d, g, s, f);
+                break;
+            case BlendOp::min:
+                out[k] = std::min(a, b);
+                break;
+            case BlendOp::max:
+                out[k] = std::max(a, b);
+                break;
+        }
+    }
+    return out;
+}
+
+}  // namespace software
