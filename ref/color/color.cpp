@@ -294,8 +294,11 @@ ColorVerdict ColorReference::judge(size_t index, cases::SampleId id,
     const Sequence& most = *std::max_element(
         sets.begin(), sets.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
     verdict.rule = rule_of(most, unit_.allows(color_of(most, id, last, false), codes));
+    // What leaves anything, as infinity that is blended, tells nothing.
     const auto tells = [&](const Sequence& sequence) {
-        return leaves(sequence, id, nullptr, codes);
+        return leaves(sequence, id, nullptr, codes) &&
+               std::ranges::none_of(color_of(sequence, id, nullptr),
+                                    &color::Component::is_anything);
     };
     if (witness) {
         // Who wrote last is known: only those before it may have come in another order.

@@ -84,12 +84,15 @@ std::string blend_text(const cases::Blend& blend) {
     std::string text = blend.color == blend.alpha
                            ? fmt::format("blends it ({})", color)
                            : fmt::format("blends it (colour {}; alpha {})", color, alpha);
-    if ((color + alpha).find("constant") != std::string::npos) {
-        const glm::vec4& c = blend.constants;
-        text +=
-            fmt::format(" with the constants ({}, {}, {}, {})", cases::number_text(c.x),
-                        cases::number_text(c.y), cases::number_text(c.z), cases::number_text(c.w));
-    }
+    const auto add = [&](std::string_view factor, std::string_view what, const glm::vec4& v) {
+        if ((color + alpha).find(factor) != std::string::npos) {
+            text += fmt::format(" with the {} ({}, {}, {}, {})", what, cases::number_text(v.x),
+                                cases::number_text(v.y), cases::number_text(v.z),
+                                cases::number_text(v.w));
+        }
+    };
+    add("constant", "constants", blend.constants);
+    add("src1", "second source", blend.second);
     return text;
 }
 
@@ -152,6 +155,9 @@ std::vector<ColorStep> ColorReference::steps(size_t index, cases::SampleId id) {
         const color::Color left = unit_.write(output, exact, before);
         const bool has_logic = output.logic && color::takes_logic(unit_.format);
         std::string text = fmt::format("writes {}", source_text(unit_.format, source));
+        if (output.alpha_to_one && !cases::is_integer(unit_.format)) {
+            text += ", whose alpha becomes 1";
+        }
         if (output.write_mask != 0xf) {
             text +=
                 fmt::format(", of which the mask lets through {}", mask_text(output.write_mask));

@@ -230,6 +230,19 @@ TEST(ColorSteps, ALogicalOperationIsTold) {
             "b 165 & ~204 = 33; that leaves r 204, g 240, b 33, a 1"));
 }
 
+TEST(ColorSteps, ASecondSourceAndAlphaToOneAreTold) {
+    cases::Case c = two_draws(ColorFormat::rgba32_float, {0.5F, 0, 0, 0});
+    c.draws[0].color.value = {0.25F, 0, 0, 0.5F};
+    c.draws[0].color.blend = cases::Blend{
+        {cases::BlendFactor::src1_alpha, cases::BlendFactor::zero, cases::BlendOp::add}, {}, {}};
+    c.draws[0].color.blend->second = {0, 0, 0, 0.75F};
+    c.draws[0].color.alpha_to_one = true;
+    EXPECT_EQ(steps_of(c)[1],
+              "writes r 0.25, g 0, b 0, a 0.5, whose alpha becomes 1, and blends it (colour source "
+              "x src1-alpha + stored x zero; alpha source x one + stored x zero) with the second "
+              "source (0, 0, 0, 0.75); that leaves r 0.1875, g 0, b 0, a 1");
+}
+
 TEST(ColorSteps, BlendingIsTold) {
     cases::Case c = two_draws(ColorFormat::r32_float, {0.5F, 0, 0, 0});
     c.draws[0].color.value = {0.25F, 0, 0, 0.5F};
