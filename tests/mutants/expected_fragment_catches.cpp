@@ -195,7 +195,7 @@ std::vector<ExpectedCatch> expected_fragment_catches() {
          {"depth-bounds/bounds", "combination/depth-bounds"}},
         {Fault::bounds_max_exclusive,
          Profile::vulkan,
-         {"depth-bounds/ends", "combination/depth-bounds"}},
+         {"depth-bounds/ends", "combination/bounds-states"}},
         {Fault::bounds_inverted,
          Profile::vulkan,
          {"depth-bounds/bounds", "combination/depth-bounds"}},

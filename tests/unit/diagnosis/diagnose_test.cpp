@@ -250,15 +250,18 @@ TEST(Hypotheses, NoTwoAreOneThing) {
     // These differ, though in none of the cases here: in vertices left of the first pixel, in
     // viewports of other numbers than their layers, in front faces that are counter-clockwise, in
     // stencil references beyond the mask, in increments that wrap, in depth bounds of the first
-    // draw, in masked draws without a logical operation.
+    // draw, in masked draws without a logical operation, in alpha to one with several samples, in
+    // masks of the first draw where a later one has none.
     const std::set<std::pair<std::string, std::string>> other = {
+        {"alpha_to_one_ignored", "alpha_to_one_multisampled"},
         {"floor_snapping", "snaps-toward-zero"},
         {"bounds_ignored", "bounds_of_first_draw"},
         {"layer_ignored", "layer_of_viewport"},
         {"logic_mask_ignored", "write_mask_ignored"},
         {"stencil_faces_exchanged", "stencil_own_facing"},
         {"stencil_reference_unmasked", "stencil_stored_unmasked"},
-        {"stencil_saturates", "stencil_wrap_stops_at_zero"}};
+        {"stencil_saturates", "stencil_wrap_stops_at_zero"},
+        {"write_mask_ignored_blending", "write_mask_of_first_draw"}};
     const std::vector<Hypothesis> all = diagnosis::known_hypotheses(kBits);
     std::vector<capture::Capture> right;
     for (const cases::Case& c : small_suite()) {
