@@ -18,8 +18,8 @@ namespace run {
 void keep_reference(report::CaseRecord& record, const cases::Case& c, const diff::Verdict& verdict,
                     const ref::Expectation& expectation, const ref::Limits& limits);
 
-// Fills pictures, geometry and evidence of the record of a case with draws or a blit; of planes that
-// the capture lacks nothing is kept. `expectation` is empty for a blit.
+// Fills pictures, geometry and evidence of the record of a case with draws or a blit; of planes
+// that the capture lacks nothing is kept. `expectation` is empty for a blit.
 void keep_evidence(report::CaseRecord& record, const cases::Case& c, const diff::Verdict& verdict,
                    const ref::Expectation& expectation, const capture::CaptureView& capture,
                    const ref::Limits& limits);

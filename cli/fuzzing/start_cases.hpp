@@ -23,7 +23,8 @@ struct StartCases {
 // What fuzz::check_open_values() says of the files of the selected cases.
 cases::Errors check_open_values(const LoadedSuite& suite);
 
-// Errors: invalid files, or a value of [fuzz] with which no case can be loaded (3), a selector that matches nothing (4).
+// Errors: invalid files, or a value of [fuzz] with which no case can be loaded (3), a selector that
+// matches nothing (4).
 OrStop<StartCases> start_cases(const Program& program, const SuiteOptions& options, uint64_t seed);
 
 }  // namespace cli
