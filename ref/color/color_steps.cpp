@@ -115,7 +115,7 @@ std::string operation_text(const color::Unit& unit, const cases::ColorOutput& ou
     std::string text;
     for (uint32_t k = 0; k < 4; ++k) {
         const color::Component component(cases::component_of(unit.format, k));
-        if (!component.exists() || (output.write_mask >> k & 1U) == 0) {
+        if (!component.exists() || (uint32_t{output.write_mask} >> k & 1U) == 0) {
             continue;
         }
         const std::string s = component.text_of(component.stored(source[k], unit.profile, false));
@@ -132,7 +132,7 @@ std::string operation_text(const color::Unit& unit, const cases::ColorOutput& ou
     return text;
 }
 
-std::string mask_text(uint8_t mask) {
+std::string mask_text(uint32_t mask) {
     std::string text;
     for (uint32_t k = 0; k < 4; ++k) {
         if ((mask >> k & 1U) != 0) {
