@@ -308,9 +308,8 @@ std::string rule_text(const cases::Rule& rule, const std::vector<cases::Case>& s
 std::string explain_text(const cases::Case& c, const ref::Limits& limits, cases::Profile profile,
                          cases::SampleId sample) {
     if (c.blit) {
-        return fmt::format("{}\n    {}\n", c.id, c.description) +
-               fmt::format("\ntexel ({}, {}): {}\n", sample.x, sample.y,
-                           ref::BlitReference(c).explain(sample.x, sample.y));
+        return head_text(c) + fmt::format("\ntexel ({}, {}): {}\n", sample.x, sample.y,
+                                          ref::BlitReference(c).explain(sample.x, sample.y));
     }
     const ref::SampleExplanation s = ref::explain_sample(c, limits, profile, sample);
     std::string text = head_text(c);

@@ -37,6 +37,34 @@ Interval larger(const Interval& a, const Interval& b) {
     return {std::max(a.low, b.low), std::max(a.high, b.high)};
 }
 
+Interval negated(const Interval& v) {
+    return {-v.high, -v.low};
+}
+
+Interval hull(const Interval& a, const Interval& b) {
+    return {std::min(a.low, b.low), std::max(a.high, b.high)};
+}
+
+// A term of the sum: either neighbour of a product. Infinity times 0 is NaN, and times any other
+// factor no multiple of the number that stands for it, so that nothing is known of either.
+Interval term(const Component& component, const Interval& value, const Interval& factor) {
+    return component.may_be_infinite(value) || component.may_be_infinite(factor)
+               ? Component::anything()
+               : component.either(product(value, factor));
+}
+
+// The difference of two infinities is NaN; one of them stays what it is, whatever is added.
+Interval sum(const Component& component, const Interval& a, const Interval& b) {
+    const bool is_a_infinite = component.may_be_infinite(a);
+    const bool is_b_infinite = component.may_be_infinite(b);
+    if (Component::is_anything(a) || Component::is_anything(b) ||
+        (is_a_infinite && is_b_infinite)) {
+        return Component::anything();
+    }
+    const Interval total = {a.low + b.low, a.high + b.high};
+    return is_a_infinite ? hull(total, a) : is_b_infinite ? hull(total, b) : total;
+}
+
 // Table "Blend Factors". `k`: the component, 3 alpha.
 Interval factor_of(BlendFactor factor, size_t k, const Color& source, const Color& second,
                    const Color& destination, const Color& constants) {
@@ -152,34 +180,17 @@ Color Unit::write(const cases::ColorOutput& output, const Color& written,
             result = larger(s[k], before[k]);
         } else {
             const auto scaled = [&](const Interval& value, BlendFactor factor) {
-                return component.either(product(
-                    value, component.either(factor_of(factor, k, s, second, before, constants))));
+                return term(component, value,
+                            component.either(factor_of(factor, k, s, second, before, constants)));
             };
             const Interval a = scaled(s[k], equation.source);
             const Interval b = scaled(before[k], equation.destination);
-            switch (equation.op) {
-                case BlendOp::subtract:
-                    result = {a.low - b.high, a.high - b.low};
-                    break;
-                case BlendOp::reverse_subtract:
-                    result = {b.low - a.high, b.high - a.low};
-                    break;
-                default:
-                    result = {a.low + b.low, a.high + b.high};
-                    break;
-            }
-            // Infinity times 0 and the difference of two infinities are NaN, and stay so.
-            const auto is_any = [&](const Color& color) {
-                return component.may_be_infinite(color[k]) || component.may_be_infinite(color[3]);
-            };
-            if (is_any(s) || is_any(before) || is_any(constants) ||
-                (component.may_be_infinite(a) && component.may_be_infinite(b))) {
-                out[k] = Component::anything();
-                continue;
-            }
+            result = sum(component, equation.op == BlendOp::reverse_subtract ? negated(a) : a,
+                         equation.op == BlendOp::subtract ? negated(b) : b);
         }
-        out[k] = Component::is_anything(before[k]) ? Component::anything()
-                                                   : component.stored(result, profile, true);
+        out[k] = Component::is_anything(before[k]) || Component::is_anything(result)
+                     ? Component::anything()
+                     : component.stored(result, profile, true);
     }
     return out;
 }

@@ -194,6 +194,33 @@ TEST(Blend, NothingIsKnownOfInfinity) {
               "r anything, g anything");
 }
 
+// A half that may have become infinity on the way: whichever of the factors it is, and where the
+// product alone overflows.
+TEST(Blend, NothingIsKnownOfAnInfiniteFactor) {
+    const Unit unit{ColorFormat::rg16_float, Profile::vulkan};
+    const Color source = color_of({0, 1, 0, 1}), before = color_of({0, 1, 0, 1});
+    cases::ColorOutput output;
+    output.blend = cases::Blend{{BlendFactor::src1_color, BlendFactor::zero, BlendOp::add}, {}};
+    output.blend->second = {70000, 0.5F, 0, 1};
+    EXPECT_EQ(unit.text_of(unit.write(output, source, before)), "r anything, g 0.5");
+    output.blend->color.source = BlendFactor::one_minus_src1_color;
+    EXPECT_EQ(unit.text_of(unit.write(output, source, before)), "r anything, g 0.5");
+    output.blend->color.source = BlendFactor::src1_alpha;  // 1: the red one does not take part
+    EXPECT_EQ(unit.text_of(unit.write(output, source, before)), "r 0, g 1");
+    output.blend->second.w = 70000;
+    EXPECT_EQ(unit.text_of(unit.write(output, source, before)), "r anything, g anything");
+    // 2 * 60000 - 60000 is 60000, or 65504 - 60000, or infinity.
+    output.blend->color = {BlendFactor::constant_color, BlendFactor::one, BlendOp::subtract};
+    output.blend->constants = {2, 1, 1, 1};
+    const Color large = color_of({60000, 60000, 0, 1});
+    const Color difference = unit.write(output, large, large);
+    EXPECT_EQ(unit.text_of(difference), "r 5504 to 120000, g 0");
+    EXPECT_TRUE(unit.allows(difference, {0x7c00, 0, 0, 0}));   // infinity
+    EXPECT_FALSE(unit.allows(difference, {0xfc00, 0, 0, 0}));  // minus infinity
+    output.blend->color.op = BlendOp::reverse_subtract;
+    EXPECT_TRUE(unit.allows(unit.write(output, large, large), {0xfc00, 0, 0, 0}));
+}
+
 // By hand: 1/4 * 1/2 + 3/4 * (1 - 1/8) and so on, exact in binary32.
 TEST(Blend, SecondSource) {
     const Unit unit{ColorFormat::rgba32_float, Profile::vulkan};
