@@ -272,6 +272,14 @@ std::optional<Door> find_door(std::string_view word) {
     return std::nullopt;
 }
 
+std::vector<std::string> door_words() {
+    std::vector<std::string> words;
+    for (const DoorRow& row : kRows) {
+        words.emplace_back(row.word);
+    }
+    return words;
+}
+
 bool can_take(Door door, const Case& c) {
     return !c.blit && any_draw(c, [](const Draw& draw) { return !draw.positions.empty(); }) &&
            row_of(door).can_take(c);

@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "cases/base/fields.hpp"
 
@@ -91,6 +92,7 @@ struct DoorRow {
 std::span<const DoorRow> all_doors();
 const DoorRow& row_of(Door door);
 std::optional<Door> find_door(std::string_view word);
+std::vector<std::string> door_words();  // of all doors, in their order
 
 // Whether the case can go through the door; a case without draws goes through none.
 bool can_take(Door door, const Case& c);

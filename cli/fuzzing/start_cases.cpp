@@ -36,28 +36,39 @@ File read(const std::string& name) {
     return file;
 }
 
-}  // namespace
+// Of the selected cases, by the names of the files.
+std::map<std::string, File> read_files(const LoadedSuite& suite) {
+    std::map<std::string, File> files;
+    for (const size_t k : suite.selected) {
+        const std::string& name = suite.cases[k].where.file;
+        if (!files.contains(name)) {
+            files.emplace(name, read(name));
+        }
+    }
+    return files;
+}
 
-cases::Errors check_open_values(const LoadedSuite& suite) {
-    std::map<std::string, std::vector<fuzz::Start>> by_file;
+cases::Errors check_open_values(const LoadedSuite& suite,
+                                const std::map<std::string, File>& files) {
+    std::map<std::string, std::vector<fuzz::Start>> open;
     for (const size_t k : suite.selected) {
         const cases::Case& c = suite.cases[k];
-        const auto [leaves, is_fresh] = by_file.try_emplace(c.where.file);
-        const auto open = is_fresh                 ? read(c.where.file).open
-                          : leaves->second.empty() ? nullptr
-                                                   : leaves->second.front().open;
-        if (open) {
-            leaves->second.push_back({c, open});
+        if (const File& file = files.at(c.where.file); file.open) {
+            open[c.where.file].push_back({c, file.open});
         }
     }
     cases::Errors errors;
-    for (const auto& [file, leaves] : by_file) {
-        if (!leaves.empty()) {
-            const cases::Errors more = fuzz::check_open_values(leaves);
-            errors.insert(errors.end(), more.begin(), more.end());
-        }
+    for (const auto& [file, leaves] : open) {
+        const cases::Errors more = fuzz::check_open_values(leaves);
+        errors.insert(errors.end(), more.begin(), more.end());
     }
     return errors;
+}
+
+}  // namespace
+
+cases::Errors check_open_values(const LoadedSuite& suite) {
+    return check_open_values(suite, read_files(suite));
 }
 
 OrStop<StartCases> start_cases(const Program& program, const SuiteOptions& options, uint64_t seed) {
@@ -80,20 +91,17 @@ OrStop<StartCases> start_cases(const Program& program, const SuiteOptions& optio
     if (suite->selected.empty()) {
         return tl::unexpected(Stop{report::kExitNothingSelected, {"the selection is empty"}});
     }
-    if (const cases::Errors errors = check_open_values(*suite); !errors.empty()) {
+    const std::map<std::string, File> files = read_files(*suite);
+    if (const cases::Errors errors = check_open_values(*suite, files); !errors.empty()) {
         return tl::unexpected(invalid_files(errors));
     }
-    std::map<std::string, File> files;
     std::vector<fuzz::Start> starts;
     uint64_t hash = 0;
     for (const size_t k : suite->selected) {
         cases::Case& c = suite->cases[k];
-        const auto [file, is_fresh] = files.try_emplace(c.where.file);
-        if (is_fresh) {
-            file->second = read(c.where.file);
-        }
-        hash = cases::stable_hash(c.id + cases::hex(file->second.hash), hash);
-        starts.push_back({std::move(c), file->second.open});
+        const File& file = files.at(c.where.file);
+        hash = cases::stable_hash(c.id + cases::hex(file.hash), hash);
+        starts.push_back({std::move(c), file.open});
     }
     std::error_code none;
     out.suite = std::filesystem::absolute(suite->root, none).lexically_normal().string();

@@ -48,12 +48,9 @@ OrStop<cases::Door> named_door(const std::string& word, bool is_first) {
             "'{}' stands first or not at all, and behind it only '-NAME', a door to leave out",
             word));
     }
-    std::vector<std::string> known;
+    std::vector<std::string> known = cases::door_words();
     if (is_first) {
-        known.assign(std::begin(kSets), std::end(kSets));
-    }
-    for (const cases::DoorRow& row : cases::all_doors()) {
-        known.emplace_back(row.word);
+        known.insert(known.begin(), std::begin(kSets), std::end(kSets));
     }
     const std::string nearest = cases::nearest_name(word, known);
     return refuse(fmt::format("there is no door '{}'{}; 'edgecase doors' lists them", word,

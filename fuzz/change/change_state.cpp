@@ -305,11 +305,8 @@ Words add_relation(Document& document, Dice& dice) {
                      static_cast<double>(dice.between(1, 9))}));
     }
     if (word == "doors") {
-        std::vector<std::string_view> doors;
-        for (const cases::DoorRow& row : cases::all_doors()) {
-            doors.push_back(row.word);
-        }
-        const std::string_view door = any_of(doors, dice);
+        const std::span<const cases::DoorRow> rows = cases::all_doors();
+        const std::string_view door = rows[dice.below(rows.size())].word;
         relation = table();
         set(relation, word, list({text(std::string(door))}));
         set(document, "relations", list({std::move(relation)}));

@@ -74,26 +74,11 @@ std::string component(const Pose& pose, uint32_t k, Dice& dice) {
 // Those of one colour. Half of them are of the constants or saturated, which need each other's
 // numbers to show.
 std::string_view factor(Dice& dice) {
-    static constexpr std::array<std::string_view, 15> kFactors = {
-        "zero",
-        "one",
-        "src-color",
-        "one-minus-src-color",
-        "dst-color",
-        "one-minus-dst-color",
-        "src-alpha",
-        "one-minus-src-alpha",
-        "dst-alpha",
-        "one-minus-dst-alpha",
-        "constant-color",
-        "one-minus-constant-color",
-        "constant-alpha",
-        "one-minus-constant-alpha",
-        "src-alpha-saturate",
-    };
-    constexpr uint64_t kFirstRare = 10;
-    return kFactors[dice.one_in(3) ? kFirstRare + dice.below(kFactors.size() - kFirstRare)
-                                   : dice.below(kFactors.size())];
+    const auto& words = cases::kWords<cases::BlendFactor>;
+    constexpr auto kSecond = static_cast<uint64_t>(cases::BlendFactor::src1_color);
+    constexpr auto kFirstRare = static_cast<uint64_t>(cases::BlendFactor::constant_color);
+    return words[dice.one_in(3) ? kFirstRare + dice.below(kSecond - kFirstRare)
+                                : dice.below(kSecond)];
 }
 
 std::string equation(Dice& dice) {

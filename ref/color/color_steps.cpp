@@ -155,7 +155,7 @@ std::vector<ColorStep> ColorReference::steps(size_t index, cases::SampleId id) {
         const color::Color left = unit_.write(output, exact, before);
         const bool has_logic = output.logic && color::takes_logic(unit_.format);
         std::string text = fmt::format("writes {}", source_text(unit_.format, source));
-        if (output.alpha_to_one && !cases::is_integer(unit_.format)) {
+        if (color::replaces_alpha(output, unit_.format)) {
             text += ", whose alpha becomes 1";
         }
         if (output.write_mask != 0xf) {

@@ -259,12 +259,8 @@ class Parser {
 
     void check_door(const std::string& name, const std::string& status) {
         if (!cases::find_door(name)) {
-            std::vector<std::string> known;
-            for (const cases::DoorRow& row : cases::all_doors()) {
-                known.emplace_back(row.word);
-            }
             fail("there is no door '" + name + "'" +
-                 cases::did_you_mean(name, known, "; 'edgecase doors' lists them"));
+                 cases::did_you_mean(name, cases::door_words(), "; 'edgecase doors' lists them"));
         } else if (status != "skip") {
             fail(
                 "a door can be left out as a whole by 'skip'; a failure through it is expected of "

@@ -130,13 +130,10 @@ std::string wrong_door(const FindingGroup& group, bool is_named) {
         return fmt::format("'{}' does not say of which door; write '{}=DOOR'", group.rule,
                            group.rule);
     }
-    std::vector<std::string> words;
-    for (const cases::DoorRow& row : cases::all_doors()) {
-        words.emplace_back(row.word);
-    }
     if (is_named && !cases::find_door(group.door)) {
-        return fmt::format("'{}' is no door{}", group.door,
-                           cases::did_you_mean(group.door, words, "; 'edgecase doors' lists them"));
+        return fmt::format(
+            "'{}' is no door{}", group.door,
+            cases::did_you_mean(group.door, cases::door_words(), "; 'edgecase doors' lists them"));
     }
     if (is_named) {
         const std::string_view rule = cases::row_of(*cases::find_door(group.door)).rule;
