@@ -26,6 +26,7 @@ using ref::color::Component;
 constexpr double kHalfStep = 0x1p-10;  // of binary16, relative; 2^-24 below 2^-14
 constexpr double kHalfSmallest = 0x1p-24;
 constexpr double kFloatStep = 0x1p-23;
+constexpr double kFloatNormal = 0x1p-126;  // the smallest normal number
 
 // What samples are averaged as: UNORM and integers by their code, floating point by its value.
 double number_of(const Component& component, uint32_t code) {
@@ -44,6 +45,9 @@ struct Range {
 // magnitude, and its rounding (even by truncation) errs by k * M * 2^-23 at most. The sum over
 // k = 2..n over n is below M * 2^-23 * (n + 1) / 2; half a step more for the terms of second
 // order. Storing binary16 adds a step of M. The same sum may leave min..max, so it widens that too.
+// A denormal number may become 0 wherever one appears: the n samples together, the n - 1 partial
+// sums and the mean move it by less than 2^-126 each (NVIDIA's resolve takes the mean of 0 and
+// 2^-126 for 0).
 Range range_of(const std::vector<double>& samples, ComponentKind kind, Profile profile) {
     const auto [least, greatest] = std::minmax_element(samples.begin(), samples.end());
     const auto n = static_cast<double>(samples.size());
@@ -56,7 +60,7 @@ Range range_of(const std::vector<double>& samples, ComponentKind kind, Profile p
         const double magnitude = std::max(std::abs(*least), std::abs(*greatest));
         const double storing =
             kind == ComponentKind::half ? std::max(magnitude * kHalfStep, kHalfSmallest) : 0;
-        const double error = magnitude * kFloatStep * (n + 2) / 2 + storing;
+        const double error = magnitude * kFloatStep * (n + 2) / 2 + storing + 3 * kFloatNormal;
         return profile == Profile::vulkan ? Range{*least - error, *greatest + error}
                                           : Range{mean - error, mean + error};
     }

@@ -24,9 +24,15 @@ bool is_axis_aligned(const std::array<glm::vec4, 3>& clip, EdgeLabel edge) {
            rational(a.y) * rational(b.w) == rational(b.y) * rational(a.w);
 }
 
+bool is_before_eye(const std::array<glm::vec4, 3>& clip, EdgeLabel edge) {
+    return clip[edge].w > 0 && clip[(edge + 1U) % 3U].w > 0;
+}
+
 // Whether a cut vertex lies where an edge of the triangle, or a depth plane's, meets the border of
 // the viewport: a device with a guard band has no vertex there, only an edge that runs across. An
-// axis-aligned edge is snapped to the same coordinate wherever it is cut.
+// axis-aligned edge between two vertices before the eye is snapped to the same coordinate wherever
+// it is cut. One that passes through the eye's plane is not: far outside, w is the small difference
+// of two numbers, whose rounding errors the division by it makes as large as subpixels.
 bool is_crossing(const std::array<glm::vec4, 3>& clip, EdgeLabel in, EdgeLabel out) {
     constexpr EdgeLabel kFirstDepthEdge = kFirstClipEdge + static_cast<EdgeLabel>(ClipPlane::z_low);
     const auto is_border = [](EdgeLabel e) { return e >= kFirstClipEdge && e < kFirstDepthEdge; };
@@ -34,7 +40,7 @@ bool is_crossing(const std::array<glm::vec4, 3>& clip, EdgeLabel in, EdgeLabel o
         return false;
     }
     const EdgeLabel line = is_border(in) ? out : in;
-    return line >= kFirstDepthEdge || !is_axis_aligned(clip, line);
+    return line >= kFirstDepthEdge || !is_before_eye(clip, line) || !is_axis_aligned(clip, line);
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ void add_depth_tested(const OutlineSource& s, TriangleSetup& t, AreaSigns& signs
                                   s.volume.all().end());
     for (const bool is_cut_by_borders : {false, true}) {
         if (is_cut_by_borders) {
-            const auto borders = s.volume.all().first(4);
+            const auto borders = s.volume.borders();
             if (is_inside(s.input, borders)) {
                 return;
             }
@@ -227,7 +227,7 @@ void set_up_outlines(const OutlineSource& s, bool is_told, TriangleSetup& t) {
         t.clipped = std::make_shared<Outline>();
     }
     if (t.is_clipped && is_in_range) {
-        if (!is_inside(s.input, s.volume.all().first(4))) {  // it leaves the viewport
+        if (!is_inside(s.input, s.volume.borders())) {  // it leaves the viewport
             is_defined = outline_by(s, s.volume.all(), *t.clipped);
         } else {
             is_defined = t.has_outline;  // the borders cut nothing: the same polygon

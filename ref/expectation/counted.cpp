@@ -22,7 +22,10 @@ void add_counted(Expectation& out, const cases::Case& c, std::span<const Hit> hi
         const uint32_t draw = out.triangles[hits[k].triangle].draw;
         const bool is_new =
             out.counted.size() == sample.counted_begin || out.counted.back().draw != draw;
-        CountedDraw& counted = is_new ? out.counted.emplace_back(draw) : out.counted.back();
+        if (is_new) {
+            out.counted.push_back({draw});
+        }
+        CountedDraw& counted = out.counted.back();
         const bool is_sure =
             !fate.fails && !fate.fails_depth && !fate.fails_bounds && !fate.is_absent;
         counted.shown_least += is_sure && !fate.is_discarded ? 1 : 0;

@@ -48,6 +48,7 @@ struct ClipVolume {
 
     std::span<const ClipPlane> all() const { return {planes.data(), count}; }
     std::span<const ClipPlane> view() const { return {planes.data(), view_count}; }
+    std::span<const ClipPlane> borders() const { return view().first(4); }
     // Are the planes without the borders, by which a device with a guard band cuts.
     std::span<const ClipPlane> without_borders() const { return all().subspan(4); }
     std::span<const ClipPlane> depth() const { return view().subspan(4); }

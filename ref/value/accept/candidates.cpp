@@ -273,6 +273,18 @@ std::vector<Range<T>> hulls_of(const Primitive& primitive, const std::vector<Pla
     return out;
 }
 
+bool has_border_between_pixels(const cases::Viewport& v) {
+    const auto is_between = [](double at) { return std::floor(at) < at; };
+    const double x = v.x;
+    const double y = v.y;
+    return is_between(x) || is_between(y) || is_between(x + static_cast<double>(v.width)) ||
+           is_between(y + static_cast<double>(v.height));
+}
+
+bool is_before_eye(const Primitive& primitive) {
+    return std::ranges::all_of(primitive.clip, [](const glm::vec4& v) { return v.w > 0; });
+}
+
 // Nothing if T cannot tell an orientation.
 template <class T>
 std::optional<CandidateSet<T>> try_candidates(const Primitive& primitive,
@@ -290,20 +302,36 @@ std::optional<CandidateSet<T>> try_candidates(const Primitive& primitive,
     const std::vector<PlaneInput<T>> inputs = plane_inputs<T>(primitive, quantities);
     const Vertices<T> ideal = ideal_vertices<T>(primitive);
     const double roundoff = profile == cases::Profile::vulkan ? kVulkanRoundoff : kUnitRoundoff;
-    std::vector<PieceVertex<T>> polygon;
+    std::vector<PieceVertex<T>> polygon, guarded;
     const ClipVolume volume = clip_volume_of(*primitive.draw);
+    const ClipInput input(*primitive.draw, primitive.triangle.vertex);
     if (primitive.needs_clipping) {
         polygon = piece_vertices(primitive, inputs, ideal, roundoff, volume.all());
+        if (getenv("NOG") == nullptr && !is_inside(input, volume.borders()) &&
+            !is_inside(input, volume.without_borders())) {
+            guarded = piece_vertices(primitive, inputs, ideal, roundoff, volume.without_borders());
+            for (PieceVertex<T>& p : guarded) {
+                // Where a cut lies that is off by more, far outside and near w = 0, position and
+                // values are off together, which bounds of each by itself do not show: they would
+                // accept nearly anything. The corners in the view stand for such a piece.
+                p.is_bounded = p.is_bounded && is_at_most(p.ex, set.margin) == Answer::yes &&
+                               is_at_most(p.ey, set.margin) == Answer::yes;
+            }
+        }
     }
-    if (primitive.needs_clipping && volume.has_user_planes()) {
-        // A clip distance may pass a sample that lies a little beyond the polygon it cuts.
-        const ClipInput input(*primitive.draw, primitive.triangle.vertex);
-        const bool leaves_view = !is_inside(input, volume.view());
-        set.hulls =
-            hulls_of(primitive, inputs, quantities,
-                     leaves_view ? piece_vertices(primitive, inputs, ideal, roundoff, volume.view())
-                                 : std::vector<PieceVertex<T>>{},
-                     roundoff);
+    // A clip distance may pass a sample that lies a little beyond the polygon it cuts, and a device
+    // with a guard band one beyond a border between two pixels.
+    const bool is_free_of_borders = primitive.needs_clipping &&
+                                    has_border_between_pixels(primitive.draw->viewport) &&
+                                    is_before_eye(primitive);
+    if (primitive.needs_clipping && (volume.has_user_planes() || is_free_of_borders)) {
+        const std::span<const ClipPlane> planes =
+            is_free_of_borders ? volume.depth() : volume.view();
+        set.hulls = hulls_of(primitive, inputs, quantities,
+                             is_inside(input, planes)
+                                 ? std::vector<PieceVertex<T>>{}
+                                 : piece_vertices(primitive, inputs, ideal, roundoff, planes),
+                             roundoff);
     } else {
         set.hulls = hulls_of(primitive, inputs, quantities, polygon, roundoff);
     }
@@ -330,7 +358,9 @@ std::optional<CandidateSet<T>> try_candidates(const Primitive& primitive,
             set.candidates.push_back({ref::BasisKind::clipped_piece, {}, true, false});
         } else if (has_area) {
             is_known = is_known && add_pieces(inputs, polygon, T{}, true, set) &&
-                       add_pieces(inputs, polygon, set.margin, false, set);
+                       add_pieces(inputs, polygon, set.margin, false, set) &&
+                       add_pieces(inputs, guarded, T{}, false, set) &&
+                       add_pieces(inputs, guarded, set.margin, false, set);
         }
     }
     const bool may_gain_area =

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "ref/value/fragment/shading_rate.hpp"
+
 namespace ref::value {
 
 namespace {
@@ -179,8 +181,10 @@ class Prober {
         const cases::Auxiliary auxiliary = place_.draw->attributes[q.id.attribute].auxiliary;
         if (place_.target->samples > 1 && auxiliary == cases::Auxiliary::sample) {
             points = {where_.sample};  // the same sample of each pixel
-        } else if (place_.target->samples > 1 && auxiliary == cases::Auxiliary::centroid) {
-            // Anywhere in each pixel.
+        } else if (place_.target->samples > 1 &&
+                   (auxiliary == cases::Auxiliary::centroid || shades_some_samples())) {
+            // Anywhere in each pixel: an invocation that stands for several samples may be at any
+            // of them that its triangle covers, and those beside it at others.
             points = {{T(x), T(y)}, {T(x + 1), T(y)}, {T(x + 1), T(y + 1)}, {T(x), T(y + 1)}};
         }
         for (Point<T>& p : points) {
@@ -232,6 +236,10 @@ class Prober {
             }
         }
         return out;
+    }
+
+    bool shades_some_samples() const {
+        return shading_rate(*place_.draw, place_.target->samples) == ShadingRate::some;
     }
 
     static Result fit(const Accepted<T>& accepted, double device) {

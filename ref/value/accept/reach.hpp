@@ -145,10 +145,9 @@ void add_value(const CandidateSet<T>& set, const Quantity& q, const Valued<T>& v
     out.note(device, nearest_double(least), nearest_double(v.budget));
     out.note(device, nearest_double(most), nearest_double(v.budget));
     // Adding the bias is one more rounding.
-    const T sum =
-        bias ? T(set.factor * T(kUnitRoundoff) * larger(magnitude(least), magnitude(most))) : T{};
-    const T low = least - v.reach - sum;
-    const T high = most + v.reach + sum;
+    const T rounding = bias ? T(set.factor * T(kUnitRoundoff)) : T{};
+    const T low = least - v.reach - rounding * magnitude(least);
+    const T high = most + v.reach + rounding * magnitude(most);
     if (is_depth(q) && set.any_of_all && !set.depth.is_clamped) {
         // Vulkan: depth outside of the viewport's range is undefined unless it is clamped.
         const Answer beyond =

@@ -61,8 +61,10 @@ CandidateSet<Ball> rounded(const CandidateSet<mpq_class>& exact) {
     set.factor = tight_ball(exact.factor);
     set.margin = tight_ball(exact.margin);
     set.least_inv_w = tight_ball(exact.least_inv_w);
-    set.depth = {exact.depth.format,      exact.depth.bias,          exact.depth.is_clamped,
-                 exact.depth.is_max_norm, rounded(exact.depth.unit), exact.depth.viewport};
+    set.depth = {exact.depth.format,        exact.depth.bias,
+                 exact.depth.is_clamped,    exact.depth.is_max_norm,
+                 rounded(exact.depth.unit), tight_ball(exact.depth.nominal_unit),
+                 exact.depth.viewport};
     set.any_of_all = exact.any_of_all;
     return set;
 }

@@ -27,6 +27,16 @@ struct Largest {
     }
 };
 
+// Above all depths of a primitive whose range of z has no end.
+constexpr double kEndless = 0x1p127;
+
+// Whether z_f has no bound on the triangle: a vertex is behind the eye, so that w passes through 0,
+// and no depth plane cuts before.
+bool is_endless(const Primitive& primitive) {
+    return clip_volume_of(*primitive.draw).depth().empty() &&
+           std::ranges::any_of(primitive.clip, [](const glm::vec4& v) { return !(v.w > 0); });
+}
+
 // Those of the vertices, of those of the clipped polygon, and of either after depth clamp. z_f of a
 // vertex is off by at most five roundings (quantities.cpp) of terms up to 1; relative to the
 // largest z that may be a few more when near and far cancel, and 16 leaves room. It is not off at
@@ -104,15 +114,18 @@ double constant_unit(cases::DepthFormat format) {
     return format == cases::DepthFormat::d16_unorm ? 0x1p-16 : 0x1p-24;
 }
 
+// r, and in `nominal` what it is where vertices and clipped polygon agree.
 template <class T>
-Range<T> unit_of(const Primitive& primitive, cases::Profile profile) {
+Range<T> unit_of(const Primitive& primitive, cases::Profile profile, T& nominal) {
     const cases::DepthFormat format = primitive.depth_format;
     const cases::DepthBias& bias = *primitive.draw->depth.bias;
     if (bias.representation == cases::DepthBiasRepresentation::floating) {
+        nominal = T(1.0);
         return {T(1.0), T(1.0)};
     }
     if (has_constant_unit(format, bias)) {
         const double least = constant_unit(format);
+        nominal = T(least);
         return bias.is_exact ? Range<T>{T(least), T(least)} : Range<T>{T(0.0), T(2 * least)};
     }
     mpq_class least, most;
@@ -122,7 +135,10 @@ Range<T> unit_of(const Primitive& primitive, cases::Profile profile) {
         most = std::max<mpq_class>(most, largest.most);
         is_first = false;
     }
-    return {T(least == 0 ? 0.0 : unit_at(least)), T(unit_at(most))};
+    // "the range of z values spanned by the primitive": of the triangle as it is, that has no end.
+    const double high = is_endless(primitive) ? unit_at(kEndless) : unit_at(most);
+    nominal = T(unit_at(most));
+    return {T(least == 0 ? 0.0 : unit_at(least)), T(high)};
 }
 
 // A bound from above on the square root.
@@ -181,7 +197,7 @@ DepthPath<T> make_depth_path(const Primitive& primitive, cases::Profile profile)
     path.viewport = {static_cast<double>(std::min(v.min_depth, v.max_depth)),
                      static_cast<double>(std::max(v.min_depth, v.max_depth))};
     if (path.bias) {
-        path.unit = unit_of<T>(primitive, profile);
+        path.unit = unit_of<T>(primitive, profile, path.nominal_unit);
     }
     return path;
 }
@@ -200,10 +216,11 @@ Range<T> bias_of(const DepthPath<T>& path, const Basis<T>& basis, const T& facto
                               : T(root_above(T(high_x * high_x + high_y * high_y)));
     const Range<T> sloped = times(path.bias->slope, m);
     const Range<T> constant = times(path.bias->constant, path.unit);
-    const T size = larger(magnitude(sloped.low), magnitude(sloped.high)) +
-                   larger(magnitude(constant.low), magnitude(constant.high));
-    const T rounding = factor * T(kBiasRoundings * kUnitRoundoff) * size;
-    Range<T> o{T(sloped.low + constant.low - rounding), T(sloped.high + constant.high + rounding)};
+    // s - k |s| grows with s for k < 1, so that the least sum is off by its own roundings.
+    const T k = factor * T(kBiasRoundings * kUnitRoundoff);
+    Range<T> o{
+        T(sloped.low + constant.low - k * (magnitude(sloped.low) + magnitude(constant.low))),
+        T(sloped.high + constant.high + k * (magnitude(sloped.high) + magnitude(constant.high)))};
     const T clamp(static_cast<double>(path.bias->clamp));
     if (path.bias->clamp > 0) {
         o = {smaller(o.low, clamp), smaller(o.high, clamp)};
@@ -219,10 +236,8 @@ mpq_class nominal_bias(const DepthPath<mpq_class>& path, const Basis<mpq_class>&
     }
     const Form<mpq_class>& form = basis.planes[kPlaneDepth].form;
     const mpq_class m = larger(magnitude(form.x), magnitude(form.y));
-    const mpq_class r = has_constant_unit(path.format, *path.bias)
-                            ? mpq_class(constant_unit(path.format))
-                            : path.unit.high;
-    const mpq_class o = m * rational(path.bias->slope) + r * rational(path.bias->constant);
+    const mpq_class o =
+        m * rational(path.bias->slope) + path.nominal_unit * rational(path.bias->constant);
     const mpq_class clamp = rational(path.bias->clamp);
     return clamp > 0 ? smaller(o, clamp) : clamp < 0 ? larger(o, clamp) : o;
 }

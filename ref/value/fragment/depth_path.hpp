@@ -35,6 +35,7 @@ struct DepthPath {
     bool is_clamped = false;  // depthClampEnable
     bool is_max_norm = true;  // m = max(|zx|, |zy|); otherwise anything up to the Euclidean norm
     Range<T> unit;            // r
+    T nominal_unit{};         // of r, what a report tells
     Range<double> viewport;   // its depths, low <= high
 };
 

@@ -176,6 +176,21 @@ TEST(Resolve, AverageOfFloatsWithinTheBoundOfTheSum) {
     EXPECT_EQ(give(std::numeric_limits<float>::quiet_NaN()), 1U);
 }
 
+// The mean of 0 and the smallest normal number is a denormal one, which may become 0; nothing more
+// may be lost.
+TEST(Resolve, ADenormalAverageMayBecomeZero) {
+    capture::Capture c =
+        colored(ColorFormat::r32_float, Resolve::average, {0, std::bit_cast<uint32_t>(0x1p-126F)});
+    const auto give = [&](float got) {
+        c.resolved_color[0][0] = std::bit_cast<uint32_t>(got);
+        return judge(c).size();
+    };
+    EXPECT_EQ(give(0), 0U);
+    EXPECT_EQ(give(0x1p-127F), 0U);
+    EXPECT_EQ(give(0x1p-123F), 1U);
+    EXPECT_EQ(give(-0x1p-124F), 1U);
+}
+
 TEST(Resolve, NothingIsKnownOfASumWithInfinity) {
     constexpr uint32_t kInfinity = 0x7f800000, kMinusInfinity = 0xff800000, kOne = 0x3f800000;
     EXPECT_TRUE(
