@@ -12,8 +12,10 @@ if(EDGECASE_SANITIZE)
     foreach(room ref diff)
         set(EDGECASE_OPTIMISE_${room} -O1)
     endforeach()
-    # GCC's manual: instrumentation makes this warning report false positives (12.2 does, in <regex>).
-    target_compile_options(edgecase_warnings INTERFACE -Wno-maybe-uninitialized)
+    # GCC's manual: instrumentation makes this warning report false positives (12.2 does, in <regex>). Clang lacks it.
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+        target_compile_options(edgecase_warnings INTERFACE -Wno-maybe-uninitialized)
+    endif()
     add_compile_options(-fsanitize=${EDGECASE_SANITIZE} -fno-omit-frame-pointer)
     if(EDGECASE_SANITIZE MATCHES "undefined")
         # What -fsanitize=address sees anyway, as memory that is not there, costs two thirds of the compile time.

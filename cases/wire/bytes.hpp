@@ -32,7 +32,7 @@ class Writer {
             T::fields(
                 [this](const Field& field, const auto& member) {
                     if (!field.has(kNotOnWire)) {
-                        put(member);
+                        this->put(member);
                     }
                 },
                 value);
