@@ -73,13 +73,19 @@ void measure_unorm(const Bench& bench, ColorFormat format) {
     if (!picture) {
         return;
     }
+    const double finer = (largest + 1) * 16;
+    const auto cut = [&](float v) {
+        return static_cast<float>(std::floor(static_cast<double>(v) * finer) / finer);
+    };
     Vote vote({"floating point, rounded once", "the format's codes, the product to nearest",
-               "the format's codes, the product down"});
+               "the format's codes, the product down",
+               "the format's codes of a source cut to 4 bits more, the product to nearest"});
     for_each_square(*picture, pairs.size(), [&](size_t k, size_t at) {
         const double code = picture->color[at][0];
-        const std::array<double, 3> codes{std::round(exact(pairs[k])),
-                                          std::round(in_codes(pairs[k])),
-                                          std::floor(in_codes(pairs[k]))};
+        const std::array<double, 4> codes{
+            std::round(exact(pairs[k])), std::round(in_codes(pairs[k])),
+            std::floor(in_codes(pairs[k])),
+            std::round(in_codes({cut(pairs[k].color), cut(pairs[k].alpha)}))};
         vote.add([&](size_t n) { return std::fabs(codes.at(n) - code) < 0.5; });
     });
     bench.add(std::move(property), vote);

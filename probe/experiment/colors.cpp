@@ -73,17 +73,30 @@ void measure_unorm(const Bench& bench, ColorFormat format) {
         "largest code is half-way in binary32";
     const double largest = std::ldexp(1.0, cases::row_of(format).bits[0]) - 1;
     const std::vector<float> numbers = between_codes(largest);
-    Vote vote(
-        {"nearest, ties up", "nearest, ties to even", "nearest, ties by the exact number", "down"});
+    std::vector<std::string> answers = {"nearest, ties up", "nearest, ties to even",
+                                        "nearest, ties down", "nearest, ties by the exact number",
+                                        "down"};
+    const uint32_t bits = cases::row_of(format).bits[0];
+    if (bits < 8) {  // twice: ties of the 8 bits up, and down
+        answers.resize(answers.size() + 2, "to 8 bits, of which the low ones are cut off");
+    }
+    Vote vote(answers);
     const bool is_drawn = for_each_code(
         bench, make_scene(property.id, format, numbers), numbers.size(), property,
         [&](size_t k, uint32_t code) {
             const float scaled = numbers[k] * static_cast<float>(largest);
             const double exact = static_cast<double>(numbers[k]) * largest;  // fits binary64
-            const std::array<double, 4> codes{std::floor(static_cast<double>(scaled) + 0.5),
+            const auto eight = static_cast<double>(numbers[k] * 255.0F);
+            const auto high_bits = [&](double of_eight) {
+                return std::floor(std::ldexp(of_eight, static_cast<int>(bits) - 8));
+            };
+            const std::array<double, 7> codes{std::floor(static_cast<double>(scaled) + 0.5),
                                               std::nearbyint(static_cast<double>(scaled)),
+                                              std::ceil(static_cast<double>(scaled) - 0.5),
                                               std::floor(exact + 0.5),
-                                              std::floor(static_cast<double>(scaled))};
+                                              std::floor(static_cast<double>(scaled)),
+                                              high_bits(std::floor(eight + 0.5)),
+                                              high_bits(std::ceil(eight - 0.5))};
             vote.add(
                 [&](size_t n) { return std::fabs(codes.at(n) - static_cast<double>(code)) < 0.5; });
         });

@@ -15,9 +15,10 @@ namespace {
                                   depth_has_other_basis, clip, piece_planes, tests_distances,
                                   tests_depth, fused, reciprocal_w, centroid, inputs_follow_samples,
                                   corner_inputs, facing_unsnapped, odd_quads, viewport_bits,
-                                  keeps_viewport_grid, first_strip_order, unorm, blend, multiply,
-                                  half_toward_zero, resolve_truncates, srgb_resolved_encoded,
-                                  blit_edge, blit_steps, fault, place_x, place_y] = device;
+                                  keeps_viewport_grid, first_strip_order, unorm,
+                                  narrow_through_eight, blend, multiply, half_toward_zero,
+                                  resolve_truncates, srgb_resolved_encoded, blit_edge, blit_steps,
+                                  fault, place_x, place_y] = device;
 }
 
 template <auto Field>
@@ -70,8 +71,9 @@ const std::vector<Choice>& all_choices() {
          [](Device& d, size_t value) { d.viewport_bits = static_cast<int>(value); }},
         flag<&Device::keeps_viewport_grid>("keeps-viewport-grid"),
         flag<&Device::first_strip_order>("first-strip-order"),
-        {"unorm", {"nearest", "nearest-even", "down"}, set_word<&Device::unorm>},
-        {"blend", {"fixed", "binary32"}, set_word<&Device::blend>},
+        {"unorm", {"nearest", "nearest-even", "nearest-down", "down"}, set_word<&Device::unorm>},
+        flag<&Device::narrow_through_eight>("narrow-through-eight"),
+        {"blend", {"fixed", "binary32", "cut"}, set_word<&Device::blend>},
         {"multiply", {"divide", "shifts"}, set_word<&Device::multiply>},
         flag<&Device::half_toward_zero>("half-toward-zero"),
         flag<&Device::resolve_truncates>("resolve-truncates"),

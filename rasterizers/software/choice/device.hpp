@@ -35,11 +35,13 @@ enum class ClipMethod : uint8_t {
 // Where an input decorated with Centroid is evaluated in a pixel that is covered in part.
 enum class Centroid : uint8_t { first_sample, mean };  // Direct3D's; the mean of what is covered
 
-// How a number becomes a code of UNORM. Down is left to a device by Vulkan, not by Direct3D; sRGB
+// How a number becomes a code of UNORM; nearest_down: a number half-way between two takes the lower
+// one (NVIDIA's Hopper). Down is left to a device by Vulkan, not by Direct3D; sRGB
 // and what was blended in binary32 are rounded to nearest all the same.
-enum class UnormRounding : uint8_t { nearest, nearest_even, down };
-// What blends targets of 8 bits of fixed point; all others are blended in binary32.
-enum class BlendMath : uint8_t { fixed, binary32 };
+enum class UnormRounding : uint8_t { nearest, nearest_even, nearest_down, down };
+// What blends targets of 8 bits of fixed point; all others are blended in binary32. cut: in fixed
+// point, and the source is cut to a multiple of 2^-12 before it becomes a code (NVIDIA's Hopper).
+enum class BlendMath : uint8_t { fixed, binary32, cut };
 // A product of 8-bit numbers over 255: (x y + 127) / 255, or t = x y + 128, (t + (t >> 8)) >> 8.
 enum class FixedMultiply : uint8_t { divide, shifts };
 
@@ -72,6 +74,7 @@ struct Device {
     // Barycentrics of strips in the first convention's order, with the last convention, too.
     bool first_strip_order = false;
     UnormRounding unorm = UnormRounding::nearest;
+    bool narrow_through_eight = false;  // UNORM of fewer bits is the high bits of an 8-bit code
     BlendMath blend = BlendMath::fixed;
     FixedMultiply multiply = FixedMultiply::shifts;
     bool half_toward_zero = false;       // binary16 is rounded towards zero

@@ -86,13 +86,17 @@ glm::vec4 BlendUnit::blend(const cases::Blend& blend, const glm::vec4& source,
     return {out[0], out[1], out[2], out[3]};
 }
 
+float BlendUnit::source_of_blending(float v) const {
+    return device_.blend == BlendMath::cut ? std::floor(v * 4096.0F) / 4096.0F : v;
+}
+
 std::array<uint32_t, 4> BlendUnit::blend_fixed(const cases::Blend& blend,
                                                const std::array<uint32_t, 4>& source,
                                                const std::array<uint32_t, 4>& destination) const {
     Operands<FixedMath> o{source, {}, destination, {}};
     for (size_t k = 0; k < 4; ++k) {
-        o.second[k] =
-            store_channel(blend.second[static_cast<int>(k)], layout_.channels[k], device_);
+        o.second[k] = store_channel(source_of_blending(blend.second[static_cast<int>(k)]),
+                                    layout_.channels[k], device_);
         o.constants[k] =
             store_channel(blend.constants[static_cast<int>(k)], {Number::unorm, 8}, device_);
     }
@@ -135,10 +139,11 @@ Texel BlendUnit::write(const cases::ColorOutput& output, const glm::vec4& writte
                            ? store_channel(source[static_cast<int>(k)], channels[k], device_)
                            : 0;
         }
-    } else if (is_eight_bits && device_.blend == BlendMath::fixed) {
+    } else if (is_eight_bits && device_.blend != BlendMath::binary32) {
         std::array<uint32_t, 4> s{}, d{};
         for (size_t k = 0; k < 4; ++k) {
-            s[k] = store_channel(source[static_cast<int>(k)], channels[k], device_);
+            s[k] = store_channel(source_of_blending(source[static_cast<int>(k)]), channels[k],
+                                 device_);
             d[k] = before[layout_.position[k]];
         }
         if (device_.fault == Fault::blend_dst_alpha_one) {

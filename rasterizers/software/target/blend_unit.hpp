@@ -36,6 +36,8 @@ class BlendUnit {
     uint8_t mask_of(const cases::ColorOutput& output) const;
     // What the shader wrote, after alpha to one.
     glm::vec4 replaced(const cases::ColorOutput& output, const glm::vec4& written) const;
+    // A component of a source as blending in fixed point takes it.
+    float source_of_blending(float v) const;
     std::array<uint32_t, 4> blend_fixed(const cases::Blend& blend,
                                         const std::array<uint32_t, 4>& source,
                                         const std::array<uint32_t, 4>& destination) const;

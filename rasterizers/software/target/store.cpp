@@ -35,7 +35,7 @@ uint32_t to_code(float v, uint32_t bits, const Device& device) {
         return static_cast<uint32_t>(static_cast<int64_t>(whole)) & ((1U << bits) - 1);
     }
     v = to_unit(v);
-    if (device.fault == Fault::store_through_8_bits && bits < 8) {
+    if ((device.fault == Fault::store_through_8_bits || device.narrow_through_eight) && bits < 8) {
         const auto eight = static_cast<uint32_t>(v * 255.0F + 0.5F);
         return eight >> (8 - bits);
     }
@@ -51,6 +51,8 @@ uint32_t to_code(float v, uint32_t bits, const Device& device) {
             break;
         case UnormRounding::nearest_even:
             return static_cast<uint32_t>(std::nearbyint(scaled));
+        case UnormRounding::nearest_down:
+            return static_cast<uint32_t>(std::ceil(scaled - 0.5F));
         case UnormRounding::down:
             return static_cast<uint32_t>(scaled);
     }
