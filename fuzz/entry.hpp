@@ -31,7 +31,8 @@ struct Entry {
     std::vector<std::string> undrawn;  // "with 2 samples": simpler ones that the device cannot draw
     std::vector<std::string> passes;   // "with 2 samples in place of 4": other ones that pass
     std::string shown_first;           // what a run of the text leads with, if not with the symptom
-    bool is_reduced = true;            // false: the text is as it was drawn, and explains no other
+    std::string seen;        // "pixel (1, 0), sample 0: color: expected r 3, got r 2; why"
+    bool is_reduced = true;  // false: the text is as it was drawn, and explains no other
     bool is_minimal = false;
     bool is_known = false;    // from an earlier hunt, or from expectation files
     std::string bug;          // what an expectation file refers to

@@ -48,6 +48,7 @@ Json to_json(const Entry& entry) {
             {"undrawn", entry.undrawn},
             {"passes", entry.passes},
             {"bug", entry.bug},
+            {"seen", entry.seen},
             {"also", also_of(entry)}};
 }
 
@@ -85,6 +86,7 @@ Entry entry_of(const Json& json, const fs::path& folder) {
     entry.undrawn = json.value("undrawn", std::vector<std::string>());
     entry.passes = json.value("passes", std::vector<std::string>());
     entry.bug = json.value("bug", "");
+    entry.seen = json.value("seen", "");
     for (const Json& also : json.at("also")) {
         for (size_t k = 0; k < diff::kFindingKinds; ++k) {
             const auto kind = static_cast<diff::FindingKind>(k);
@@ -232,6 +234,9 @@ std::string found_text(const Entry& entry, const Ledger& ledger) {
                              entry.first_case, cases::printable(ledger.device))
                : fmt::format("# {}, known by an expectation file on {}: {}\n", text,
                              cases::printable(ledger.device), cases::printable(entry.bug));
+    if (!entry.seen.empty()) {
+        text += fmt::format("# Seen: {}.\n", cases::printable(entry.seen));
+    }
     if (!entry.shown_first.empty()) {
         text +=
             fmt::format("# A run of it tells first what it shows, too: {}.\n", entry.shown_first);

@@ -56,13 +56,13 @@ class Hunts(FuzzTest):
         self.assertIn("0 cases and 0 triangles judged in ", done.stdout)
 
     def test_causes_are_reduced_and_kept(self):
-        done = self.fuzz("--seed=3", "--cases=2560", check=1)
+        done = self.fuzz("--seed=6", "--cases=1536", check=1)
         ledger, found = self.ledger(), self.found()
         jsonschema.Draft7Validator(json.loads((SOURCE / "docs/schema/fuzz-1.json").read_text())).validate(ledger)
         self.assertTrue(ledger["is_finished"])
         self.assertEqual(ledger["unjudged_cases"], 0)
-        self.assertLess(ledger["judged_cases"] + ledger["unsupported_cases"] + ledger["empty_cases"], 2561)
-        self.assertGreater(ledger["judged_cases"], 1000)
+        self.assertLess(ledger["judged_cases"] + ledger["unsupported_cases"] + ledger["empty_cases"], 1537)
+        self.assertGreater(ledger["judged_cases"], 600)
         # lavapipe resolves depth by sample 0 where the average is asked (docs/findings/lavapipe-depth-average.md).
         average = [c for c in ledger["causes"] if c["essentials"] == ["depth_resolve=average", "several samples"]]
         self.assertTrue(average, done.stdout)
@@ -76,10 +76,10 @@ class Hunts(FuzzTest):
         for cause in ledger["causes"]:
             path = self.folder / "hunt" / cause["file"]
             text = path.read_text()
-            self.assertTrue(text.startswith(f"# {cause['symptom']}, found by 'edgecase fuzz --seed 3' in case "), text)
+            self.assertTrue(text.startswith(f"# {cause['symptom']}, found by 'edgecase fuzz --seed 6' in case "), text)
             self.assertTrue(cause["is_minimal"])
-            if "a suite wants one triangle more" in text:
-                self.assertIn("no sample must be covered", self.edgecase("lint", path, check=3).stderr)
+            if "a suite wants one more" in text:
+                self.assertIn("so a device that draws nothing would pass", self.edgecase("lint", path, check=3).stderr)
             else:
                 self.edgecase("lint", path, check=0)
         # Three times out of three, in fresh processes: all the files at once.
@@ -88,7 +88,7 @@ class Hunts(FuzzTest):
             self.assertEqual(set(self.statuses(self.folder / "run").values()), {"fail"})
             self.assertEqual(len(self.statuses(self.folder / "run")), len(found))
         # What is known is no news. (A few causes may be: the first hunt reduced a part of what failed.)
-        done = self.fuzz("--seed=3", "--cases=2624", "--known", self.folder / "hunt", out=self.folder / "again")
+        done = self.fuzz("--seed=6", "--cases=1600", "--known", self.folder / "hunt", out=self.folder / "again")
         known = {(c["symptom"], *c["essentials"]) for c in ledger["causes"]}
         again = self.ledger("again")["causes"]
         fresh = [c for c in again if not c["is_known"]]
@@ -119,7 +119,8 @@ class Hunts(FuzzTest):
         self.assertTrue(any("cover.outside" in name for name in found), found.keys())
         smallest = min(found.values(), key=len)
         self.assertEqual(smallest.count("[[draw]]"), 1)
-        self.assertLess(len(smallest), 420, smallest)
+        text = "".join(line for line in smallest.splitlines(True) if not line.startswith("#"))
+        self.assertLess(len(text), 320, smallest)
 
     def test_the_same_seed_finds_the_same(self):
         for folder in ("a", "b"):

@@ -8,6 +8,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/load/loader.hpp"
+#include "diff/color.hpp"
+#include "fuzz/ledger.hpp"
+#include "ref/expectation/expectation.hpp"
+
 namespace fuzz {
 namespace {
 
@@ -213,6 +218,54 @@ TEST(ReduceCase, EssentialIsWhatAnyLikeFailureNeeds) {
     EXPECT_THAT(entry->text, testing::HasSubstr("clamp = true"));
     EXPECT_EQ(to_text(entry->symptom), "value of depth.clamp [vulkan]");
     EXPECT_THAT(entry->essentials, testing::ElementsAre("several samples", "sloping depth"));
+}
+
+// The device may be out of reach when somebody reads the case.
+TEST(ReduceCase, TellsWhatTheDeviceLeft) {
+    const Draw draw = [](const std::vector<cases::Case>& all) {
+        std::vector<CaseRecord> records = draw_sample_depth(all);
+        for (CaseRecord& record : records) {
+            for (const auto& group : record.groups) {
+                record.findings.push_back({group.kind, group.rule, group.level, 3, 1, 2, "depth",
+                                           "0.5", "0.75", "it is another sample's"});
+            }
+        }
+        return records;
+    };
+    const Symptom symptom = *parse_symptom("value of depth.clamp [vulkan]");
+    const auto entry = reduce_case(kClamped, symptom, draw, 400);
+    ASSERT_TRUE(entry);
+    EXPECT_EQ(entry->seen,
+              "pixel (3, 1), sample 2: depth: expected 0.5, got 0.75; it is another sample's");
+    Ledger ledger;
+    EXPECT_THAT(found_text(*entry, ledger),
+                testing::HasSubstr("\n# Seen: pixel (3, 1), sample 2: depth: expected 0.5, "
+                                   "got 0.75; it is another sample's.\n"));
+}
+
+// A picture of colours alone, in which every sample may keep the clear colour, proves nothing.
+TEST(ReduceCase, KeepsATriangleThatIsSeen) {
+    const std::string text =
+        "format = 1\ndescription = \"D\"\nrules = [\"cover.inside\"]\n[target]\nsize = [4, 4]\n"
+        "attachments = \"color\"\n[target.color]\nformat = \"rgba8-unorm\"\n[[draw]]\n"
+        "vertices = [[0, 0], [8, 0], [0, 8]]\ncolor = { value = [1, 1, 1, 1] }\n";
+    const Draw fails = [](const std::vector<cases::Case>& all) {
+        std::vector<CaseRecord> records(all.size());
+        for (CaseRecord& record : records) {
+            record.status = Status::fail;
+            record.groups = {{diff::FindingKind::value, "store.unorm", Profile::vulkan, 1, 0}};
+        }
+        return records;
+    };
+    const auto entry =
+        reduce_case(text, *parse_symptom("value of store.unorm [vulkan]"), fails, 400);
+    ASSERT_TRUE(entry);
+    const auto loaded = cases::load_text(entry->text, "reduced.toml", "reduced");
+    ASSERT_TRUE(loaded) << entry->text;
+    const cases::Case& c = loaded->front();
+    EXPECT_TRUE(c.target.has_instruments ||
+                !diff::may_stay_clear(c, ref::expect(c, ref::Limits{}, Profile::vulkan)))
+        << entry->text;
 }
 
 // The same, but a depth that is not clamped breaks Direct3D's rules only.
