@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// OpenGL without a window or a screen: EGL on the surfaceless platform.
+// OpenGL without a window or a screen: EGL on the surfaceless platform, or, where that lacks, on
+// the first device that EGL lists (NVIDIA's driver).
 #pragma once
 
 #include <EGL/egl.h>
@@ -34,14 +35,25 @@ class Context {
     Context() {
         const auto get_display =
             extension_function<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
-        const EGLDisplay display =
-            get_display == nullptr
-                ? EGL_NO_DISPLAY
-                : get_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-        if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) == EGL_FALSE) {
+        const auto query_devices =
+            extension_function<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
+        EGLDisplay display = get_display == nullptr ? EGL_NO_DISPLAY
+                                                    : get_display(EGL_PLATFORM_SURFACELESS_MESA,
+                                                                  EGL_DEFAULT_DISPLAY, nullptr);
+        bool is_ready =
+            display != EGL_NO_DISPLAY && eglInitialize(display, nullptr, nullptr) == EGL_TRUE;
+        EGLDeviceEXT device = nullptr;
+        EGLint devices = 0;
+        if (!is_ready && get_display != nullptr && query_devices != nullptr &&
+            query_devices(1, &device, &devices) == EGL_TRUE && devices == 1) {
+            display = get_display(EGL_PLATFORM_DEVICE_EXT, device, nullptr);
+            is_ready =
+                display != EGL_NO_DISPLAY && eglInitialize(display, nullptr, nullptr) == EGL_TRUE;
+        }
+        if (!is_ready) {
             fail(
-                "EGL has no surfaceless platform: install libegl1, libegl-mesa0 and "
-                "libgl1-mesa-dri");
+                "EGL has neither a surfaceless platform nor a device: install libegl1, "
+                "libegl-mesa0 and libgl1-mesa-dri, or the EGL of your driver");
         }
         eglBindAPI(EGL_OPENGL_API);
         // The newest version wins; 3.3 with extensions has most of what the cases need.
