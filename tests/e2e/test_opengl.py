@@ -71,7 +71,8 @@ class Judged(ProgramTest):
     def test_without_egl(self):
         done = self.judge("softpipe", "ties/**", env={"__EGL_VENDOR_LIBRARY_DIRS": str(self.folder)})
         self.assertEqual(done.returncode, 5)
-        self.assertEqual(done.stderr, "error: EGL has no surfaceless platform: install libegl1, libegl-mesa0 and libgl1-mesa-dri\n")
+        self.assertEqual(done.stderr, "error: EGL has neither a surfaceless platform nor a device: install libegl1, "
+                         "libegl-mesa0 and libgl1-mesa-dri, or the EGL of your driver\n")
 
     def test_wrong_words(self):
         for words in (["only-one"], ["a", "b", "--half"], ["a", "b", "c"]):
