@@ -269,5 +269,56 @@ class OneJob(Jobs):
         self.assertIn("\0libvulkan.so.1\0", pathlib.Path(PROGRAM).read_bytes().decode("latin-1"))
 
 
+
+class Nightly(CiTest):
+    """.ci/nightly and the workflow of this project that runs its parts; what they call is made up."""
+
+    RUNS = {
+        "parsers": ["install-packages scripts/packages.txt scripts/packages-tests.txt scripts/packages-fuzz.txt", "fuzz 300"],
+        "doors": ["install-packages scripts/packages.txt", "build release edgecase", "edgecase run --doors all -o out/doors"],
+        "tests": ["run-tests --all of 0/1 1/1"],
+        "hunt": ["install-packages scripts/packages.txt", "build release edgecase",
+                 "edgecase fuzz --time 20m --seed DAY -o out/hunt"]}
+
+    def part(self, *words):
+        log = self.folder / "log"
+        log.write_text("")
+        checkout = self.folder / "checkout"
+        shutil.rmtree(checkout, ignore_errors=True)
+        (checkout / ".ci").mkdir(parents=True)
+        shutil.copy(SOURCE / ".ci/nightly", checkout / ".ci/nightly")
+        for name in ("scripts/install-packages", "scripts/build", "scripts/fuzz", "scripts/run-tests",
+                     "build/release/bin/edgecase"):
+            path = checkout / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            shares = "SHARES=\"${EDGECASE_REASON_SHARE:+ of $EDGECASE_REASON_SHARE $EDGECASE_CLASS_SHARE}\""
+            path.write_text(f'#!/bin/sh\n{shares}\necho "{path.name} $*$SHARES" >> {log}\n[ "$FAILS" != {path.name} ]\n')
+            path.chmod(0o755)
+        env = {k: v for k, v in os.environ.items() if k != "FUZZ_SECONDS"}
+        done = [subprocess.run([checkout / ".ci/nightly", *words], env=env | {"FAILS": name}, capture_output=True, text=True)
+                for name in ("", *{line.split()[0] for line in self.RUNS.get("".join(words), [])})]
+        return done, log.read_text().splitlines()
+
+    def test_each_part(self):
+        flow = yaml.safe_load((SOURCE / ".github/workflows/nightly.yml").read_text())
+        self.assertEqual(flow["jobs"]["part"]["strategy"]["matrix"]["part"], list(self.RUNS))
+        runs = [step["run"] for step in flow["jobs"]["part"]["steps"] if ".ci/nightly" in step.get("run", "")]
+        self.assertEqual(runs, [".ci/nightly ${{ matrix.part }}"])
+        for name, lines in self.RUNS.items():
+            with self.subTest(part=name):
+                done, log = self.part(name)
+                self.assertEqual([re.sub(r"--seed 20\d{6} ", "--seed DAY ", line) for line in log[:len(lines)]], lines)
+                # Whatever fails fails the part.
+                self.assertEqual([one.returncode == 0 for one in done], [True] + [False] * len(lines))
+                for line in lines:
+                    for file in re.findall(r"scripts/\S+", line):
+                        self.assertTrue((SOURCE / file).is_file(), file)
+
+    def test_a_part_that_is_none(self):
+        for words in ((), ("door",)):
+            done, log = self.part(*words)
+            self.assertEqual((done[0].returncode, log), (2, []))
+            self.assertRegex(done[0].stderr, r"^\.ci/nightly: '.*' is no part; there are parsers, doors, tests and hunt\n$")
+
 if __name__ == "__main__":
     unittest.main()
