@@ -206,6 +206,7 @@ enum class Fault : uint16_t {
     blend_complement_forgotten,
     blend_saturate_ignored,
     blend_saturate_alpha,
+    blend_saturate_source_zero,
     blend_dst_alpha_one,
     blend_missing_alpha_zero,
     blend_constants_ignored,

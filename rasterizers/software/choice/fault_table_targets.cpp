@@ -24,6 +24,8 @@ constexpr FaultInfo kTargetsFaults[] = {
      "blend.equation"},
     {Fault::blend_saturate_alpha, "blend_saturate_alpha",
      "SRC_ALPHA_SATURATE is min(As, 1 - Ad) for alpha, too.", "blend.equation"},
+    {Fault::blend_saturate_source_zero, "blend_saturate_source_zero",
+     "SRC_ALPHA_SATURATE is 0 where the source's alpha is.", "blend.equation"},
     {Fault::blend_dst_alpha_one, "blend_dst_alpha_one", "The destination's alpha is never read.",
      "blend.equation"},
     {Fault::blend_missing_alpha_zero, "blend_missing_alpha_zero",

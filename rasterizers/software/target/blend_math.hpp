@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <utility>
 
 #include "cases/model/case.hpp"
@@ -134,6 +135,10 @@ typename Math::Value factor_of(BlendFactor factor, size_t k, const Operands<Math
     }
     if (k == 3 && fault != Fault::blend_saturate_alpha) {
         return one;
+    }
+    const bool is_zero = std::equal_to<>()(o.source[3], typename Math::Value{});
+    if (fault == Fault::blend_saturate_source_zero && is_zero) {
+        return o.source[3];
     }
     return fault == Fault::blend_saturate_ignored ? o.source[3]
                                                   : std::min(o.source[3], minus(o.destination[3]));
