@@ -142,16 +142,16 @@ class Hunts(FuzzTest):
         self.assertGreater(min(part["judged_cases"] for part in parts), 0)
 
     def test_a_crash_is_a_cause(self):
-        self.fuzz("--cases=128", fault="segv@*", check=1)
+        self.fuzz("--cases=64", fault="segv@*", check=1)
         causes = self.ledger()["causes"]
         self.assertEqual([c["symptom"] for c in causes], ["crash by SIGSEGV"])
         self.assertEqual(causes[0]["essentials"], [])
         # A death that does not come again when the case is drawn alone is no cause, but the case is kept.
-        done = self.fuzz("--cases=128", fault="segv@77", out=self.folder / "one", check=1)
+        done = self.fuzz("--cases=64", fault="segv@37", out=self.folder / "one", check=1)
         self.assertNotIn("crash by SIGSEGV", [c["symptom"] for c in self.ledger("one")["causes"]])
         self.assertEqual(self.ledger("one")["unrepeated_failures"], 1)
         self.assertIn("did not come again when drawn alone: 1 failing case; see ", done.stdout)
-        self.assertEqual((self.folder / "one/unrepeated-1.toml").read_text(), self.edgecase("fuzz", "--print=77").stdout)
+        self.assertEqual((self.folder / "one/unrepeated-1.toml").read_text(), self.edgecase("fuzz", "--print=37").stdout)
 
     def test_what_waits_when_a_hunt_ends_is_kept(self):
         """Some reductions are done after the first step: nothing of what else failed is lost."""
