@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "ref/position/clip.hpp"
+#include "ref/position/viewport_grid.hpp"
 #include "ref/value/accept/judge_candidates.hpp"
 
 namespace ref::value {
@@ -274,15 +275,7 @@ std::vector<Range<T>> hulls_of(const Primitive& primitive, const std::vector<Pla
 }
 
 bool has_border_between_pixels(const cases::Viewport& v) {
-    const auto is_between = [](double at) { return std::floor(at) < at; };
-    const double x = v.x;
-    const double y = v.y;
-    return is_between(x) || is_between(y) || is_between(x + static_cast<double>(v.width)) ||
-           is_between(y + static_cast<double>(v.height));
-}
-
-bool is_before_eye(const Primitive& primitive) {
-    return std::ranges::all_of(primitive.clip, [](const glm::vec4& v) { return v.w > 0; });
+    return !is_on_viewport_grid(v.x, v.width, 0) || !is_on_viewport_grid(v.y, v.height, 0);
 }
 
 // Nothing if T cannot tell an orientation.
@@ -323,7 +316,7 @@ std::optional<CandidateSet<T>> try_candidates(const Primitive& primitive,
     // with a guard band one beyond a border between two pixels.
     const bool is_free_of_borders = primitive.needs_clipping &&
                                     has_border_between_pixels(primitive.draw->viewport) &&
-                                    is_before_eye(primitive);
+                                    primitive.is_projectable;
     if (primitive.needs_clipping && (volume.has_user_planes() || is_free_of_borders)) {
         const std::span<const ClipPlane> planes =
             is_free_of_borders ? volume.depth() : volume.view();

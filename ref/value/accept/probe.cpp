@@ -138,7 +138,9 @@ class Prober {
           candidates_(candidates),
           is_projectable_(is_projectable),
           where_(where),
-          place_(place) {}
+          place_(place),
+          shades_some_samples_(shading_rate(*place.draw, place.target->samples) ==
+                               ShadingRate::some) {}
 
     struct Result {
         Answer answer = Answer::no;
@@ -182,7 +184,7 @@ class Prober {
         if (place_.target->samples > 1 && auxiliary == cases::Auxiliary::sample) {
             points = {where_.sample};  // the same sample of each pixel
         } else if (place_.target->samples > 1 &&
-                   (auxiliary == cases::Auxiliary::centroid || shades_some_samples())) {
+                   (auxiliary == cases::Auxiliary::centroid || shades_some_samples_)) {
             // Anywhere in each pixel: an invocation that stands for several samples may be at any
             // of them that its triangle covers, and those beside it at others.
             points = {{T(x), T(y)}, {T(x + 1), T(y)}, {T(x + 1), T(y + 1)}, {T(x), T(y + 1)}};
@@ -236,10 +238,6 @@ class Prober {
             }
         }
         return out;
-    }
-
-    bool shades_some_samples() const {
-        return shading_rate(*place_.draw, place_.target->samples) == ShadingRate::some;
     }
 
     static Result fit(const Accepted<T>& accepted, double device) {
@@ -302,6 +300,7 @@ class Prober {
     bool is_projectable_;
     const Evaluation<T>& where_;
     const ProbePlace& place_;
+    bool shades_some_samples_;
 };
 
 // Whether the arrangement of the quad matters to any of the probes, and whether plain derivatives

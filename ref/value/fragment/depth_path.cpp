@@ -33,8 +33,7 @@ constexpr double kEndless = 0x1p127;
 // Whether z_f has no bound on the triangle: a vertex is behind the eye, so that w passes through 0,
 // and no depth plane cuts before.
 bool is_endless(const Primitive& primitive) {
-    return clip_volume_of(*primitive.draw).depth().empty() &&
-           std::ranges::any_of(primitive.clip, [](const glm::vec4& v) { return !(v.w > 0); });
+    return !primitive.is_projectable && clip_volume_of(*primitive.draw).depth().empty();
 }
 
 // Those of the vertices, of those of the clipped polygon, and of either after depth clamp. z_f of a
