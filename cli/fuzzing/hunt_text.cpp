@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "cases/base/counted.hpp"
+#include "cases/base/printable.hpp"
 #include "cli/options/stop.hpp"
 
 namespace cli {
@@ -44,6 +45,9 @@ void tell_cause(const Entry& entry, const fs::path& folder) {
                     (folder / entry.file).string(),
                     entry.stale_file.empty() ? "" : " instead of " + entry.stale_file,
                     with.empty() ? "nothing special" : with));
+    if (!entry.seen.empty()) {
+        say("      seen: " + cases::printable(entry.seen) + "\n");
+    }
     for (size_t k = 0; k < std::min<size_t>(entry.needs.size(), 6); ++k) {
         say("      " + entry.needs[k] + "\n");
     }

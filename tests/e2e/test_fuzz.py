@@ -78,6 +78,9 @@ class Hunts(FuzzTest):
             text = path.read_text()
             self.assertTrue(text.startswith(f"# {cause['symptom']}, found by 'edgecase fuzz --seed 6' in case "), text)
             self.assertTrue(cause["is_minimal"])
+            self.assertRegex(cause["seen"], ": expected .+, got .+; .+")
+            self.assertIn(f"\n# Seen: {cause['seen']}.\n", text)
+            self.assertIn(f"\n      seen: {cause['seen']}\n", done.stdout)
             if "a suite wants one more" in text:
                 self.assertIn("so a device that draws nothing would pass", self.edgecase("lint", path, check=3).stderr)
             else:
