@@ -56,8 +56,11 @@ int show(const Program& program, const ExpectOptions& options) {
             std::printf(", %zu %.*s", count.at(k), static_cast<int>(status.size()), status.data());
         }
     }
-    say(fmt::format("; for {}{}{}\n", file->device_glob, file->driver_regex.empty() ? "" : ", ",
-                    file->driver_regex));
+    std::string driver = file->driver_regex.empty() ? "" : ", " + file->driver_regex;
+    for (const run::VersionBound& bound : file->versions) {
+        driver += " " + bound.text;
+    }
+    say(fmt::format("; for {}{}\n", file->device_glob, driver));
     const cases::Errors past = run::past_lines(*file);
     for (const cases::Error& error : past) {
         std::fprintf(stderr, "%s\n", cases::printable(cases::to_string(error)).c_str());

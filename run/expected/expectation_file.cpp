@@ -59,7 +59,7 @@ std::optional<VersionBound> parse_bound(std::string_view word) {
             if (rest.empty() || rest.find_first_not_of("0123456789.") != std::string_view::npos) {
                 return std::nullopt;
             }
-            VersionBound bound{relation, find_version(rest, 0)};
+            VersionBound bound{relation, find_version(rest, 0), std::string(word)};
             return bound.version.empty() ? std::nullopt : std::optional(std::move(bound));
         }
     }

@@ -26,6 +26,7 @@ inline constexpr std::string_view kExpectationsFirstLine = "# edgecase-expectati
 struct VersionBound {
     enum class Relation { at_least, above, at_most, below, equal } relation = Relation::equal;
     std::vector<uint32_t> version;
+    std::string text = {};  // as it is written: ">=22.3"
 };
 
 struct ExpectationLine {

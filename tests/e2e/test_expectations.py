@@ -204,6 +204,13 @@ class Pictures(ExpectationTest):
         done = self.run_suite("--expect", mine, "fam/c3", fault="flip-pixel+1@fam/c3", check=0)
         self.assertIn("1 of 1 known failure is drawn with bits that nobody has seen before: fam/c3;", done.stdout)
 
+    def test_the_device_and_the_driver_of_a_file_are_told(self):
+        path = self.folder / "mine.txt"
+        path.write_text("# edgecase-expectations 2\n# device: Card*   driver: Maker >=22.3 <23\n"
+                        "fam/c3 fail bug#1 value:store.unorm@vulkan<=1  # Known.\n")
+        done = self.edgecase("expect", path, "--suite", self.suite, check=0)
+        self.assertTrue(done.stdout.endswith("; for Card*, Maker >=22.3 <23\n"), done.stdout)
+
     def test_files_of_pictures_are_checked(self):
         path = self.known()
         self.learn(path)
