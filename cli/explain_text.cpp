@@ -177,10 +177,17 @@ std::string color_text(const cases::Case& c, const ref::Expectation& expectation
         return {};
     }
     const bool is_one_of = !expectation.samples[index].hits.is_decided();
-    std::string text =
-        fmt::format("the colour{}:\n", is_one_of ? ", where the first of several allowed sets of "
-                                                   "fragments is drawn"
-                                                 : "");
+    const std::string location =
+        c.target.other_colors.empty()
+            ? std::string()
+            : fmt::format(
+                  " at location {} of {} colour targets, of which the others do nothing to "
+                  "it",
+                  c.target.judged_color, c.target.color_count());
+    std::string text = fmt::format("the colour{}{}:\n", location,
+                                   is_one_of ? ", where the first of several allowed sets of "
+                                               "fragments is drawn"
+                                             : "");
     for (const ref::ColorStep& step : ref::ColorReference(c, expectation).steps(index, sample)) {
         std::string name;
         if (step.triangle) {

@@ -52,8 +52,9 @@ endforeach()
 
 # Fragment shaders: attributes x the combinations of features below, one letter each:
 # p probes, l lod, b barycentrics, m mask in, s sample, o mask out, k discard, z depth, c colour (float), u colour (uint),
-# w two sources of colour (float), n no instruments, t split instruments, d split with attributes in pairs (at most 8 colour attachments).
-set(plain_features "-" o c u co uo cn un con uon k kc ku kcn kun z zc zu zn zcn zun kz kzc kzu kzcn kzun wn won kwn zwn kzwn)
+# w two sources of colour (float), j several colours, n no instruments, t split instruments, d split with attributes in pairs (at most 8 colour attachments).
+set(plain_features "-" o c u co uo cn un con uon k kc ku kcn kun z zc zu zn zcn zun kz kzc kzu kzcn kzun wn won kwn zwn kzwn
+    j oj kj zj kzj jn ojn kjn zjn kzjn)
 set(attribute_features p pl b m ms mo mso pb pm pms po bms bm)
 set(fragment_table "")
 foreach(count RANGE 4)
@@ -65,6 +66,8 @@ foreach(count RANGE 4)
         set(attachments 4)
         if(feature MATCHES "[cu]")
             set(attachments 5)
+        elseif(feature MATCHES j)
+            set(attachments 6)  # or more
         endif()
         math(EXPR whole "${attachments} + ${count}")
         math(EXPR paired "${whole} + ${count}")
@@ -100,6 +103,9 @@ foreach(count RANGE 4)
         elseif(feature MATCHES w)
             string(APPEND defines ",-DCOLOR=3")
             string(APPEND row ", ColorKind::two_numbers")
+        elseif(feature MATCHES j)
+            string(APPEND defines ",-DCOLOR=4")
+            string(APPEND row ", ColorKind::several")
         else()
             string(APPEND defines ",-DCOLOR=0")
             string(APPEND row ", ColorKind::none")

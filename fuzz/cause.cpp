@@ -108,7 +108,7 @@ void add_keys(const TomlValue& table, const std::string& path, std::set<std::str
             if (entry.key == "draw" && value.array.size() > 1) {
                 words.insert("several draws");
             } else if (entry.key != "draw") {
-                words.insert(name);
+                words.insert(entry.key == "color" ? "several colours" : name);
             }
             for (const TomlValue& element : value.array) {
                 if (entry.key == "draw") {

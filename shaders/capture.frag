@@ -7,7 +7,7 @@
 // Defined by the build is only what changes capabilities or what is statically used: ATTRIBUTES (0..4),
 // PROBES (interpolateAt*, derivatives), LOD (textureQueryLod), BARYCENTRICS, MASK_IN (gl_SampleMaskIn),
 // SAMPLE (gl_SampleID, gl_SamplePosition), MASK_OUT (gl_SampleMask), DISCARD, DEPTH (gl_FragDepth), COLOR (0 none, 1 float, 2 uint,
-// 3 two sources of float), INSTRUMENTS (0: the colour output alone), SPLIT (the instruments as four small outputs), PAIRS (with them
+// 3 two sources of float, 4 several, each as float and as uint), INSTRUMENTS (0: the colour output alone), SPLIT (the instruments as four small outputs), PAIRS (with them
 // each attribute as two). What an attribute holds is chosen by specialization
 // constants (shaders.hpp). All inputs are smooth here: Flat, NoPerspective, Centroid and Sample are
 // added to the compiled module (shaders/spirv_variant.hpp), where the input at location 7 may also
@@ -24,8 +24,12 @@ layout(push_constant) uniform Draw {
     layout(offset = 16) uvec4 color;  // bits
     // Of the probes, by attribute, and gl_SampleMask: no constants of the pipeline, so that no other
     // shader has to be compiled for each value.
+#if COLOR == 4
+    layout(offset = 32) uvec4 other_colors[3];  // in their place
+#else
     layout(offset = 32) vec2 offsets[4];
     layout(offset = 64) ivec4 sample_numbers;
+#endif
     layout(offset = 80) uint sample_mask;
     layout(offset = 84) uint discarded;  // numbered as cases::Discard
     layout(offset = 88) float depth;
@@ -59,6 +63,11 @@ layout(location = 4) in vec4 in_attribute3;
 #endif
 #if COLOR
 layout(constant_id = 4) const int kColorAttribute = -1;
+#endif
+#if COLOR == 4
+layout(constant_id = 6) const int kColorAttribute1 = -1;
+layout(constant_id = 7) const int kColorAttribute2 = -1;
+layout(constant_id = 8) const int kColorAttribute3 = -1;
 #endif
 #if LOD
 layout(set = 0, binding = 0) uniform sampler2D lod_texture;
@@ -120,6 +129,16 @@ layout(location = COLOR_LOCATION) out uvec4 out_color;
 #elif COLOR == 3
 layout(location = COLOR_LOCATION, index = 0) out vec4 out_color;
 layout(location = COLOR_LOCATION, index = 1) out vec4 out_second;
+#elif COLOR == 4
+// Of each pair one is left, at the location of its target (shaders/spirv_variant.hpp).
+layout(location = COLOR_LOCATION) out vec4 out_number0;
+layout(location = COLOR_LOCATION + 1) out uvec4 out_integer0;
+layout(location = COLOR_LOCATION + 2) out vec4 out_number1;
+layout(location = COLOR_LOCATION + 3) out uvec4 out_integer1;
+layout(location = COLOR_LOCATION + 4) out vec4 out_number2;
+layout(location = COLOR_LOCATION + 5) out uvec4 out_integer2;
+layout(location = COLOR_LOCATION + 6) out vec4 out_number3;
+layout(location = COLOR_LOCATION + 7) out uvec4 out_integer3;
 #endif
 
 // Choices are numbered as shaders::Choice.
@@ -195,6 +214,32 @@ bool is_picked(uint which) {
 }
 #endif
 
+#if COLOR
+// An attribute, or these bits.
+vec4 color_of(int which, uvec4 bits) {
+    vec4 color = uintBitsToFloat(bits);
+#if ATTRIBUTES > 0
+    color = which == 0 ? in_attribute0 : color;
+#endif
+#if ATTRIBUTES > 1
+    color = which == 1 ? in_attribute1 : color;
+#endif
+#if ATTRIBUTES > 2
+    color = which == 2 ? in_attribute2 : color;
+#endif
+#if ATTRIBUTES > 3
+    color = which == 3 ? in_attribute3 : color;
+#endif
+    return color;
+}
+#endif
+#if COLOR == 4
+void write_color(int which, uvec4 bits, out vec4 number, out uvec4 whole) {
+    number = color_of(which, bits);
+    whole = which < 0 ? bits : uvec4(number);
+}
+#endif
+
 void main() {
 #if INSTRUMENTS
     // in_primitive is 2^32 - 2 if the device has no gl_PrimitiveID: written as -2.
@@ -223,20 +268,13 @@ void main() {
     WRITE_ATTRIBUTE(3)
 #endif
 #endif
-#if COLOR
-    vec4 color = uintBitsToFloat(draw.color);
-#if ATTRIBUTES > 0
-    color = kColorAttribute == 0 ? in_attribute0 : color;
-#endif
-#if ATTRIBUTES > 1
-    color = kColorAttribute == 1 ? in_attribute1 : color;
-#endif
-#if ATTRIBUTES > 2
-    color = kColorAttribute == 2 ? in_attribute2 : color;
-#endif
-#if ATTRIBUTES > 3
-    color = kColorAttribute == 3 ? in_attribute3 : color;
-#endif
+#if COLOR == 4
+    write_color(kColorAttribute, draw.color, out_number0, out_integer0);
+    write_color(kColorAttribute1, draw.other_colors[0], out_number1, out_integer1);
+    write_color(kColorAttribute2, draw.other_colors[1], out_number2, out_integer2);
+    write_color(kColorAttribute3, draw.other_colors[2], out_number3, out_integer3);
+#elif COLOR
+    vec4 color = color_of(kColorAttribute, draw.color);
 #if COLOR != 2
     out_color = color;
 #if COLOR == 3

@@ -22,8 +22,10 @@ struct VertexVariant {
     friend auto operator<=>(const VertexVariant&, const VertexVariant&) = default;
 };
 
-// Components of the colour output. two_numbers: a second one for dual-source blending.
-enum class ColorKind : uint8_t { none, number, integer, two_numbers };
+// Components of the colour output. two_numbers: a second one for dual-source blending; several: an
+// output of numbers and one of integers for each of four colour targets, of which with_outputs()
+// (spirv_variant.hpp) leaves those that there are.
+enum class ColorKind : uint8_t { none, number, integer, two_numbers, several };
 
 // What capture.frag was compiled for: everything that needs a capability of the device or that has
 // an effect by its mere presence.
@@ -60,6 +62,9 @@ enum class Choice : uint32_t {
 inline constexpr uint32_t kColorAttributeConstant = kMaxAttributes;
 // What a back hit adds where front and back hits share a number.
 inline constexpr uint32_t kBackHitConstant = kColorAttributeConstant + 1;
+// ColorKind::several: as kColorAttributeConstant, of the colours behind the first.
+inline constexpr uint32_t kMaxColors = 4;
+inline constexpr uint32_t kOtherAttributeConstant = kBackHitConstant + 1;
 
 // The input of capture.frag that stands for gl_PrimitiveID.
 inline constexpr uint32_t kPrimitiveLocation = 7;
@@ -70,9 +75,15 @@ struct DrawConstants {
     uint32_t layer = 0, viewport_index = 0;
     uint32_t unused = 0;
     uint32_t color[4] = {};  // bits of the colour that is written
-    // Of interpolateAtOffset (pixels) and interpolateAtSample, by attribute.
-    float offsets[kMaxAttributes][2] = {};
-    int32_t sample_numbers[kMaxAttributes] = {};
+    // Of interpolateAtOffset (pixels) and interpolateAtSample, by attribute; or, where there are
+    // several colours, which do not go with these, the bits of those behind the first.
+    union {
+        struct {
+            float offsets[kMaxAttributes][2];
+            int32_t sample_numbers[kMaxAttributes];
+        } probes = {};
+        uint32_t other_colors[kMaxColors - 1][4];
+    };
     uint32_t sample_mask = 0xffffffffU;  // gl_SampleMask, if the shader writes it
     uint32_t discarded = 0;              // numbered as cases::Discard, if the shader discards
     // gl_FragDepth, if the shader writes it: gl_FragCoord.z, or other_depth where that would

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -21,6 +22,7 @@ enum Op : uint32_t {
     kOpEntryPoint = 15,
     kOpExecutionMode = 16,
     kOpCapability = 17,
+    kOpTypePointer = 32,
     kOpVariable = 59,
     kOpDecorate = 71,
     kOpDecorationGroup = 73,
@@ -43,7 +45,7 @@ enum Capability : uint32_t {
     kSampleRateShading = 35,
     kDemoteToHelperInvocation = 5379
 };
-constexpr uint32_t kStorageInput = 1;
+constexpr uint32_t kStorageInput = 1, kStorageOutput = 3, kStoragePrivate = 6;
 constexpr uint32_t kBuiltInPrimitiveId = 7;
 
 constexpr uint32_t first_word(uint32_t op, uint32_t words) {
@@ -76,7 +78,9 @@ tl::expected<std::vector<Instruction>, std::string> split(std::span<const uint32
         if (count == 0 || count > module.size() - at) {
             return Error(fmt::format("the instruction at word {} runs over the module's end", at));
         }
-        const uint32_t least = op == kOpVariable ? 4 : op == kOpDecorate ? 3 : 1;
+        const uint32_t least = op == kOpVariable || op == kOpTypePointer ? 4
+                               : op == kOpDecorate                       ? 3
+                                                                         : 1;
         if (count < least || (op == kOpCapability && count != 2)) {
             return Error(fmt::format("the instruction at word {} is too short", at));
         }
@@ -289,6 +293,109 @@ tl::expected<std::vector<uint32_t>, std::string> with_ending(std::span<const uin
             out.push_back(first_word(kOpTerminateInvocation, 1));
         }
     }
+    return out;
+}
+
+namespace {
+
+// The Output variables of a module by their locations.
+std::map<uint32_t, uint32_t> outputs_by_location(std::span<const Instruction> code) {
+    std::map<uint32_t, uint32_t> out;
+    for (const Instruction& i : code) {
+        if (i.op != kOpDecorate || i.words[2] != kLocation || i.words.size() != 4) {
+            continue;
+        }
+        const bool is_output = std::any_of(code.begin(), code.end(), [&](const Instruction& v) {
+            return v.op == kOpVariable && v.words[2] == i.words[1] && v.words[3] == kStorageOutput;
+        });
+        if (is_output) {
+            out[i.words[3]] = i.words[1];
+        }
+    }
+    return out;
+}
+
+// An entry point without some of the variables of its interface, which follow its name.
+std::vector<uint32_t> without(const Instruction& entry, const std::set<uint32_t>& gone) {
+    std::vector<uint32_t> out(entry.words.begin(), entry.words.begin() + 3);
+    size_t at = 3;
+    for (bool ends = false; !ends && at < entry.words.size(); ++at) {
+        out.push_back(entry.words[at]);
+        ends = entry.words[at] >> 24U == 0;  // the zero that ends the name
+    }
+    for (; at < entry.words.size(); ++at) {
+        if (!gone.contains(entry.words[at])) {
+            out.push_back(entry.words[at]);
+        }
+    }
+    out[0] = first_word(kOpEntryPoint, static_cast<uint32_t>(out.size()));
+    return out;
+}
+
+}  // namespace
+
+tl::expected<std::vector<uint32_t>, std::string> with_outputs(std::span<const uint32_t> module,
+                                                              const OutputChange& change) {
+    if (change.integers.empty()) {
+        return std::vector<uint32_t>(module.begin(), module.end());
+    }
+    auto code = split(module);
+    if (!code) {
+        return Error(code.error());
+    }
+    const std::map<uint32_t, uint32_t> outputs = outputs_by_location(*code);
+    std::map<uint32_t, uint32_t> kept;  // variables with their locations
+    for (uint32_t k = 0; k < change.integers.size(); ++k) {
+        const uint32_t location = change.first_location + 2 * k + (change.integers[k] ? 1 : 0);
+        const auto found = outputs.find(location);
+        if (found == outputs.end()) {
+            return Error(fmt::format("no output of the module has location {}", location));
+        }
+        kept[found->second] = change.first_location + k;
+    }
+    std::set<uint32_t> gone;
+    for (const auto& [location, variable] : outputs) {
+        if (location >= change.first_location && !kept.contains(variable)) {
+            gone.insert(variable);
+        }
+    }
+    // A Private variable has a type of its own: each gets a pointer to what its own points to.
+    std::map<uint32_t, uint32_t> pointees;
+    for (const Instruction& i : *code) {
+        if (i.op == kOpTypePointer) {
+            pointees[i.words[1]] = i.words[3];
+        }
+    }
+    std::vector<uint32_t> out(module.begin(), module.begin() + kHeaderWords);
+    uint32_t& bound = out[3];  // above all ids
+    std::map<uint32_t, uint32_t> privates;
+    std::vector<uint32_t> tail;
+    for (const Instruction& i : *code) {
+        if (i.op == kOpEntryPoint && i.words.size() > 3) {
+            const std::vector<uint32_t> entry = without(i, gone);
+            tail.insert(tail.end(), entry.begin(), entry.end());
+            continue;
+        }
+        if (i.op == kOpDecorate && gone.contains(i.words[1])) {
+            continue;
+        }
+        if (i.op == kOpDecorate && i.words[2] == kLocation && kept.contains(i.words[1])) {
+            tail.insert(tail.end(), {i.words[0], i.words[1], kLocation, kept[i.words[1]]});
+            continue;
+        }
+        if (i.op == kOpVariable && gone.contains(i.words[2])) {
+            const uint32_t pointee = pointees[i.words[1]];
+            if (!privates.contains(pointee)) {
+                privates[pointee] = bound++;
+                tail.insert(tail.end(), {first_word(kOpTypePointer, 4), privates[pointee],
+                                         kStoragePrivate, pointee});
+            }
+            tail.insert(tail.end(), {i.words[0], privates[pointee], i.words[2], kStoragePrivate});
+            continue;
+        }
+        tail.insert(tail.end(), i.words.begin(), i.words.end());
+    }
+    out.insert(out.end(), tail.begin(), tail.end());
     return out;
 }
 

@@ -38,6 +38,20 @@ inline constexpr uint32_t kBuiltInBaryCoord = 5286, kBuiltInBaryCoordNoPersp = 5
 tl::expected<std::vector<uint32_t>, std::string> change_inputs(
     std::span<const uint32_t> module, std::span<const InputChange> changes);
 
+// Which output each of several colours keeps, and where the first of them lies.
+struct OutputChange {
+    uint32_t first_location = 0;
+    std::vector<bool> integers;  // by colour; empty: the module is left as it is
+    friend auto operator<=>(const OutputChange&, const OutputChange&) = default;
+};
+
+// The module of a fragment shader that has two outputs for each of several colours from
+// first_location on, of numbers and of integers, with the one that each colour keeps at the
+// location of the colour. All others become Private variables, so that nothing is written. Errors:
+// as above, and outputs that are not there.
+tl::expected<std::vector<uint32_t>, std::string> with_outputs(std::span<const uint32_t> module,
+                                                              const OutputChange& change);
+
 // Execution modes of fragment shaders (3.6 "Execution Mode").
 enum ExecutionMode : uint32_t {
     kEarlyFragmentTests = 9,

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "cases/format/color_format.hpp"
+#include "cases/model/derive.hpp"
 #include "vk_harness/commands/blit.hpp"
 #include "vk_harness/device/format.hpp"
 #include "vk_harness/pipeline/pipeline_key.hpp"
@@ -150,13 +151,13 @@ std::optional<Rejection> check_target(const Capabilities& c, const cases::Case& 
 }
 
 // Whether a colour is blended by the constant's alpha.
-bool names_constant_alpha(const cases::Draw& draw) {
+bool names_constant_alpha(const cases::ColorOutput& output) {
     const auto is_alpha = [](cases::BlendFactor f) {
         return static_cast<VkBlendFactor>(f) == VK_BLEND_FACTOR_CONSTANT_ALPHA ||
                static_cast<VkBlendFactor>(f) == VK_BLEND_FACTOR_ONE_MINUS_CONSTANT_ALPHA;
     };
-    return draw.color.blend && (is_alpha(draw.color.blend->color.source) ||
-                                is_alpha(draw.color.blend->color.destination));
+    return output.blend &&
+           (is_alpha(output.blend->color.source) || is_alpha(output.blend->color.destination));
 }
 
 // Whether the unsigned format of the same size (bits_format) has other components.
@@ -165,46 +166,21 @@ bool is_reinterpreted(cases::ColorFormat format) {
     return std::any_of(bits.begin(), bits.end(), [](uint32_t b) { return b != 0 && b != 32; });
 }
 
-// The colour target's format, as an attachment, blended where a draw blends, read back.
-std::optional<Rejection> check_color(const Capabilities& c, const cases::Case& test) {
-    if (!test.target.color) {
-        return std::nullopt;
-    }
-    const auto& color = *test.target.color;
-    const bool blends = std::any_of(test.draws.begin(), test.draws.end(),
-                                    [](const auto& draw) { return draw.color.blend.has_value(); });
+// A colour target's format, as an attachment, blended where a draw blends, read back.
+std::optional<Rejection> check_color_format(const Capabilities& c, const cases::Case& test,
+                                            uint32_t location) {
+    const cases::ColorTarget& color = test.target.color_at(location);
+    const auto any_output = [&](const auto& is) {
+        return std::any_of(test.draws.begin(), test.draws.end(), [&](const cases::Draw& draw) {
+            return is(cases::output_at(test.target, draw, location));
+        });
+    };
+    const bool blends = any_output([](const auto& output) { return output.blend.has_value(); });
     if (blends && is_integer(color.format)) {
         return invalid("a target of integers is blended");
     }
-    const bool operates = std::any_of(test.draws.begin(), test.draws.end(), [](const auto& draw) {
-        return draw.color.logic.has_value();
-    });
-    if (operates && !c.logic_op) {
-        return unsupported("the device lacks the feature logicOp");
-    }
-    if (operates && test.target.has_instruments) {
-        return invalid("a logical operation switches off the blending that counts hits");
-    }
-    const bool takes_second = std::any_of(test.draws.begin(), test.draws.end(), [](const auto& d) {
-        return d.color.blend && cases::takes_second(*d.color.blend);
-    });
-    if (takes_second && !c.dual_source) {
-        return unsupported("the device lacks the feature dualSrcBlend");
-    }
-    if (takes_second && test.target.has_instruments) {
-        return invalid("a second source is blended beside the attachments that count hits");
-    }
-    const bool is_one = std::any_of(test.draws.begin(), test.draws.end(),
-                                    [](const auto& draw) { return draw.color.alpha_to_one; });
-    if (is_one && !c.alpha_to_one) {
-        return unsupported("the device lacks the feature alphaToOne");
-    }
-    if (is_one && test.target.has_instruments) {
-        return invalid("alpha to one changes the attachments that tell of fragments");
-    }
     const bool multisampled = test.target.samples > 1;
-    if (blends && !c.portability.constant_alpha_factors &&
-        std::any_of(test.draws.begin(), test.draws.end(), names_constant_alpha)) {
+    if (blends && !c.portability.constant_alpha_factors && any_output(names_constant_alpha)) {
         return unsupported(
             "the device lacks the feature constantAlphaColorBlendFactors "
             "(VK_KHR_portability_subset)");
@@ -235,6 +211,45 @@ std::optional<Rejection> check_color(const Capabilities& c, const cases::Case& t
         return unsupported("the device has no {} x {} target of format {} with {} samples",
                            test.target.width, test.target.height, cases::name_of(color.format),
                            test.target.samples);
+    }
+    return std::nullopt;
+}
+
+// Colour targets, and what draws do to them.
+std::optional<Rejection> check_color(const Capabilities& c, const cases::Case& test) {
+    if (!test.target.color) {
+        return std::nullopt;
+    }
+    const bool operates = std::any_of(test.draws.begin(), test.draws.end(), [](const auto& draw) {
+        return draw.color.logic.has_value();
+    });
+    if (operates && !c.logic_op) {
+        return unsupported("the device lacks the feature logicOp");
+    }
+    if (operates && test.target.has_instruments) {
+        return invalid("a logical operation switches off the blending that counts hits");
+    }
+    const bool takes_second = std::any_of(test.draws.begin(), test.draws.end(), [](const auto& d) {
+        return d.color.blend && cases::takes_second(*d.color.blend);
+    });
+    if (takes_second && !c.dual_source) {
+        return unsupported("the device lacks the feature dualSrcBlend");
+    }
+    if (takes_second && test.target.has_instruments) {
+        return invalid("a second source is blended beside the attachments that count hits");
+    }
+    const bool is_one = std::any_of(test.draws.begin(), test.draws.end(),
+                                    [](const auto& draw) { return draw.color.alpha_to_one; });
+    if (is_one && !c.alpha_to_one) {
+        return unsupported("the device lacks the feature alphaToOne");
+    }
+    if (is_one && test.target.has_instruments) {
+        return invalid("alpha to one changes the attachments that tell of fragments");
+    }
+    for (uint32_t location = 0; location < test.target.color_count(); ++location) {
+        if (auto rejection = check_color_format(c, test, location)) {
+            return rejection;
+        }
     }
     return std::nullopt;
 }
@@ -447,7 +462,13 @@ std::optional<Rejection> check_case(const Capabilities& capabilities, const case
         if (auto rejection = check_draw(capabilities, draw)) {
             return rejection;
         }
-        if (draw.color.attribute >= std::ssize(draw.attributes)) {
+        if (draw.other_colors.size() != c.target.other_colors.size()) {
+            return invalid("a draw writes to {} colour targets of {}", draw.other_colors.size() + 1,
+                           c.target.color_count());
+        }
+        const std::vector<uint32_t> colored = cases::colored_attributes(c.target, draw);
+        if (std::any_of(colored.begin(), colored.end(),
+                        [&](uint32_t k) { return k >= draw.attributes.size(); })) {
             return invalid("a draw's colour comes from an attribute that it does not have");
         }
     }

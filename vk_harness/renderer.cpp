@@ -149,7 +149,6 @@ bool BatchRenderer::plan(CasePlan& plan, Rendered& result) {
                 item.texture = *texture;
             }
         }
-        item.has_integer_color = test.target.color && cases::is_integer(test.target.color->format);
         plan.draws.push_back(item);
     }
     plan.attachments = attachments_of(test, layout);

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <utility>
 
 namespace cases {
 
@@ -132,7 +134,7 @@ int32_t read_attribute_name(LeafContext& context, const TomlValue& value, const 
 
 // The colour that factors of the second source take.
 void read_second(LeafContext& context, const TomlValue& table, const Target& target,
-                 ColorOutput& out) {
+                 const ColorTarget& color, ColorOutput& out) {
     const bool takes = out.blend && takes_second(*out.blend);
     const TomlValue* second = table.find("second");
     if (second == nullptr) {
@@ -152,8 +154,7 @@ void read_second(LeafContext& context, const TomlValue& table, const Target& tar
                       "a device may blend a second source into one attachment alone; write "
                       "attachments = \"color\" or \"color+depth\" in [target]");
     }
-    out.blend->second =
-        read_color(context, *second, "second", target.color->format).value_or(glm::vec4(0));
+    out.blend->second = read_color(context, *second, "second", color.format).value_or(glm::vec4(0));
 }
 
 }  // namespace
@@ -199,10 +200,11 @@ std::optional<ColorFormat> read_format(LeafContext& context, const TomlValue& va
     return context.enumerator<ColorFormat>(value, "the colour format");
 }
 
+namespace {
+
 ColorOutput read_color_output(LeafContext& context, const TomlValue& value, const Target& target,
-                              const std::vector<Attribute>& attributes) {
+                              const ColorTarget& color, const std::vector<Attribute>& attributes) {
     ColorOutput out;
-    const ColorTarget& color = *target.color;
     if (!context.table(value, "color")) {
         return out;
     }
@@ -234,7 +236,7 @@ ColorOutput read_color_output(LeafContext& context, const TomlValue& value, cons
                 read_color(context, *constants, "constants", color.format).value_or(glm::vec4(0));
         }
     }
-    read_second(context, value, target, out);
+    read_second(context, value, target, color, out);
     if (const TomlValue* logic = value.find("logic")) {
         out.logic = context.enumerator<LogicOp>(*logic, "the logical operation");
         if (target.has_instruments) {
@@ -255,6 +257,76 @@ ColorOutput read_color_output(LeafContext& context, const TomlValue& value, cons
         out.write_mask = read_write_mask(context, *mask);
     }
     return out;
+}
+
+// A device has blend constants and a logical operation once for all of a draw's colours.
+void check_shared(LeafContext& context, const TomlValue& value,
+                  const std::vector<ColorOutput>& all) {
+    const auto is_same = [](const glm::vec4& a, const glm::vec4& b) {
+        return std::memcmp(&a, &b, sizeof a) == 0;
+    };
+    const ColorOutput* blended = nullptr;
+    for (const ColorOutput& one : all) {
+        if (one.alpha_to_one) {
+            context.error(value.where,
+                          "alpha to one changes the colour at location 0 alone; write one colour "
+                          "target");
+        }
+        if (one.blend && takes_second(*one.blend)) {
+            context.error(value.where,
+                          "a device may blend a second source into one attachment alone; write one "
+                          "colour target");
+        }
+        if (one.logic != all.front().logic) {
+            context.error(value.where,
+                          "a draw has one logical operation for all its colours; write the same in "
+                          "each of them");
+        }
+        if (blended != nullptr && one.blend &&
+            !is_same(blended->blend->constants, one.blend->constants)) {
+            context.error(value.where,
+                          "a draw has one set of blend constants for all its colours; write the "
+                          "same in each that blends");
+        }
+        blended = blended == nullptr && one.blend ? &one : blended;
+        if (!context.errors().empty()) {
+            return;
+        }
+    }
+}
+
+}  // namespace
+
+void read_color_outputs(LeafContext& context, const TomlValue& value, const Target& target,
+                        Draw& draw) {
+    if (target.other_colors.empty()) {
+        draw.color = read_color_output(context, value, target, *target.color, draw.attributes);
+        return;
+    }
+    const uint32_t count = target.color_count();
+    if (!value.is(Kind::array) || value.array.size() != count) {
+        context.error(value.where, fmt::format("the target has {} colours; write a list of as many "
+                                               "tables, in the order of [target]'s",
+                                               count));
+        return;
+    }
+    std::vector<ColorOutput> all;
+    for (uint32_t k = 0; k < count; ++k) {
+        all.push_back(read_color_output(context, value.array[k], target, target.color_at(k),
+                                        draw.attributes));
+    }
+    check_shared(context, value, all);
+    for (const Attribute& attribute : draw.attributes) {
+        if (attribute.source != Source::vertex || attribute.probe != Probe::value) {
+            context.error(value.where,
+                          fmt::format("attribute \"{}\" is not a value from the vertices alone; "
+                                      "several colour targets go with those only",
+                                      attribute.name));
+        }
+    }
+    draw.color = all[target.judged_color];
+    all.erase(all.begin() + target.judged_color);
+    draw.other_colors = std::move(all);
 }
 
 }  // namespace cases

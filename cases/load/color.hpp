@@ -26,8 +26,9 @@ std::optional<ColorFormat> read_format(LeafContext& context, const TomlValue& va
 // The table [target.color].
 std::optional<ColorTarget> read_color_target(LeafContext& context, const TomlValue& value);
 
-// The table `color` of a draw to a target that has one. `attributes`: those of the draw.
-ColorOutput read_color_output(LeafContext& context, const TomlValue& value, const Target& target,
-                              const std::vector<Attribute>& attributes);
+// The key `color` of a draw to a target that has one, whose attributes have been read: a table, or
+// a list of them where the target has several colours.
+void read_color_outputs(LeafContext& context, const TomlValue& value, const Target& target,
+                        Draw& draw);
 
 }  // namespace cases

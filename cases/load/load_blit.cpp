@@ -42,6 +42,10 @@ class BlitLoader {
                            "a blit writes to the colour target; write [target.color]");
             return;
         }
+        if (!target_.other_colors.empty()) {
+            context_.error(table_.where,
+                           "a blit writes to one colour target; write a table [target.color]");
+        }
         blit_.source_format = target_.color->format;
         if (const TomlValue* value = table_.find("format")) {
             const std::optional<ColorFormat> format = read_format(context_, *value);

@@ -188,7 +188,7 @@ class DrawLoader {
     void read_color() {
         const TomlValue* value = table_.find("color");
         if (value != nullptr && target_.color) {
-            draw_.color = read_color_output(context_, *value, target_, draw_.attributes);
+            read_color_outputs(context_, *value, target_, draw_);
         } else if (value != nullptr) {
             context_.error(value->where, "the target has no colour; write [target.color]");
         } else if (target_.color) {

@@ -80,7 +80,7 @@ std::string objection(const Relation& relation, const Case& c) {
     if (!c.target.has_instruments) {
         return "needs the attachments that attributes are written to; leave out attachments = ...";
     }
-    if (any_draw([](const Draw& draw) { return draw.color.attribute >= 0; })) {
+    if (any_draw([&c](const Draw& draw) { return !colored_attributes(c.target, draw).empty(); })) {
         return "does not go with a colour that is an attribute; leave it out";
     }
     return {};

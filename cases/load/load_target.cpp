@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "cases/base/counted.hpp"
 #include "cases/load/color.hpp"
@@ -52,6 +54,40 @@ void read_locations(LeafContext& context, const TomlValue& table, Target& target
         }
         target.sample_locations.push_back(location);
     }
+}
+
+// One table, or a list of them with the location of the one that is judged.
+void read_color_targets(LeafContext& context, const TomlValue& table, Target& target) {
+    const TomlValue* color = table.find("color");
+    const TomlValue* judged = table.find("judged");
+    const bool is_list = color != nullptr && color->is(TomlValue::Kind::array);
+    if (judged != nullptr && !is_list) {
+        context.error(judged->where,
+                      "judged chooses from a list of colour targets; write color = [{ format = "
+                      "...}, ...]");
+        return;
+    }
+    if (color == nullptr) {
+        return;
+    }
+    if (!is_list) {
+        target.color = read_color_target(context, *color);
+        return;
+    }
+    if (color->array.size() < 2 || color->array.size() > kMaxColorTargets) {
+        context.error(color->where,
+                      fmt::format("color lists {}; write 2 to {}, or a table for one",
+                                  counted(color->array.size(), "colour target"), kMaxColorTargets));
+        return;
+    }
+    std::vector<ColorTarget> all;
+    for (const TomlValue& value : color->array) {
+        all.push_back(read_color_target(context, value).value_or(ColorTarget{}));
+    }
+    context.read(table, "judged", target.judged_color, 0, static_cast<int64_t>(all.size()) - 1);
+    target.color = all[target.judged_color];
+    all.erase(all.begin() + target.judged_color);
+    target.other_colors = std::move(all);
 }
 
 void read_attachments(LeafContext& context, const TomlValue& table, Target& target) {
@@ -122,15 +158,13 @@ Target load_target(LeafContext& context, const TomlValue& table) {
     Target target;
     context.known_keys(
         table, "[target]",
-        {"size", "samples", "layers", "sample_locations", "depth", "depth_clear", "color",
+        {"size", "samples", "layers", "sample_locations", "depth", "depth_clear", "color", "judged",
          "attachments", "resolve", "depth_resolve", "stencil", "stencil_clear"});
     read_depth_target(context, table, target);
     read_samples(context, table, target);
     context.read(table, "layers", target.layers, 1, kMaxLayers);
     read_locations(context, table, target);
-    if (const TomlValue* color = table.find("color")) {
-        target.color = read_color_target(context, *color);
-    }
+    read_color_targets(context, table, target);
     read_attachments(context, table, target);
     read_resolves(context, table, target);
     read_stencil(context, table, target);

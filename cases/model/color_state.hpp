@@ -110,6 +110,8 @@ struct ColorOutput {
     }
     friend bool operator==(const ColorOutput&, const ColorOutput&) = default;
 };
+inline constexpr uint32_t kMaxColorTargets = 4;  // every device has as many outputs
+
 // One more colour attachment, judged by its stored bits.
 struct ColorTarget {
     ColorFormat format = ColorFormat::rgba8_unorm;

@@ -93,6 +93,32 @@ uint32_t attributes_of(const Case& c) {
     return static_cast<uint32_t>(count);
 }
 
+const ColorOutput& output_at(const Target& target, const Draw& draw, uint32_t location) {
+    return location == target.judged_color
+               ? draw.color
+               : draw.other_colors.at(location - (location > target.judged_color ? 1U : 0U));
+}
+
+glm::vec4 blend_constants(const Draw& draw) {
+    if (draw.color.blend) {
+        return draw.color.blend->constants;
+    }
+    const auto blended = std::find_if(draw.other_colors.begin(), draw.other_colors.end(),
+                                      [](const ColorOutput& o) { return o.blend.has_value(); });
+    return blended == draw.other_colors.end() ? glm::vec4(0) : blended->blend->constants;
+}
+
+std::vector<uint32_t> colored_attributes(const Target& target, const Draw& draw) {
+    std::vector<uint32_t> out;
+    for (uint32_t location = 0; location < target.color_count(); ++location) {
+        const int32_t attribute = output_at(target, draw, location).attribute;
+        if (attribute >= 0 && std::find(out.begin(), out.end(), attribute) == out.end()) {
+            out.push_back(static_cast<uint32_t>(attribute));
+        }
+    }
+    return out;
+}
+
 std::vector<Derivation> derivations(const Case& c) {
     std::vector<Derivation> result;
     for (const Relation& relation : all_relations(c)) {

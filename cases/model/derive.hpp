@@ -30,6 +30,13 @@ Case derive(const Case& c, const Derivation& derivation);
 // The largest number of attributes among the draws.
 uint32_t attributes_of(const Case& c);
 
+// What a draw writes to the colour target of a location (below Target::color_count()).
+const ColorOutput& output_at(const Target& target, const Draw& draw, uint32_t location);
+// The blend constants, which a device has once for all targets: those of an output that blends.
+glm::vec4 blend_constants(const Draw& draw);
+// The attributes that are colours, each once, in the order of the locations.
+std::vector<uint32_t> colored_attributes(const Target& target, const Draw& draw);
+
 // The word of a relation in a case file.
 std::string_view to_string(RelationKind kind);
 

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "cases/model/case.hpp"
+#include "cases/model/derive.hpp"
 #include "cases/model/rule_ids.hpp"
 
 namespace cases {
@@ -70,7 +71,7 @@ bool is_constant(const std::vector<glm::vec4>& values) {
            });
 }
 
-// Without instruments the only attribute that is drawn is the colour.
+// Without instruments the only attributes that are drawn are colours.
 bool has_constant_input(const Case& c) {
     return any_draw(c, [&c](const Draw& draw) {
         const auto& attributes = draw.attributes;
@@ -78,9 +79,10 @@ bool has_constant_input(const Case& c) {
             return true;
         }
         if (!c.target.has_instruments) {
-            return draw.color.attribute >= 0 &&
-                   static_cast<size_t>(draw.color.attribute) < attributes.size() &&
-                   is_constant(attributes[static_cast<size_t>(draw.color.attribute)].values);
+            return std::ranges::any_of(
+                colored_attributes(c.target, draw), [&attributes](uint32_t k) {
+                    return k < attributes.size() && is_constant(attributes[k].values);
+                });
         }
         return std::any_of(attributes.begin(), attributes.end(),
                            [](const Attribute& a) { return is_constant(a.values); });

@@ -295,8 +295,9 @@ struct Draw {
     StencilState stencil;  // if the target has a stencil
     ClipDistances distances;
     Multisample multisample;
-    ColorOutput color;            // if the target has a colour target
-    Query query = Query::none;    // around this draw alone
+    ColorOutput color;  // if the target has a colour target: of the judged one,
+    std::vector<ColorOutput> other_colors = {};  // and of Target::other_colors
+    Query query = Query::none;                   // around this draw alone
     uint32_t layer = 0;           // below Target::layers; gl_Layer of all its primitives
     uint32_t viewport_index = 0;  // below 16; gl_ViewportIndex of all its primitives
     SourceLocation where;
@@ -323,6 +324,7 @@ struct Draw {
         visit("multisample", d.multisample...);
         visit("distances", d.distances...);
         visit("color", d.color...);
+        visit({"other_colors", kNotExported}, d.other_colors...);  // as Target::other_colors
         visit("attributes", d.attributes...);
         visit({"where", kNotOnWire | kNotExported}, d.where...);  // for errors
     }

@@ -230,6 +230,11 @@ constexpr std::array kRules = {
     Rule{rule::blend_write_mask, Profile::vulkan, "A masked component keeps its value",
          "Components whose bit is not in the write mask are left as they were.",
          "framebuffer-color-write-mask", "17.15", "ref/color/blend.hpp"},
+    Rule{rule::color_location, Profile::vulkan, "Each colour target goes by its own location",
+         "Of several colour targets each holds what the shader writes to its location, cleared, "
+         "converted, blended and masked as its own format and state say, whatever those of the "
+         "others are. Blend constants and the logical operation are one for all of them.",
+         "interfaces-fragmentoutput", "", "ref/color/neighbour.hpp"},
     Rule{rule::write_consistent, Profile::vulkan, "A fragment writes all its attachments, or none",
          "Different color attachments of one draw receive the same fragments, and additive "
          "blending of exactly representable values is exact.",

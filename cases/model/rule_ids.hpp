@@ -55,6 +55,7 @@ inline constexpr char blend_equation[] = "blend.equation";
 inline constexpr char blend_second_source[] = "blend.second-source";
 inline constexpr char logic_operation[] = "logic.operation";
 inline constexpr char blend_write_mask[] = "blend.write-mask";
+inline constexpr char color_location[] = "color.location";
 inline constexpr char write_consistent[] = "write.consistent";
 inline constexpr char write_outside[] = "write.outside";
 inline constexpr char depth_linear[] = "depth.linear";

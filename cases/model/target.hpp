@@ -29,7 +29,10 @@ struct Target {
     DepthFormat depth_format = DepthFormat::d32_float;
     // Custom sample locations in 1/16 pixel, one a sample; empty: the standard ones.
     std::vector<std::array<uint8_t, 2>> sample_locations = {};
-    std::optional<ColorTarget> color = {};
+    std::optional<ColorTarget> color = {};  // that is judged
+    // Those drawn beside it, in the order of their locations, and its own among them.
+    std::vector<ColorTarget> other_colors = {};
+    uint32_t judged_color = 0;
     // False: only the colour target (and depth if has_depth) is attached, nothing that counts hits.
     // Drivers take other paths then.
     bool has_instruments = true;
@@ -41,6 +44,15 @@ struct Target {
     uint32_t stencil_clear = 0;  // what the stencil is cleared to, 0..255
     // Rows of pixels of all layers, stacked: row y of layer k is row k * height + y of every plane.
     uint32_t rows() const { return height * layers; }
+    // Colour targets, and the one of a location (below color_count()).
+    uint32_t color_count() const {
+        return color ? static_cast<uint32_t>(other_colors.size()) + 1 : 0;
+    }
+    const ColorTarget& color_at(uint32_t location) const {
+        return location == judged_color
+                   ? *color
+                   : other_colors.at(location - (location > judged_color ? 1U : 0U));
+    }
     static void fields(auto&& visit, auto&... t) {
         visit("width", t.width...);
         visit("height", t.height...);
@@ -51,6 +63,9 @@ struct Target {
         visit("depth_format", t.depth_format...);
         visit("depth_clear", t.depth_clear...);
         visit("color", t.color...);
+        // What is judged does not depend on them, and nothing else is delivered.
+        visit({"other_colors", kNotExported}, t.other_colors...);
+        visit({"judged_color", kNotExported}, t.judged_color...);
         visit("stencil", t.has_stencil...);
         visit("stencil_clear", t.stencil_clear...);
         visit("color_resolve", t.color_resolve...);

@@ -27,6 +27,15 @@ bool has_possible_sizes(const Case& c) {
            std::find(c.doors.begin(), c.doors.end(), Door::none) == c.doors.end();
 }
 
+// Each draw writes to every colour target.
+bool has_possible_colors(const Case& c) {
+    const size_t others = c.target.other_colors.size();
+    return others < kMaxColorTargets && c.target.judged_color <= others &&
+           (others == 0 || c.target.color) &&
+           std::all_of(c.draws.begin(), c.draws.end(),
+                       [others](const Draw& draw) { return draw.other_colors.size() == others; });
+}
+
 }  // namespace
 
 std::string to_bytes(const Case& c) {
@@ -42,7 +51,7 @@ Expected<Case> from_bytes(std::span<const char> bytes) {
         return failure("these bytes are not a case of this program");
     }
     Case c = r.get<Case>();
-    if (!r.good() || !has_possible_sizes(c)) {
+    if (!r.good() || !has_possible_sizes(c) || !has_possible_colors(c)) {
         return failure("the bytes of a case are cut short or damaged");
     }
     if (!r.at_end()) {

@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "cases/load/color.hpp"
+#include "cases/model/derive.hpp"
 #include "cases/model/float_bits.hpp"
 #include "cases/model/words.hpp"
 #include "cases/write/toml_text.hpp"
@@ -234,8 +235,7 @@ std::string blend_text(const Blend& blend) {
     return table.in_line();
 }
 
-std::string color_output_text(const Draw& draw) {
-    const ColorOutput& color = draw.color;
+std::string color_output_text(const Draw& draw, const ColorOutput& color) {
     TableText table;
     if (color.attribute >= 0 && static_cast<size_t>(color.attribute) < draw.attributes.size()) {
         table.add("attribute",
@@ -268,6 +268,18 @@ std::string color_output_text(const Draw& draw) {
         table.add("write_mask", string_toml(letters));
     }
     return table.in_line();
+}
+
+// A table, or a list of them in the order of the locations.
+std::string colors_text(const Draw& draw, const Target& target) {
+    if (target.other_colors.empty()) {
+        return color_output_text(draw, draw.color);
+    }
+    std::vector<std::string> tables;
+    for (uint32_t k = 0; k < target.color_count(); ++k) {
+        tables.push_back(color_output_text(draw, output_at(target, draw, k)));
+    }
+    return list_toml(tables);
 }
 
 // The tables of clip or cull distances.
@@ -361,7 +373,7 @@ std::string draw_text(const Draw& draw, const Target& target) {
     add_stencil(table, draw.stencil);
     add_multisample(table, draw.multisample);
     if (target.color) {
-        table.add("color", color_output_text(draw));
+        table.add("color", colors_text(draw, target));
     }
     std::string out = "[[draw]]\n" + table.lines();
     const ClipDistances& d = draw.distances;

@@ -68,6 +68,16 @@ std::string locations_text(const std::vector<std::array<uint8_t, 2>>& locations)
     return array_toml(items, 0);
 }
 
+TableText color_target_text(const ColorTarget& target) {
+    TableText color;
+    color.add("format", string_toml(word_of(target.format)));
+    const std::string clear = color_text(target.clear);
+    if (clear != color_text(ColorTarget().clear)) {
+        color.add("clear", clear);
+    }
+    return color;
+}
+
 std::string target_text(const Target& t) {
     const Target usual;
     TableText table;
@@ -98,15 +108,18 @@ std::string target_text(const Target& t) {
     if (!t.has_instruments) {
         table.add("attachments", string_toml(t.has_depth ? "color+depth" : "color"));
     }
+    if (!t.other_colors.empty()) {
+        std::vector<std::string> colors;
+        for (uint32_t k = 0; k < t.color_count(); ++k) {
+            colors.push_back(color_target_text(t.color_at(k)).in_line());
+        }
+        table.add("color", list_toml(colors));
+        add_number("judged", t.judged_color, usual.judged_color);
+        return "\n[target]\n" + table.lines();
+    }
     std::string out = "\n[target]\n" + table.lines();
     if (t.color) {
-        TableText color;
-        color.add("format", string_toml(word_of(t.color->format)));
-        const std::string clear = color_text(t.color->clear);
-        if (clear != color_text(ColorTarget().clear)) {
-            color.add("clear", clear);
-        }
-        out += "[target.color]\n" + color.lines();
+        out += "[target.color]\n" + color_target_text(*t.color).lines();
     }
     return out;
 }

@@ -138,7 +138,7 @@ Words change_logic(Document& document, Dice& dice) {
     Document* draw = any_draw(document, dice, words);
     Document* target = find(document, "target");
     Document* color = draw == nullptr ? nullptr : find(*draw, "color");
-    if (color == nullptr || target == nullptr) {
+    if (color == nullptr || !color->is(Document::Kind::table) || target == nullptr) {
         return {};
     }
     if (drops(color, "logic", dice)) {

@@ -58,13 +58,19 @@ constexpr std::array<WordKey, 25> kWordKeys = {{
     {"attribute", "source", cases::kWords<cases::Source>},
 }};
 
+// The colour, unless it is a list of several.
+Document* color_table(Document& table) {
+    Document* color = find(table, "color");
+    return color != nullptr && color->is(Document::Kind::table) ? color : nullptr;
+}
+
 // The table of that name, made where it may be missing; nullptr if there is none. Its words end in
 // a blank, if there are any.
 Document* table_of(Document& document, std::string_view name, Dice& dice, Words& words) {
     Document* target = find(document, "target");
     if (name == "target" || name == "color") {
         words = fmt::format("{} ", name == "color" ? "target colour" : "target");
-        return target == nullptr || name == "target" ? target : find(*target, "color");
+        return target == nullptr || name == "target" ? target : color_table(*target);
     }
     Document* draw = any_draw(document, dice, words);
     if (draw == nullptr || name == "draw") {
@@ -77,7 +83,7 @@ Document* table_of(Document& document, std::string_view name, Dice& dice, Words&
     }
     if (name == "draw color") {
         words += "colour ";
-        return find(*draw, "color");
+        return color_table(*draw);
     }
     Document* attributes = find(*draw, "attribute");
     if (attributes == nullptr || attributes->array.empty()) {
@@ -216,6 +222,7 @@ Words remove_key(Document& document, Dice& dice) {
     if (key == "color") {  // of the target or of a draw: neither goes without the other
         if (Document* target = find(document, "target")) {
             erase(*target, "color");
+            erase(*target, "judged");
             erase(*target, "attachments");
             erase(*target, "resolve");
         }

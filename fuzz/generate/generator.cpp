@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cases/load/loader.hpp"
+#include "fuzz/generate/beside.hpp"
 #include "fuzz/generate/blit.hpp"
 #include "fuzz/generate/color.hpp"
 #include "fuzz/generate/dice.hpp"
@@ -28,7 +29,8 @@ namespace {
 // the arguments of a call are evaluated to the compiler.
 
 // Streams of the dice (dice.hpp): poses take 1.
-constexpr uint64_t kStateStream = 2, kGeometryStream = 3, kTurnStream = 7, kDoorStream = 8;
+constexpr uint64_t kStateStream = 2, kGeometryStream = 3, kTurnStream = 7, kDoorStream = 8,
+                   kBesideStream = 9;
 // State with many words, as the factors of blending, has several turns in a pose, one for so many
 // geometries.
 constexpr uint64_t kGeometriesOfTurn = 16;
@@ -389,6 +391,10 @@ std::string case_text(uint64_t seed, const Pose& pose, uint64_t pose_number, uin
         CaseWriter(pose, Dice(seed, kStateStream, pose_number), Dice(seed, kTurnStream, turn),
                    Dice(seed, kGeometryStream, number))
             .write();
+    Dice beside(seed, kBesideStream, turn);
+    if (pose.is_default("blit") && beside.one_in(4)) {
+        text = beside_others(std::move(text), beside);
+    }
     Dice doors(seed, kDoorStream, turn);
     const bool has_doors =
         pose.is_default("relation") && pose.is_default("blit") && doors.one_in(4);

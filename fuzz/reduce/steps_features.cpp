@@ -84,9 +84,57 @@ bool without_color(Document& document) {
     if (target == nullptr || !erase(*target, "color")) {
         return false;
     }
+    erase(*target, "judged");
     erase(*target, "attachments");
     erase(*target, "resolve");
     for_each_draw(document, [](Document& draw) { erase(draw, "color"); });
+    return true;
+}
+
+// The list of a key becomes one of its elements.
+bool take_one(Document& table, size_t judged) {
+    Document* color = find(table, "color");
+    if (color == nullptr || judged >= color->array.size()) {
+        return false;
+    }
+    Document one = color->array[judged];
+    *color = std::move(one);
+    return true;
+}
+
+bool with_one_color(Document& document) {
+    Document* target = find(document, "target");
+    const size_t judged = target == nullptr ? 0 : whole(target->find("judged"), 0);
+    if (target == nullptr || !take_one(*target, judged)) {
+        return false;
+    }
+    erase(*target, "judged");
+    for_each_draw(document, [judged](Document& draw) { take_one(draw, judged); });
+    return true;
+}
+
+// Without one of several colour targets that is not judged; of two, one is left.
+bool without_color_at(Document& document, size_t location) {
+    Document* target = find(document, "target");
+    Document* color = target == nullptr ? nullptr : find(*target, "color");
+    if (color == nullptr || color->array.size() < 3 || location >= color->array.size()) {
+        return false;
+    }
+    const size_t judged = whole(target->find("judged"), 0);
+    if (judged == location) {
+        return false;
+    }
+    const auto drop = [location](Document& table) {
+        Document* list = find(table, "color");
+        if (list != nullptr && location < list->array.size()) {
+            list->array.erase(list->array.begin() + static_cast<std::ptrdiff_t>(location));
+        }
+    };
+    if (judged > location) {
+        set(*target, "judged", number(static_cast<double>(judged - 1)));
+    }
+    drop(*target);
+    for_each_draw(document, drop);
     return true;
 }
 
@@ -239,7 +287,15 @@ void add_feature_steps(const Document& document, std::vector<Step>& steps) {
         })) {
         add_feature("without a stencil", without_stencil, steps);
     }
-    if (target->find("color") != nullptr) {
+    if (const Document* color = target->find("color")) {
+        if (color->is(Kind::array)) {
+            add_feature("with one colour target", with_one_color, steps);
+        }
+        for (size_t k = 0; k < color->array.size(); ++k) {
+            add_feature(
+                fmt::format("without colour target {}", k),
+                [k](Document& d) { return without_color_at(d, k); }, steps);
+        }
         add_feature("without a colour target", without_color, steps);
         add_feature(fmt::format("with the format {}", kPlainFormat), with_plain_format, steps);
     }

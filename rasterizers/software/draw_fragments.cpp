@@ -12,6 +12,7 @@
 #include "rasterizers/software/multisample.hpp"
 #include "rasterizers/software/probes.hpp"
 #include "rasterizers/software/snapping.hpp"
+#include "rasterizers/software/target/neighbour.hpp"
 
 namespace software {
 
@@ -373,10 +374,11 @@ void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const Tri
 }
 
 void DrawCommand::write_color(size_t at, uint32_t primitive) {
-    const int32_t attribute = draw_.color.attribute;
-    attachments_.color.write(
-        at, number_, primitive,
-        attribute < 0 ? draw_.color.value : out_.attributes[static_cast<size_t>(attribute)][at]);
+    const cases::ColorOutput& output = reaching(out_.target, draw_, device_);
+    attachments_.color.write(at, number_, primitive,
+                             output.attribute < 0
+                                 ? output.value
+                                 : out_.attributes[static_cast<size_t>(output.attribute)][at]);
 }
 
 }  // namespace software

@@ -12,6 +12,7 @@
 #include "cases/model/rule_ids.hpp"
 #include "cases/model/sample.hpp"
 #include "ref/color/logic.hpp"
+#include "ref/color/neighbour.hpp"
 
 namespace ref {
 
@@ -230,6 +231,32 @@ std::string ColorReference::rule_of(const Sequence& sequence, bool is_as_unmaske
                                : kStoreRules[static_cast<size_t>(row_of(unit_.format).kind)]);
 }
 
+struct ColorReference::Mistake {
+    cases::Case test;
+    ColorReference reference;
+    Mistake(cases::Case c, const Expectation& expectation)
+        : test(std::move(c)), reference(test, expectation) {}
+};
+
+ColorReference::~ColorReference() = default;
+
+bool ColorReference::is_of_neighbour(const Sequence& sequence, cases::SampleId id,
+                                     const std::array<uint32_t, 4>& codes) {
+    using color::Taken;
+    const uint32_t count = mistakes_.empty() ? case_.target.color_count() : 0;
+    for (uint32_t k = 0; k < count; ++k) {
+        for (const Taken taken : {Taken::state, Taken::color, Taken::clear, Taken::all}) {
+            cases::Case other = case_;
+            if (k != case_.target.judged_color && color::take_from(other, k, taken)) {
+                mistakes_.push_back(std::make_unique<Mistake>(std::move(other), expectation_));
+            }
+        }
+    }
+    return std::ranges::any_of(mistakes_, [&](const auto& mistake) {
+        return mistake->reference.leaves(sequence, id, nullptr, codes);
+    });
+}
+
 bool ColorReference::explains(size_t index, cases::SampleId id,
                               const std::array<uint32_t, 4>& codes,
                               const std::optional<ColorWitness>& witness) {
@@ -293,7 +320,9 @@ ColorVerdict ColorReference::judge(size_t index, cases::SampleId id,
     verdict.kind = ColorVerdict::Kind::value;
     const Sequence& most = *std::max_element(
         sets.begin(), sets.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
-    verdict.rule = rule_of(most, unit_.allows(color_of(most, id, last, false), codes));
+    verdict.rule = is_of_neighbour(most, id, codes)
+                       ? cases::rule::color_location
+                       : rule_of(most, unit_.allows(color_of(most, id, last, false), codes));
     // What leaves anything, as infinity that is blended, tells nothing.
     const auto tells = [&](const Sequence& sequence) {
         return leaves(sequence, id, nullptr, codes) &&

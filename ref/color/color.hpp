@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -57,6 +58,7 @@ class ColorReference {
   public:
     // Both must outlive this object. The expectation has the fragments of the case's samples.
     ColorReference(const cases::Case& c, const Expectation& expectation);
+    ~ColorReference();
 
     // `index`: of the sample. `witness`: nothing if the target has no instruments.
     ColorVerdict judge(size_t index, cases::SampleId id, const std::array<uint32_t, 4>& codes,
@@ -146,6 +148,13 @@ class ColorReference {
     bool is_as_before(const Accepted& accepted, size_t index, const std::array<uint32_t, 4>& codes,
                       const std::optional<ColorWitness>& witness) const;
     std::array<Accepted, 2> accepted_;
+
+    // What a device would leave that takes something of another colour target: made when the first
+    // colour is wrong.
+    struct Mistake;
+    bool is_of_neighbour(const Sequence& sequence, cases::SampleId id,
+                         const std::array<uint32_t, 4>& codes);
+    std::vector<std::unique_ptr<Mistake>> mistakes_;
     bool is_constant_ = false;  // every draw writes one colour
 };
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cases/model/sample.hpp"
+#include "ref/color/neighbour.hpp"
 
 namespace ref {
 
@@ -435,6 +436,27 @@ bool blend_twice(Case& c) {
 
 bool write_all_components(Case& c) {
     return change_draws(c, [](Draw& draw) { return set(draw.color.write_mask, uint8_t{0xf}); });
+}
+
+namespace {
+
+bool take_from_next(Case& c, color::Taken taken) {
+    return c.target.color_count() > 1 &&
+           color::take_from(c, (c.target.judged_color + 1) % c.target.color_count(), taken);
+}
+
+}  // namespace
+
+bool take_state_of_next(Case& c) {
+    return take_from_next(c, color::Taken::state);
+}
+
+bool take_color_of_next(Case& c) {
+    return take_from_next(c, color::Taken::color);
+}
+
+bool clear_as_next(Case& c) {
+    return take_from_next(c, color::Taken::clear);
 }
 
 }  // namespace ref

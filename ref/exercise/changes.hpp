@@ -111,5 +111,9 @@ bool exchange_operands(cases::Case& c);
 // Each draw that blends is drawn once more; the triangles get other numbers.
 bool blend_twice(cases::Case& c);
 bool write_all_components(cases::Case& c);
+// Something of the colour target at the next location, or at the first one behind the last.
+bool take_state_of_next(cases::Case& c);
+bool take_color_of_next(cases::Case& c);
+bool clear_as_next(cases::Case& c);
 
 }  // namespace ref

@@ -189,6 +189,12 @@ constexpr ExerciseRow kRows[] = {
     {rule::blend_write_mask,
      "whose colour would be another if all components were written",
      {by(write_all_components, Differ::colors)}},
+    {rule::color_location,
+     "whose colour would be another with the state, the colour or the clear colour of the target "
+     "at "
+     "the next location",
+     {by(take_state_of_next, Differ::colors), by(take_color_of_next, Differ::colors),
+      by(clear_as_next, Differ::colors)}},
     {rule::write_consistent, "that a triangle must write", {at_all(is_written)}},
     {rule::write_outside, "that a triangle must write", {at_all(is_written)}},
     {rule::depth_linear, kLevel, {by(level_depths, Differ::values)}},

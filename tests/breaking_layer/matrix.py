@@ -19,6 +19,7 @@ import broken
 
 FOCUS = [  # families that are about the faults whose names match
     ("blend|write-mask", ["blend/**", "store/**", "order/**", "combination/**", "resolve/**"]),
+    ("targets", ["color-targets/**", "combination/**"]),
     ("logic-op", ["logic/**", "combination/**"]),
     ("dual-source", ["dual-source/**", "combination/**"]),
     ("sample-location", ["multisample/**", "depth-bias/**", "resolve/**"]),

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "cases/model/derive.hpp"
 #include "vk_harness/device/depth_bias_control.hpp"
 #include "vk_harness/target/shader_interface.hpp"
 
@@ -43,6 +44,14 @@ std::vector<VkRect2D> scissors_of(const cases::Draw& draw, const cases::Case& te
     return scissors;
 }
 
+// The bits of what a fragment writes to a target of this format.
+void write_bits(cases::ColorFormat format, const glm::vec4& value, uint32_t (&to)[4]) {
+    for (int k = 0; k < 4; ++k) {
+        to[k] = cases::is_integer(format) ? static_cast<uint32_t>(value[k])
+                                          : std::bit_cast<uint32_t>(value[k]);
+    }
+}
+
 void push_constants(const Device& device, const PipelineCache& pipelines, VkCommandBuffer commands,
                     const DrawPlan& plan, const cases::Case& test, uint32_t draw_index) {
     const cases::Draw& draw = *plan.draw;
@@ -51,15 +60,15 @@ void push_constants(const Device& device, const PipelineCache& pipelines, VkComm
         plan.is_split ? static_cast<uint32_t>(test.draws.size()) << 16 | draw_index : draw_index;
     constants.layer = draw.layer;
     constants.viewport_index = draw.viewport_index;
-    for (int k = 0; k < 4; ++k) {
-        const float value = draw.color.value[k];
-        constants.color[k] =
-            plan.has_integer_color ? static_cast<uint32_t>(value) : std::bit_cast<uint32_t>(value);
-    }
     for (size_t k = 0; k < draw.attributes.size(); ++k) {
-        constants.offsets[k][0] = draw.attributes[k].probe_offset[0];
-        constants.offsets[k][1] = draw.attributes[k].probe_offset[1];
-        constants.sample_numbers[k] = static_cast<int32_t>(draw.attributes[k].probe_sample);
+        constants.probes.offsets[k][0] = draw.attributes[k].probe_offset[0];
+        constants.probes.offsets[k][1] = draw.attributes[k].probe_offset[1];
+        constants.probes.sample_numbers[k] = static_cast<int32_t>(draw.attributes[k].probe_sample);
+    }
+    for (uint32_t location = 0; location < test.target.color_count(); ++location) {
+        write_bits(test.target.color_at(location).format,
+                   cases::output_at(test.target, draw, location).value,
+                   location == 0 ? constants.color : constants.other_colors[location - 1]);
     }
     if (draw.color.blend) {
         for (int k = 0; k < 4; ++k) {

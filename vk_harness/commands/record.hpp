@@ -27,7 +27,6 @@ struct DrawPlan {
     std::array<VkDeviceSize, 1 + cases::kMaxAttributes> vertices{};  // positions, attributes
     DistancePlaces distances{};
     VkDeviceSize indices = 0;
-    bool has_integer_color = false;           // the colour target's format holds integers
     bool is_split = false;                    // TargetLayout::split
     std::shared_ptr<Feed> feed;               // of a door that feeds vertices in another way
     std::optional<OutputState> outputs = {};  // of the door state_output: set before the draw

@@ -122,6 +122,7 @@ class Attached {
     Attached(const CasePlan& plan, VkAttachmentLoadOp load, VkRenderingFlags flags,
              bool resolves = true) {
         const cases::Target& target = plan.test->target;
+        size_t judged = 0;  // among the colour attachments
         for (size_t k = 0; k < plan.images.size(); ++k) {
             const Attachment& a = plan.attachments[k];
             VkImageView view = plan.images[k]->view();
@@ -132,11 +133,15 @@ class Attached {
                 case Role::stencil:
                     stencil_ = attachment(view, kDepthDrawn.layout, a.clear, load);
                     break;
-                case Role::resolved_color:  // the last colour attachment is the colour target
+                case Role::resolved_color:
                     if (resolves) {
                         resolve_into(view, kColorDrawn.layout, target.color_resolve,
-                                     colors_.back());
+                                     colors_.at(judged));
                     }
+                    break;
+                case Role::color:
+                    judged = colors_.size();
+                    colors_.push_back(attachment(view, kColorDrawn.layout, a.clear, load));
                     break;
                 case Role::resolved_depth:
                     if (resolves) {

@@ -4,6 +4,7 @@
 
 #include <bit>
 
+#include "cases/model/derive.hpp"
 #include "cases/model/sample.hpp"
 #include "vk_harness/target/shader_interface.hpp"
 
@@ -114,8 +115,7 @@ DrawState draw_state(const cases::Case& c, const cases::Draw& own, bool has_rest
     out.has_bounds = vulkan_of(own.depth.bounds.has_value());
     const cases::DepthBounds bounds = own.depth.bounds.value_or(cases::DepthBounds{});
     out.bounds = std::bit_cast<std::array<uint32_t, 2>>(std::array{bounds.min, bounds.max});
-    const glm::vec4 blend = own.color.blend ? own.color.blend->constants : glm::vec4(0);
-    out.blend_constants = std::bit_cast<std::array<uint32_t, 4>>(blend);
+    out.blend_constants = std::bit_cast<std::array<uint32_t, 4>>(cases::blend_constants(own));
     out.has_stencil = c.target.has_stencil;
     out.stencil = {bits_of(own.stencil.front), bits_of(own.stencil.back)};
     out.viewports.assign(viewport_count(c), bits_of(cases::Viewport{0, 0, 1, 1, 0, 1}));

@@ -28,9 +28,15 @@ OutputState output_state(const PipelineKey& key) {
 }
 
 PipelineKey without_outputs(PipelineKey key) {
-    ColorKey bare;
-    bare.format = key.color_target.format;
-    key.color_target = bare;
+    for (ColorKey& color : key.colors) {
+        ColorKey bare;
+        bare.format = color.format;
+        bare.is_integer = color.is_integer;
+        bare.attribute = color.attribute;
+        color = bare;
+    }
+    key.logic.reset();
+    key.alpha_to_one = false;
     key.sample_mask = 0xffffffffU;
     key.masked = 0;
     key.outputs_are_dynamic = true;

@@ -97,8 +97,9 @@ Result<PipelineCache> PipelineCache::create(const Device& device) {
 Result<VkShaderModule> PipelineCache::shader_module(std::span<const uint32_t> code,
                                                     std::vector<shaders::InputChange> changes,
                                                     std::vector<uint32_t> modes,
-                                                    shaders::Ending ending) {
-    std::tuple key(code.data(), std::move(changes), std::move(modes), ending);
+                                                    shaders::Ending ending,
+                                                    shaders::OutputChange outputs) {
+    std::tuple key(code.data(), std::move(changes), std::move(modes), ending, std::move(outputs));
     const auto found = modules_.find(key);
     if (found != modules_.end()) {
         return found->second.get();
@@ -109,6 +110,9 @@ Result<VkShaderModule> PipelineCache::shader_module(std::span<const uint32_t> co
     }
     if (changed && ending != shaders::Ending::kill) {
         changed = shaders::with_ending(*changed, ending);
+    }
+    if (changed) {
+        changed = shaders::with_outputs(*changed, std::get<4>(key));
     }
     if (!changed) {
         return fail(Stage::shader, changed.error());
@@ -167,7 +171,7 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
     }
     auto fragment = shader_module(shaders::capture_fragment(fragment_variant(key)),
                                   input_changes(key, device_->capabilities().info.has_primitive_id),
-                                  execution_modes(key), ending_of(key));
+                                  execution_modes(key), ending_of(key), output_change(key));
     if (!fragment) {
         return fail(fragment.error());
     }

@@ -32,12 +32,13 @@ class PipelineCache {
 
   private:
     explicit PipelineCache(const Device& device) : device_(&device) {}
-    // The module `code`, embedded in the program, with changes to its inputs, with more execution
-    // modes, and with another instruction that discards.
+    // The module `code`, embedded in the program, with changes to its inputs and outputs, with more
+    // execution modes, and with another instruction that discards.
     Result<VkShaderModule> shader_module(std::span<const uint32_t> code,
                                          std::vector<shaders::InputChange> changes = {},
                                          std::vector<uint32_t> modes = {},
-                                         shaders::Ending ending = shaders::Ending::kill);
+                                         shaders::Ending ending = shaders::Ending::kill,
+                                         shaders::OutputChange outputs = {});
     Result<Handle<VkPipeline>> make_graphics(const PipelineKey& key);
 
     const Device* device_;
@@ -46,9 +47,10 @@ class PipelineCache {
     Handle<VkPipelineLayout> layout_;
     Handle<VkDescriptorSetLayout> copy_set_layout_;
     Handle<VkPipelineLayout> copy_layout_;
-    // By the embedded code's address, the changes, the execution modes and the instruction.
+    // By the embedded code's address, the changes, the execution modes, the instruction and the
+    // outputs.
     std::map<std::tuple<const uint32_t*, std::vector<shaders::InputChange>, std::vector<uint32_t>,
-                        shaders::Ending>,
+                        shaders::Ending, shaders::OutputChange>,
              Handle<VkShaderModule>>
         modules_;
     std::map<PipelineKey, Handle<VkPipeline>> pipelines_;

@@ -6,8 +6,8 @@
 #include <bit>
 
 #include "cases/format/color_format.hpp"
+#include "cases/model/derive.hpp"
 #include "cases/model/sample.hpp"
-#include "shaders/spirv_variant.hpp"
 #include "vk_harness/device/format.hpp"
 #include "vk_harness/target/shader_interface.hpp"
 
@@ -27,9 +27,8 @@ AttributeKey attribute_key(const cases::Attribute& attribute) {
 ColorKey color_key(const cases::ColorTarget& target, const cases::ColorOutput& output) {
     ColorKey key;
     key.format = to_vulkan(target.format);
+    key.is_integer = cases::is_integer(target.format);
     key.write_mask = output.write_mask;
-    key.logic = output.logic;
-    key.alpha_to_one = output.alpha_to_one;
     if (output.blend) {
         key.blends = true;
         const cases::BlendEquation& c = output.blend->color;
@@ -90,19 +89,40 @@ PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw,
     if (c.target.color) {
         key.color = cases::is_integer(c.target.color->format) ? shaders::ColorKind::integer
                                                               : shaders::ColorKind::number;
-        // Without instruments the only input is the colour.
-        key.color_attribute =
-            key.instruments ? draw.color.attribute : std::min(draw.color.attribute, int32_t{0});
         if (draw.color.blend && cases::takes_second(*draw.color.blend)) {
             key.color = shaders::ColorKind::two_numbers;
         }
-        key.color_target = color_key(*c.target.color, draw.color);
+        if (!c.target.other_colors.empty()) {
+            key.color = shaders::ColorKind::several;
+        }
+        for (uint32_t k = 0; k < c.target.color_count(); ++k) {
+            key.colors.push_back(
+                color_key(c.target.color_at(k), cases::output_at(c.target, draw, k)));
+            key.colors.back().attribute = input_of_color(c, draw, k);
+        }
+        key.logic = draw.color.logic;
+        key.alpha_to_one = draw.color.alpha_to_one;
     }
     return key;
 }
 
 shaders::VertexVariant vertex_variant(const PipelineKey& key) {
     return {key.attribute_count, key.clip_count, key.cull_count, key.layer, key.viewport_index};
+}
+
+shaders::OutputChange output_change(const PipelineKey& key) {
+    shaders::OutputChange out;
+    if (key.color != shaders::ColorKind::several) {
+        return out;
+    }
+    if (key.instruments) {
+        out.first_location = (key.layout.split ? kSplitAttachments : kPackedAttachments) +
+                             key.attribute_count * key.layout.attribute_attachments();
+    }
+    for (const ColorKey& color : key.colors) {
+        out.integers.push_back(color.is_integer);
+    }
+    return out;
 }
 
 std::vector<uint32_t> execution_modes(const PipelineKey& key) {

@@ -13,6 +13,7 @@
 
 #include "cases/model/case.hpp"
 #include "shaders/shaders.hpp"
+#include "shaders/spirv_variant.hpp"
 #include "vk_harness/pipeline/draw_state.hpp"
 #include "vk_harness/pipeline/vertex_way.hpp"
 #include "vk_harness/target/attachments.hpp"
@@ -28,14 +29,14 @@ struct AttributeKey {
     friend auto operator<=>(const AttributeKey&, const AttributeKey&) = default;
 };
 
-// The colour target and how it is written.
+// A colour target and how it is written.
 struct ColorKey {
-    VkFormat format = VK_FORMAT_UNDEFINED;  // UNDEFINED: there is none
+    VkFormat format = VK_FORMAT_UNDEFINED;
+    bool is_integer = false;
     bool blends = false;
     std::array<uint8_t, 6> equation{};  // source, destination, op of colour, then of alpha
     uint8_t write_mask = 0xf;
-    std::optional<cases::LogicOp> logic = {};
-    bool alpha_to_one = false;
+    int32_t attribute = -1;  // the input that is written, or -1
     friend auto operator<=>(const ColorKey&, const ColorKey&) = default;
 };
 
@@ -68,15 +69,16 @@ struct PipelineKey {
     bool has_stencil = false;
     // Colour output.
     shaders::ColorKind color = shaders::ColorKind::none;
-    int32_t color_attribute = -1;
     bool instruments = true;
     TargetLayout layout;
     // Of cases::Variation.
     uint32_t masked = 0;
     std::optional<DrawState> fixed = {};  // static; nothing: all of it is dynamic
     bool is_unoptimized = false;
-    bool outputs_are_dynamic = false;  // output_state.hpp
-    ColorKey color_target;
+    bool outputs_are_dynamic = false;   // output_state.hpp
+    std::vector<ColorKey> colors = {};  // by location, the first behind those of the instruments
+    std::optional<cases::LogicOp> logic = {};
+    bool alpha_to_one = false;
     friend auto operator<=>(const PipelineKey&, const PipelineKey&) = default;
 };
 
@@ -87,6 +89,8 @@ PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw, const Ta
 // What the shaders have to be compiled for.
 shaders::VertexVariant vertex_variant(const PipelineKey& key);
 shaders::FragmentVariant fragment_variant(const PipelineKey& key);
+// The outputs that its fragment shader keeps of several colours'.
+shaders::OutputChange output_change(const PipelineKey& key);
 // The execution modes that its fragment shader has besides those it was compiled with.
 std::vector<uint32_t> execution_modes(const PipelineKey& key);
 

@@ -107,7 +107,7 @@ void multisample_state(const PipelineKey& key, MultisampleState& state) {
     state.info.pSampleMask = &state.sample_mask;
     state.info.sampleShadingEnable = key.min_shading_bits ? VK_TRUE : VK_FALSE;
     state.info.minSampleShading = std::bit_cast<float>(key.min_shading_bits.value_or(0U));
-    state.info.alphaToOneEnable = key.color_target.alpha_to_one ? VK_TRUE : VK_FALSE;
+    state.info.alphaToOneEnable = key.alpha_to_one ? VK_TRUE : VK_FALSE;
     state.places = sample_places(key.sample_locations);
     state.locations.sType = VK_STRUCTURE_TYPE_PIPELINE_SAMPLE_LOCATIONS_STATE_CREATE_INFO_EXT;
     state.locations.sampleLocationsEnable = VK_TRUE;
@@ -216,9 +216,9 @@ void color_state(const PipelineKey& key, ColorState& state) {
     if (key.instruments) {
         instrument_states(key, state);
     }
-    if (key.color_target.format != VK_FORMAT_UNDEFINED) {
-        state.blends.push_back(blend_state(key.color_target));
-        state.formats.push_back(key.color_target.format);
+    for (const ColorKey& color : key.colors) {
+        state.blends.push_back(blend_state(color));
+        state.formats.push_back(color.format);
     }
     state.info.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
     if (key.outputs_are_dynamic) {
@@ -226,9 +226,9 @@ void color_state(const PipelineKey& key, ColorState& state) {
     }
     state.info.attachmentCount = static_cast<uint32_t>(state.blends.size());
     state.info.pAttachments = state.blends.data();
-    if (key.color_target.logic) {
+    if (key.logic) {
         state.info.logicOpEnable = VK_TRUE;
-        state.info.logicOp = static_cast<VkLogicOp>(*key.color_target.logic);
+        state.info.logicOp = static_cast<VkLogicOp>(*key.logic);
     }
     if (key.fixed) {
         const auto constants = std::bit_cast<std::array<float, 4>>(key.fixed->blend_constants);

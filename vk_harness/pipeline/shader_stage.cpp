@@ -75,7 +75,10 @@ void specialize(const PipelineKey& key, Specialization& out) {
     for (uint32_t k = 0; k < key.attribute_count; ++k) {
         set(k, static_cast<uint32_t>(choice_of(key.attributes[k])));
     }
-    set(shaders::kColorAttributeConstant, std::bit_cast<uint32_t>(key.color_attribute));
+    for (uint32_t k = 0; k < key.colors.size(); ++k) {
+        set(k == 0 ? shaders::kColorAttributeConstant : shaders::kOtherAttributeConstant + k - 1,
+            std::bit_cast<uint32_t>(key.colors[k].attribute));
+    }
     if (key.layout.halves) {
         set(shaders::kBackHitConstant, std::bit_cast<uint32_t>(kBinary16Hits.back_hit));
     }

@@ -103,8 +103,9 @@ std::vector<Attachment> attachments_of(const cases::Case& c, const TargetLayout&
             }
         }
     }
-    if (c.target.color) {
-        out.push_back(color_attachment(*c.target.color));
+    for (uint32_t k = 0; k < c.target.color_count(); ++k) {
+        out.push_back(color_attachment(c.target.color_at(k)));
+        out.back().role = k == c.target.judged_color ? Role::color : Role::other_color;
     }
     if (c.target.has_depth) {
         VkClearValue clear{};
@@ -135,13 +136,13 @@ uint32_t color_count(const std::vector<Attachment>& attachments) {
 std::string attachment_name(const std::vector<Attachment>& attachments, size_t k) {
     // In the order of Role.
     static constexpr std::array kNames = {
-        "writer and hits", "frag_coord",     "writer",        "hits",  "frag_coord.xy",
-        "frag_coord.zw",   "attribute ",     "attribute ",    "color", "depth",
-        "stencil",         "resolved color", "resolved depth"};
+        "writer and hits", "frag_coord", "writer",         "hits",          "frag_coord.xy",
+        "frag_coord.zw",   "attribute ", "attribute ",     "other color ",  "color",
+        "depth",           "stencil",    "resolved color", "resolved depth"};
     static_assert(kNames.size() == static_cast<size_t>(Role::resolved_depth) + 1);
     const Role role = attachments[k].role;
     std::string name = kNames.at(static_cast<size_t>(role));
-    if (role == Role::attribute || role == Role::attribute_zw) {
+    if (role == Role::attribute || role == Role::attribute_zw || role == Role::other_color) {
         name += std::to_string(
             std::count_if(attachments.begin(), attachments.begin() + static_cast<ptrdiff_t>(k),
                           [role](const Attachment& a) { return a.role == role; }));

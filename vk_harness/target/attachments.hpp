@@ -23,6 +23,7 @@ enum class Role : uint8_t {
     frag_zw,
     attribute,
     attribute_zw,  // the second of a pair
+    other_color,   // a colour target beside the judged one: drawn, and not looked at
     color,
     depth,
     stencil,         // the other aspect of the depth attachment's image, if there is one
@@ -78,8 +79,8 @@ inline constexpr HitCode kBinary32Hits = {kNoHits,  kOtherNoHits,   0x1p24F,
 inline constexpr HitCode kBinary16Hits = {-2048.0F, -1024.0F, 0.0F, 32.0F, 1023, 31};
 
 // In the order of shader locations: writer_and_hits, frag_coord, or writer, hits, frag_xy, frag_zw
-// if the layout is split; attributes (or their pairs), color; then depth, which has no location,
-// stencil and what is resolved. Without instruments only color, if any, and depth, if any.
+// if the layout is split; attributes (or their pairs), colours; then depth, which has no location,
+// stencil and what is resolved. Without instruments only colours, if any, and depth, if any.
 std::vector<Attachment> attachments_of(const cases::Case& c, const TargetLayout& layout = {});
 
 // How many of them are colour attachments.

@@ -362,6 +362,8 @@ void read_planes(const std::vector<Attachment>& attachments, const ReadbackLayou
                 decode_attribute(attachments, layout, memory, count, k,
                                  to.attributes.at(attribute++).data());
                 break;
+            case Role::other_color:
+                break;
             case Role::color:
                 decode_color(shape, attachment, from.data(), to.color.data());
                 break;

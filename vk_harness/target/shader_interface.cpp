@@ -12,18 +12,31 @@ uint32_t input_count(const cases::Case& c) {
     if (c.target.has_instruments) {
         return cases::attributes_of(c);
     }
-    return std::any_of(c.draws.begin(), c.draws.end(),
-                       [](const cases::Draw& draw) { return draw.color.attribute >= 0; })
-               ? 1
-               : 0;
+    size_t count = 0;
+    for (const cases::Draw& draw : c.draws) {
+        count = std::max(count, cases::colored_attributes(c.target, draw).size());
+    }
+    return static_cast<uint32_t>(count);
 }
 
 const cases::Attribute* input_attribute(const cases::Case& c, const cases::Draw& draw,
                                         uint32_t input) {
-    const int64_t index = c.target.has_instruments ? int64_t{input} : draw.color.attribute;
-    return index >= 0 && index < std::ssize(draw.attributes)
-               ? &draw.attributes[static_cast<size_t>(index)]
-               : nullptr;
+    size_t index = input;
+    if (!c.target.has_instruments) {
+        const std::vector<uint32_t> colored = cases::colored_attributes(c.target, draw);
+        index = input < colored.size() ? colored[input] : draw.attributes.size();
+    }
+    return index < draw.attributes.size() ? &draw.attributes[index] : nullptr;
+}
+
+int32_t input_of_color(const cases::Case& c, const cases::Draw& draw, uint32_t location) {
+    const int32_t attribute = cases::output_at(c.target, draw, location).attribute;
+    if (c.target.has_instruments || attribute < 0) {
+        return attribute;
+    }
+    const std::vector<uint32_t> colored = cases::colored_attributes(c.target, draw);
+    return static_cast<int32_t>(std::find(colored.begin(), colored.end(), attribute) -
+                                colored.begin());
 }
 
 uint32_t viewport_count(const cases::Case& c) {

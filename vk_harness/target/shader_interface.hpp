@@ -10,12 +10,15 @@
 
 namespace vk_harness {
 
-// The attributes that reach the vertex shader: all, or, without instruments, the one that is the
-// colour, if any.
+// The attributes that reach the vertex shader: all, or, without instruments, those that are
+// colours.
 uint32_t input_count(const cases::Case& c);
 // Input number `input` of a draw; nullptr if the draw has none there.
 const cases::Attribute* input_attribute(const cases::Case& c, const cases::Draw& draw,
                                         uint32_t input);
+
+// The input that a draw's colour at a location comes from, or -1.
+int32_t input_of_color(const cases::Case& c, const cases::Draw& draw, uint32_t location);
 
 // Ids are written as binary32 (shaders/capture.frag): integers below 2^24 are exact.
 inline constexpr uint32_t kMaxId = 1U << 24;

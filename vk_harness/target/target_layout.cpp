@@ -76,7 +76,7 @@ TargetLayout target_layout(const Capabilities& c, const cases::Case& test) {
         layout.components.at(k) = is_wide ? 4 : 2;
         has_wide = has_wide || is_wide;
     }
-    const uint32_t all = kSplitAttachments + attributes + (test.target.color ? 1 : 0);
+    const uint32_t all = kSplitAttachments + attributes + test.target.color_count();
     const uint32_t limit = std::min(kMaxSplitAttachments, c.info.max_color_attachments);
     layout.split = all <= limit;
     layout.pairs = has_wide && all + attributes <= limit;

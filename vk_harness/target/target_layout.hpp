@@ -40,7 +40,8 @@ struct TargetLayout {
     friend auto operator<=>(const TargetLayout&, const TargetLayout&) = default;
 };
 
-inline constexpr uint32_t kSplitAttachments = 4;
+inline constexpr uint32_t kSplitAttachments = 4;   // of the instruments, without attributes
+inline constexpr uint32_t kPackedAttachments = 2;  // the same where they are not split
 inline constexpr uint32_t kMaxSplitAttachments =
     8;  // with attributes and colour: cmake/Shaders.cmake
 

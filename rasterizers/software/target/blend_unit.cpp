@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "rasterizers/software/target/blend_math.hpp"
+#include "rasterizers/software/target/neighbour.hpp"
 
 namespace software {
 
@@ -220,7 +221,7 @@ ColorAttachment::ColorAttachment(const cases::Case& c, const Device& device)
         return;
     }
     const size_t count = size_t{c.target.width} * c.target.rows() * c.target.samples;
-    texels_.assign(count, unit_.cleared(c.target.color->clear));
+    texels_.assign(count, unit_.cleared(clear_of(c.target, device)));
     last_.assign(
         device.fault == Fault::blend_stale || device.fault == Fault::blend_merges ? count : 0,
         Last{});
@@ -272,18 +273,24 @@ ColorAttachment::ColorAttachment(const cases::Case& c, const Device& device)
             default:
                 break;
         }
-        outputs_.push_back(output);
+        outputs_.push_back(output_beside(c, draw, output, device));
     }
 }
 
-void ColorAttachment::write(size_t index, uint32_t draw, uint32_t primitive,
-                            const glm::vec4& source) {
+void ColorAttachment::write(size_t sample, uint32_t draw, uint32_t primitive,
+                            const glm::vec4& value) {
     if (!case_.target.color) {
         return;
     }
+    const std::optional<size_t> place = place_in(case_.target, sample, device_);
+    if (!place) {
+        return;
+    }
+    const size_t index = *place;
+    const glm::vec4 source = passed(case_.target, value, device_);
     if (device_.fault == Fault::color_reloaded && draw != draw_) {
         // Each draw starts with the load operation.
-        std::fill(texels_.begin(), texels_.end(), unit_.cleared(case_.target.color->clear));
+        std::fill(texels_.begin(), texels_.end(), unit_.cleared(clear_of(case_.target, device_)));
     }
     draw_ = draw;
     if (device_.fault == Fault::color_per_pixel) {

@@ -52,14 +52,14 @@ class BlendUnit {
     FormatLayout layout_;
 };
 
-// The colour target of a case, in drawing order.
+// The judged colour target of a case, in drawing order.
 class ColorAttachment {
   public:
     // Both must outlive this object.
     ColorAttachment(const cases::Case& c, const Device& device);
 
     // A fragment of a primitive that has passed all tests, at one sample.
-    void write(size_t index, uint32_t draw, uint32_t primitive, const glm::vec4& source);
+    void write(size_t sample, uint32_t draw, uint32_t primitive, const glm::vec4& value);
     // What other attachments hold of `value`: the value itself.
     glm::vec4 beside(uint32_t draw, const glm::vec4& value, const glm::vec4& before) const;
     // What is read back; empty if the case has no colour target.

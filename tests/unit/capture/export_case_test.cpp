@@ -58,7 +58,8 @@ cases::Attribute& attribute(Case& c) {
 
 std::vector<Change> target_changes() {
     [[maybe_unused]] const auto& [width, height, samples, layers, depth_format, sample_locations,
-                                  color, instruments,  // no part of the picture
+                                  color, other_colors, judged_color,  // not told
+                                  instruments,                        // no part of the picture
                                   has_depth, depth_clear, color_resolve, depth_resolve, has_stencil,
                                   stencil_clear] = cases::Target{};
     [[maybe_unused]] const auto& [format, clear] = cases::ColorTarget{};
@@ -89,8 +90,9 @@ std::vector<Change> draw_changes() {
     [[maybe_unused]] const auto& [topology, positions, indices, primitive_restart, attributes,
                                   viewport, scissor, cull, front_face, provoking,
                                   rasterizer_discard, discard, discard_by, early_tests, frag_depth,
-                                  query, depth, stencil, distances, multisample, color, layer,
-                                  viewport_index, where] = cases::Draw{};
+                                  query, depth, stencil, distances, multisample, color,
+                                  other_colors,  // not told
+                                  layer, viewport_index, where] = cases::Draw{};
     [[maybe_unused]] const auto& [x, y, width, height, min_depth, max_depth] = cases::Viewport{};
     [[maybe_unused]] const auto& [left, top, columns, rows] = cases::Rect{};
     [[maybe_unused]] const auto& [sample_mask, shader_mask, min_sample_shading] =

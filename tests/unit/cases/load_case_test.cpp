@@ -16,7 +16,7 @@ namespace cases {
 
 namespace {
 
-const std::string kHead =
+const std::string kCaseHead =
     "format = 1\ndescription = \"d\"\ncatches = \"c\"\nrules = [\"cover.inside\", "
     "\"tie.top-left\"]\n"
     "links = [\"https://example.org\"]\n";
@@ -34,8 +34,9 @@ std::vector<Case> load(const std::string& toml) {
 
 // The first draw of a case whose target is width x height.
 Draw load_draw(const std::string& draw, int width = 8, int height = 8) {
-    const std::vector<Case> all = load(kHead + "[target]\nsize = [" + std::to_string(width) + "," +
-                                       std::to_string(height) + "]\n[[draw]]\n" + draw + "\n");
+    const std::vector<Case> all =
+        load(kCaseHead + "[target]\nsize = [" + std::to_string(width) + "," +
+             std::to_string(height) + "]\n[[draw]]\n" + draw + "\n");
     return all.empty() ? Draw{} : all[0].draws.at(0);
 }
 
@@ -45,7 +46,7 @@ const std::string kTriangle = "vertices = [[0,0],[8,0],[0,8]]\n";
 }  // namespace
 
 TEST(LoadCase, TakesEverything) {
-    const std::vector<Case> all = load(kHead + R"(
+    const std::vector<Case> all = load(kCaseHead + R"(
 [target]
 size = [8, 4]
 samples = 1
@@ -113,7 +114,7 @@ hits = """
 }
 
 TEST(LoadCase, TakesBomAndCrLf) {
-    std::string toml = kHead + "[target]\nsize = [2,1]\n[[draw]]\n" + kTriangle +
+    std::string toml = kCaseHead + "[target]\nsize = [2,1]\n[[draw]]\n" + kTriangle +
                        "[expect]\nhits = \"\"\"\n1.\n\"\"\"\n";
     for (size_t at = 0; (at = toml.find('\n', at)) != std::string::npos; at += 2) {
         toml.replace(at, 1, "\r\n");
@@ -125,7 +126,7 @@ TEST(LoadCase, TakesBomAndCrLf) {
 
 TEST(LoadCase, ReadsMultisampleState) {
     const std::vector<Case> all =
-        load(kHead +
+        load(kCaseHead +
              "[target]\nsize = [2, 1]\nsamples = 2\nsample_locations = [[0, 15], [8, \"2^3\"]]\n"
              "[[draw]]\n" +
              kTriangle +
@@ -156,7 +157,7 @@ TEST(LoadCase, KeepsBitsInClipSpace) {
 TEST(LoadCase, ConvertsPixelsOnceAndNotesRounding) {
     // x_c = (x - 5) / 5 * w on a target of 10 pixels: 6 -> 1/5, which is no binary32.
     const std::vector<Case> all = load(
-        kHead + "[target]\nsize = [10,10]\n[[draw]]\nvertices = [[0,0],[10,0],[6,5,0.25,3]]\n");
+        kCaseHead + "[target]\nsize = [10,10]\n[[draw]]\nvertices = [[0,0],[10,0],[6,5,0.25,3]]\n");
     ASSERT_EQ(all.size(), 1U);
     EXPECT_EQ(all[0].draws[0].positions,
               (Vectors{{-1, -1, 0.5, 1}, {1, -1, 0.5, 1}, {0.6F, 0, 0.75, 3}}));
@@ -173,8 +174,8 @@ TEST(LoadCase, TargetsNeedNotBePowersOfTwo) {
 }
 
 TEST(LoadCase, NotesVerticesWithoutTriangle) {
-    const std::vector<Case> all =
-        load(kHead + "[target]\nsize = [8,8]\n[[draw]]\nvertices = [[0,0],[8,0],[0,8],[1,1]]\n");
+    const std::vector<Case> all = load(
+        kCaseHead + "[target]\nsize = [8,8]\n[[draw]]\nvertices = [[0,0],[8,0],[0,8],[1,1]]\n");
     ASSERT_EQ(all.size(), 1U);
     EXPECT_EQ(all[0].notes,
               std::vector<std::string>{"draw 0: the last 1 of 4 vertices make no triangle"});
@@ -270,7 +271,7 @@ TEST(LoadCase, PlanesSeePixelsInEverySpace) {
 }
 
 TEST(LoadCase, MatrixMakesLeavesInFileOrder) {
-    const std::vector<Case> all = load(kHead + R"(
+    const std::vector<Case> all = load(kCaseHead + R"(
 [matrix]
 zoom = [1, 0.5]
 cull = ["none", "back"]
@@ -334,13 +335,13 @@ cull = "cull"
 .......1
 """ }
 )";
-    const std::string toml = kHead + "leaves = \"pairs\"" + rest;
+    const std::string toml = kCaseHead + "leaves = \"pairs\"" + rest;
     const std::vector<Case> pairs = load(toml);
     const char* const ids[] = {
         "family/name:zoom=1,cull=none,deep=1/3", "family/name:zoom=1,cull=none,deep=-2",
         "family/name:zoom=1,cull=back,deep=1/3", "family/name:zoom=0.5,cull=none,deep=1/3",
         "family/name:zoom=0.5,cull=back,deep=-2"};
-    const std::vector<Case> all = load(kHead + "leaves = \"all\"" + rest);
+    const std::vector<Case> all = load(kCaseHead + "leaves = \"all\"" + rest);
     EXPECT_EQ(all.size(), 8U);
     const ExpectedAll<std::vector<Case>> by_id = load_text(toml, "f", "family/name", Contents::ids);
     ASSERT_TRUE(by_id);
@@ -360,7 +361,7 @@ cull = "cull"
 }
 
 TEST(LoadCase, LeavesCanBeNamed) {
-    const std::vector<Case> named = load(kHead + R"(
+    const std::vector<Case> named = load(kCaseHead + R"(
 leaves = ["a=1,b=5", "a=0,b=4", "a=0,b=5"]
 [matrix]
 a = [0, 1]
@@ -379,7 +380,7 @@ vertices = [[0,"a"],[8,0],[0,"b"]]
 
 // A word that is valid for the key means itself even if a matrix key has that name.
 TEST(LoadCase, ValidWordsWinOverMatrixKeys) {
-    const std::vector<Case> all = load(kHead +
+    const std::vector<Case> all = load(kCaseHead +
                                        "[matrix]\nback = [1, 2]\n[target]\nsize = [8,8]\n[[draw]]\n"
                                        "vertices = [[0,0],[8,0],[0,\"back\"]]\ncull = \"back\"\n");
     ASSERT_EQ(all.size(), 2U);

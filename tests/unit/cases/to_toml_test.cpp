@@ -240,11 +240,11 @@ hits = [
 
 // One row a way to write a number: what is given, and the vertices that come of it.
 TEST(ToToml, WritesNumbersShortest) {
-    struct Row {
+    struct NumberRow {
         const char* given;
         const char* written;
     };
-    const Row rows[] = {
+    const NumberRow rows[] = {
         // Pixels: a grid of a power of two, then decimals, then fractions.
         {R"([[0,0], [8,0], ["3+1/65536",5]])", R"([[0,0], [8,0], ["3+1/65536",5]])"},
         {R"([[0,0], [8,0], ["-1-1/256",5]])", R"([[0,0], [8,0], ["-1-1/256",5]])"},
@@ -256,7 +256,7 @@ TEST(ToToml, WritesNumbersShortest) {
         {R"([[0,0], [8,0], [0,8,"1/3",-3]])", R"([[0,0,0.5,1], [8,0,0.5,1], [0,8,"1/3",-3]])"},
         {R"([[0,0], [8,0], [4,4,0,"1/3"]])", "[[0,0,0.5,1], [8,0,0.5,1], [4,4,0,0.33333334]]"},
     };
-    for (const Row& row : rows) {
+    for (const NumberRow& row : rows) {
         EXPECT_EQ(vertices_of(std::string("vertices = ") + row.given), row.written);
     }
     const std::string clip = "space = \"clip\"\nvertices = ";

@@ -75,7 +75,12 @@ Case sample() {
     c.target.depth_resolve = Resolve::max;
     c.target.has_stencil = true;
     c.target.stencil_clear = 77;
+    c.target.other_colors = {{ColorFormat::r32_uint, {5, 0, 0, 0}}};
+    c.target.judged_color = 1;
+    draw.other_colors = {draw.color};
+    draw.other_colors[0].write_mask = 0x3;
     c.draws = {draw, Draw{}};
+    c.draws[1].other_colors.resize(1);
     c.relations = {{RelationKind::scissor_tiles, {7, 3}}, {RelationKind::more_attributes, {}}};
     c.blit = Blit{ColorFormat::rgb10a2_unorm,
                   5,
@@ -150,6 +155,7 @@ TEST(Wire, RoundTripKeepsEveryBit) {
         EXPECT_EQ(a.distances, b.distances);
         EXPECT_EQ(a.multisample, b.multisample);
         EXPECT_EQ(a.color, b.color);
+        EXPECT_EQ(a.other_colors, b.other_colors);
         EXPECT_EQ(a.layer, b.layer);
         EXPECT_EQ(a.viewport_index, b.viewport_index);
     }

@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rasterizers/software/target/neighbour.hpp"
+
+#include <algorithm>
+#include <glm/common.hpp>
+
+#include "cases/model/derive.hpp"
+#include "rasterizers/software/target/store.hpp"
+
+namespace software {
+
+namespace {
+
+bool is_fixed(cases::ColorFormat format) {
+    const Number number = layout_of(format).channels[0].number;
+    return number == Number::unorm || number == Number::srgb;
+}
+
+template <class Is>
+bool any_other(const cases::Target& target, const Is& is) {
+    return std::any_of(target.other_colors.begin(), target.other_colors.end(),
+                       [&](const cases::ColorTarget& other) { return is(other.format); });
+}
+
+void take_state(cases::ColorOutput& output, const cases::ColorOutput& other) {
+    output.blend = other.blend;
+    output.write_mask = other.write_mask;
+}
+
+}  // namespace
+
+glm::vec4 clear_of(const cases::Target& target, const Device& device) {
+    const cases::ColorTarget& own = *target.color;
+    const cases::ColorTarget& first = target.color_at(0);
+    const bool is_first = device.fault == Fault::targets_clear_of_first &&
+                          is_integer(first.format) == is_integer(own.format);
+    return is_first ? first.clear : own.clear;
+}
+
+cases::ColorOutput output_beside(const cases::Case& c, const cases::Draw& draw,
+                                 cases::ColorOutput output, const Device& device) {
+    const cases::Target& target = c.target;
+    const uint32_t count = target.color_count();
+    const uint32_t own = target.judged_color;
+    if (count < 2) {
+        return output;
+    }
+    switch (device.fault) {
+        case Fault::targets_state_of_first:
+            take_state(output, cases::output_at(target, draw, 0));
+            break;
+        case Fault::targets_state_of_first_draw:
+            if (own > 0) {
+                take_state(output, c.draws.front().color);
+            }
+            break;
+        case Fault::targets_mask_of_next:
+            output.write_mask = cases::output_at(target, draw, (own + 1) % count).write_mask;
+            break;
+        case Fault::targets_masked_together:
+            if (std::any_of(draw.other_colors.begin(), draw.other_colors.end(),
+                            [](const auto& other) { return other.write_mask == 0; })) {
+                output.write_mask = 0;
+            }
+            break;
+        case Fault::targets_blended_together:
+            for (uint32_t k = 0; k < count && !output.blend; ++k) {
+                output.blend = cases::output_at(target, draw, k).blend;
+            }
+            break;
+        case Fault::targets_unblended_beside_integers:
+            if (any_other(target, cases::is_integer)) {
+                output.blend.reset();
+            }
+            break;
+        default:
+            break;
+    }
+    if (is_integer(target.color->format)) {
+        output.blend.reset();
+    }
+    return output;
+}
+
+const cases::ColorOutput& reaching(const cases::Target& target, const cases::Draw& draw,
+                                   const Device& device) {
+    const uint32_t count = target.color_count();
+    uint32_t from = target.judged_color;
+    if (device.fault == Fault::targets_color_of_first && count > 1) {
+        from = 0;
+    } else if (device.fault == Fault::targets_color_shifted && count > 1) {
+        from = (from + count - 1) % count;
+    }
+    const bool is_of_class = count < 2 || is_integer(target.color_at(from).format) ==
+                                              is_integer(target.color->format);
+    return is_of_class && from != target.judged_color ? cases::output_at(target, draw, from)
+                                                      : draw.color;
+}
+
+glm::vec4 passed(const cases::Target& target, const glm::vec4& value, const Device& device) {
+    const bool is_clamped = device.fault == Fault::targets_clamped_together &&
+                            !is_integer(target.color->format) && any_other(target, is_fixed);
+    return is_clamped ? glm::clamp(value, 0.0F, 1.0F) : value;
+}
+
+std::optional<size_t> place_in(const cases::Target& target, size_t index, const Device& device) {
+    const uint32_t count = target.color_count();
+    const uint32_t own = target.judged_color;
+    if (count < 2) {
+        return index;
+    }
+    switch (device.fault) {
+        case Fault::targets_last_lost:
+            return own + 1 == count ? std::nullopt : std::optional(index);
+        case Fault::targets_samples_of_first:
+            return own > 0 && index % target.samples != 0 ? std::nullopt : std::optional(index);
+        case Fault::targets_layers_of_first:
+            return own > 0 ? index % (size_t{target.width} * target.height * target.samples)
+                           : index;
+        default:
+            return index;
+    }
+}
+
+}  // namespace software
