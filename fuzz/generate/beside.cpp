@@ -89,14 +89,13 @@ std::string beside_others(std::string text, Dice dice) {
     while (own.find('\n') != std::string::npos) {
         own.replace(own.find('\n'), 1, ", ");
     }
-    std::string out = text.substr(0, target) +
-                      fmt::format("color = {}\njudged = {}",
-                                  list_of(targets, judged, "{ " + own + " }"), judged);
+    std::string out =
+        text.substr(0, target) +
+        fmt::format("color = {}\njudged = {}", list_of(targets, judged, "{ " + own + " }"), judged);
     text.erase(0, end);
     for (size_t at = text.find(kDraw); at != std::string::npos; at = text.find(kDraw)) {
         const size_t line_end = text.find('\n', at + 1);
-        const std::string output =
-            text.substr(at + kDraw.size(), line_end - at - kDraw.size());
+        const std::string output = text.substr(at + kDraw.size(), line_end - at - kDraw.size());
         std::vector<std::string> outputs;
         for (const cases::ColorFormat format : formats) {
             outputs.push_back(output_of(output, format, dice));

@@ -65,10 +65,9 @@ bool blend_together(PipelineCopy& p) {
 }
 
 bool write_none_together(PipelineCopy& p) {
-    const bool is_masked = p.blends.size() > 1 && std::any_of(p.blends.begin(), p.blends.end(),
-                                                              [](const Blend& b) {
-                                                                  return b.colorWriteMask == 0;
-                                                              });
+    const bool is_masked =
+        p.blends.size() > 1 && std::any_of(p.blends.begin(), p.blends.end(),
+                                           [](const Blend& b) { return b.colorWriteMask == 0; });
     return is_masked && change(p.blends.back().colorWriteMask, 0);
 }
 

@@ -92,8 +92,8 @@ const cases::ColorOutput& reaching(const cases::Target& target, const cases::Dra
     } else if (device.fault == Fault::targets_color_shifted && count > 1) {
         from = (from + count - 1) % count;
     }
-    const bool is_of_class = count < 2 || is_integer(target.color_at(from).format) ==
-                                              is_integer(target.color->format);
+    const bool is_of_class =
+        count < 2 || is_integer(target.color_at(from).format) == is_integer(target.color->format);
     return is_of_class && from != target.judged_color ? cases::output_at(target, draw, from)
                                                       : draw.color;
 }

@@ -22,8 +22,9 @@ const std::string kThreeOutputs =
     "color = [{ value = [0.5, 0, 0, 1], write_mask = \"rg\" }, { value = [9, 0, 0, 0] }, { "
     "attribute = \"c\", blend = \"additive\" }]";
 
-std::string targets_file(const std::string& target, const std::string& draw,
-                 const std::string& attribute = "values = [[1,2,3,4],[5,6,7,8],[1,0.5,2,3]]") {
+std::string targets_file(
+    const std::string& target, const std::string& draw,
+    const std::string& attribute = "values = [[1,2,3,4],[5,6,7,8],[1,0.5,2,3]]") {
     return "format = 1\ndescription = \"d\"\nrules = [\"color.location\"]\n[target]\nsize = [8, "
            "8]\n" +
            target + "\n[[draw]]\nvertices = [[0,0],[8,0],[0,8]]\n" + draw +
@@ -112,25 +113,34 @@ TEST(ColorTargets, WhatTargetsShareIsFoundInAnyOfThem) {
     EXPECT_EQ(colored_attributes(c.target, c.draws[0]), std::vector<uint32_t>{0});
     c.draws[0].color.attribute = 2;
     EXPECT_EQ(colored_attributes(c.target, c.draws[0]), (std::vector<uint32_t>{2, 0}));
+    c.draws[0].color.attribute = 0;  // for both
+    EXPECT_EQ(colored_attributes(c.target, c.draws[0]), std::vector<uint32_t>{0});
 }
 
 TEST(ColorTargets, MistakesAreNamed) {
     targets_fail(targets_file("color = [{ format = \"r32-uint\" }]", kThreeOutputs),
-          "color lists 1 colour target; write 2 to 4, or a table for one");
-    targets_fail(targets_file("color = [{ format = \"r32-uint\" }, { format = \"rgba8-unrom\" }]", kThreeOutputs),
-          "the colour format is \"rgba8-unrom\"; did you mean \"rgba8-unorm\"?");
-    targets_fail(targets_file(kThreeTargets + "\njudged = 3", kThreeOutputs), "judged is not an integer from 0 to 2");
-    targets_fail(targets_file("judged = 0\n[target.color]\nformat = \"rgba8-unorm\"",
-               "color = { value = [0,0,0,0] }"),
-          "judged chooses from a list of colour targets; write color = [{ format = ...}, ...]");
-    targets_fail(targets_file(kThreeTargets, "color = { value = [0, 0, 0, 0] }"),
-          "the target has 3 colours; write a list of as many tables, in the order of [target]'s");
-    targets_fail(targets_file(kThreeTargets, "color = [{ value = [0, 0, 0, 0] }, { value = [0, 0, 0, 0] }]"),
-          "the target has 3 colours; write a list of as many tables, in the order of [target]'s");
+                 "color lists 1 colour target; write 2 to 4, or a table for one");
+    targets_fail(targets_file("color = [{ format = \"r32-uint\" }, { format = \"rgba8-unrom\" }]",
+                              kThreeOutputs),
+                 "the colour format is \"rgba8-unrom\"; did you mean \"rgba8-unorm\"?");
+    targets_fail(targets_file(kThreeTargets + "\njudged = 3", kThreeOutputs),
+                 "judged is not an integer from 0 to 2");
+    targets_fail(
+        targets_file("judged = 0\n[target.color]\nformat = \"rgba8-unorm\"",
+                     "color = { value = [0,0,0,0] }"),
+        "judged chooses from a list of colour targets; write color = [{ format = ...}, ...]");
+    targets_fail(
+        targets_file(kThreeTargets, "color = { value = [0, 0, 0, 0] }"),
+        "the target has 3 colours; write a list of as many tables, in the order of [target]'s");
+    targets_fail(
+        targets_file(kThreeTargets, "color = [{ value = [0, 0, 0, 0] }, { value = [0, 0, 0, 0] }]"),
+        "the target has 3 colours; write a list of as many tables, in the order of [target]'s");
     // Each by the format of its own target.
-    targets_fail(targets_file(kThreeTargets, "color = [{ value = [0, 0, 0, 0] }, { value = [0.5, 0, 0, 0] }, { value = [0, "
+    targets_fail(
+        targets_file(kThreeTargets,
+                     "color = [{ value = [0, 0, 0, 0] }, { value = [0.5, 0, 0, 0] }, { value = [0, "
                      "0, 0, 0] }]"),
-          "value is not a whole number from 0 to");
+        "value is not a whole number from 0 to");
 }
 
 TEST(ColorTargets, WhatADeviceHasOnceIsTheSameForAll) {
@@ -141,25 +151,31 @@ TEST(ColorTargets, WhatADeviceHasOnceIsTheSameForAll) {
         return "color = [{ value = [0,0,0,0]" + one + " }, { value = [0,0,0,0]" + other + " }]";
     };
     const std::string blend = ", blend = { source = \"constant-color\" }, constants = ";
-    targets_fail(targets_file(targets, outputs(blend + "[1,0,0,0]", blend + "[0,1,0,0]")),
-          "a draw has one set of blend constants for all its colours; write the same in each that "
-          "blends");
+    targets_fail(
+        targets_file(targets, outputs(blend + "[1,0,0,0]", blend + "[0,1,0,0]")),
+        "a draw has one set of blend constants for all its colours; write the same in each that "
+        "blends");
     load_targets(targets_file(targets, outputs(blend + "[1,0,0,0]", blend + "[1,0,0,0]")));
     load_targets(targets_file(targets, outputs(blend + "[1,0,0,0]", "")));
-    targets_fail(targets_file(targets, outputs(", logic = \"xor\"", "")),
-          "a draw has one logical operation for all its colours; write the same in each of them");
+    targets_fail(
+        targets_file(targets, outputs(", logic = \"xor\"", "")),
+        "a draw has one logical operation for all its colours; write the same in each of them");
     load_targets(targets_file(targets, outputs(", logic = \"xor\"", ", logic = \"xor\"")));
     targets_fail(targets_file(targets, outputs(", alpha_to_one = true", ", alpha_to_one = true")),
-          "alpha to one changes the colour at location 0 alone; write one colour target");
-    targets_fail(targets_file(targets, outputs("", ", blend = { source = \"src1-color\" }, second = [0,0,0,0]")),
-          "a device may blend a second source into one attachment alone; write one colour target");
-    targets_fail(targets_file(targets, outputs("", ""), "values = [[1,2],[3,4],[5,6]]\nprobe = \"dfdx\""),
-          "attribute \"c\" is not a value from the vertices alone; several colour targets go with "
-          "those only");
-    targets_fail("format = 1\ndescription = \"d\"\nrules = [\"blit.nearest\"]\n[target]\nsize = [8, 8]\n"
-          "color = [{ format = \"rgba8-unorm\" }, { format = \"rgba16-float\" }]\nattachments = "
-          "\"color\"\n[blit]\nsize = [8, 8]\n",
-          "a blit writes to one colour target; write a table [target.color]");
+                 "alpha to one changes the colour at location 0 alone; write one colour target");
+    targets_fail(
+        targets_file(targets,
+                     outputs("", ", blend = { source = \"src1-color\" }, second = [0,0,0,0]")),
+        "a device may blend a second source into one attachment alone; write one colour target");
+    targets_fail(
+        targets_file(targets, outputs("", ""), "values = [[1,2],[3,4],[5,6]]\nprobe = \"dfdx\""),
+        "attribute \"c\" is not a value from the vertices alone; several colour targets go with "
+        "those only");
+    targets_fail(
+        "format = 1\ndescription = \"d\"\nrules = [\"blit.nearest\"]\n[target]\nsize = [8, 8]\n"
+        "color = [{ format = \"rgba8-unorm\" }, { format = \"rgba16-float\" }]\nattachments = "
+        "\"color\"\n[blit]\nsize = [8, 8]\n",
+        "a blit writes to one colour target; write a table [target.color]");
 }
 
 }  // namespace

@@ -11,8 +11,10 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string_view>
 
 #include "cases/base/checksum.hpp"
+#include "cases/format/color_format.hpp"
 #include "cases/load/loader.hpp"
 
 namespace fuzz {
@@ -32,7 +34,7 @@ TEST(Generator, MakesTheSameCasesOnEveryMachine) {
         const Pose pose = next(poses, 1);
         hash = cases::stable_hash(case_text(1, pose, k, k * kGeometries + 5), hash);
     }
-    EXPECT_EQ(cases::hex(hash), "690b71ca9b047523");
+    EXPECT_EQ(cases::hex(hash), "a1fa53efc4e47854");
 }
 
 TEST(Generator, SeedsDiffer) {
@@ -291,6 +293,43 @@ TEST(Generator, CasesGoThroughDoors) {
     }
     EXPECT_GT(without, 300U);  // of 500: each costs pipelines
     EXPECT_GT(doors.size(), 25U);
+}
+
+// What is beside a target changes nothing of what is judged.
+TEST(Generator, TargetsAreDrawnBesideOthers) {
+    using ::testing::UnorderedElementsAre;
+    std::set<size_t> counts;
+    std::set<uint32_t> judged;
+    std::set<std::string_view> states;
+    for (const Pose& pose :
+         {pose_of({{"color", "rgba8-unorm"}, {"draws", "2"}}),
+          pose_of({{"color", "rgba16-float"}, {"blend", "factors"}}),
+          pose_of({{"color", "r32-uint"},
+                   {"attributes", "one"},
+                   {"color-from", "attribute"},
+                   {"interpolation", "flat"}}),
+          pose_of({{"color", "rgba8-uint"}, {"attachments", "color"}, {"logic", "xor"}})}) {
+        for (uint64_t number = 0; number < 4000; number += 16) {
+            const auto loaded =
+                cases::load_text(case_text(9, pose, number / 64, number), "fuzz", "fuzz");
+            if (!loaded) {
+                continue;  // as is_case() would leave it out
+            }
+            const cases::Case& c = loaded->front();
+            EXPECT_EQ(cases::name_of(c.target.color->format), pose.value("color"));
+            counts.insert(c.target.color_count());
+            judged.insert(c.target.judged_color);
+            for (const cases::ColorOutput& other : c.draws[0].other_colors) {
+                states.insert(other.attribute >= 0 ? "attribute" : "value");
+                states.insert(other.blend ? "blended" : "plain");
+                states.insert(other.write_mask == 0xf ? "whole" : "masked");
+            }
+        }
+    }
+    EXPECT_THAT(counts, UnorderedElementsAre(1, 2, 3, 4));
+    EXPECT_THAT(judged, UnorderedElementsAre(0, 1, 2, 3));
+    EXPECT_THAT(states,
+                UnorderedElementsAre("attribute", "value", "blended", "plain", "whole", "masked"));
 }
 
 TEST(Generator, BlitsHaveRegionsOfAllKinds) {

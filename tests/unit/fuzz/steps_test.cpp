@@ -219,6 +219,39 @@ vertices = [[0, 0], [8, 0], [0, 8]]
     EXPECT_FALSE(load(to_text(after(document, "draw 0 without early tests"))).draws[0].early_tests);
 }
 
+TEST(ReduceStep, TakesAwayColourTargetsThatAreNotJudged) {
+    const Document document = read(R"(
+format = 1
+description = "Three targets."
+rules = ["cover.inside"]
+[target]
+size = [8, 8]
+color = [{ format = "rgba8-unorm" }, { format = "r32-uint" }, { format = "rgba16-float" }]
+judged = 2
+[[draw]]
+vertices = [[0, 0], [8, 0], [0, 8]]
+color = [{ value = [0, 0, 0, 1], write_mask = "g" }, { value = [7, 0, 0, 0] }, { value = [1, 2, 3, 4], blend = "additive" }]
+)");
+    const cases::Case one = load(to_text(after(document, "with one colour target")));
+    EXPECT_EQ(one.target.color_count(), 1U);
+    EXPECT_EQ(one.target.color->format, cases::ColorFormat::rgba16_float);
+    EXPECT_EQ(one.draws[0].color.value.w, 4);
+    const Document less = after(document, "without colour target 0");
+    const cases::Case two = load(to_text(less));
+    EXPECT_EQ(two.target.judged_color, 1U);
+    EXPECT_EQ(two.target.color->format, cases::ColorFormat::rgba16_float);
+    EXPECT_EQ(two.draws[0].other_colors[0].value.x, 7);
+    EXPECT_EQ(load(to_text(after(document, "without colour target 1"))).target.color_count(), 2U);
+    EXPECT_EQ(load(to_text(after(document, "without a colour target"))).target.color_count(), 0U);
+    // The judged one stays, and of two either is left with "with one colour target".
+    for (const Simpler& simple : simpler(document)) {
+        EXPECT_NE(simple.step, "without colour target 2");
+    }
+    for (const Simpler& simple : simpler(less)) {
+        EXPECT_NE(simple.step, "without colour target 0");
+    }
+}
+
 TEST(ReduceStep, TakesAwayWhatBecomesOfFragments) {
     const Document document = read(R"(
 format = 1

@@ -84,13 +84,14 @@ TEST(Neighbour, OthersChangeNothing) {
 
 TEST(Neighbour, WhatIsTakenFromAnotherTargetBreaksTheRuleOfLocations) {
     JudgedNeighbour first(0);
-    EXPECT_EQ(first.rule_of(binary32_codes(1, 3, 1, 1)), "color.location");     // its mask
-    EXPECT_EQ(first.rule_of(binary32_codes(6, 7, 8, 9)), "color.location");     // its colour
+    EXPECT_EQ(first.rule_of(binary32_codes(1, 3, 1, 1)), "color.location");      // its mask
+    EXPECT_EQ(first.rule_of(binary32_codes(6, 7, 8, 9)), "color.location");      // its colour
     EXPECT_EQ(first.rule_of(binary32_codes(10, 11, 12, 13)), "color.location");  // its clear colour
-    EXPECT_EQ(first.rule_of(binary32_codes(8, 6, 8, 8)), "color.location");     // all of it
-    EXPECT_EQ(first.rule_of(binary32_codes(3, 4, 5, 7)), "blend.equation");     // nothing of the kind
+    EXPECT_EQ(first.rule_of(binary32_codes(8, 6, 8, 8)), "color.location");      // all of it
+    EXPECT_EQ(first.rule_of(binary32_codes(3, 4, 5, 7)), "blend.equation");  // nothing of the kind
     JudgedNeighbour second(1);
-    EXPECT_EQ(second.rule_of(binary32_codes(13, 14, 15, 16)), "color.location");  // blending and mask
+    EXPECT_EQ(second.rule_of(binary32_codes(13, 14, 15, 16)),
+              "color.location");  // blending and mask
     EXPECT_EQ(second.rule_of(binary32_codes(8, 3, 8, 8)), "color.location");
     EXPECT_EQ(second.rule_of(binary32_codes(8, 7, 8, 8)), "blend.write-mask");
 }
