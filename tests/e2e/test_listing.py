@@ -50,6 +50,12 @@ class Listing(ProgramTest):
         self.assertIn("\n        the fragment shader of the draw discards pixels whose x + y is odd, once depth and stencil\n"
                       "          are stored\n        passes the depth test LESS", told)
 
+    def test_explain_tells_which_colour_target_is_judged(self):
+        case = "combination/color-targets:shown=1"
+        told = self.edgecase("explain", "--suite", SOURCE / "cases" / "suite", case, "--pixel", "2,2", "--layer", "1", check=0).stdout
+        self.assertIn("the colour at location 1 of 4 colour targets, of which the others do nothing to it:\n"
+                      "    the target is cleared to r 4, g 3, b 2, a 1\n", told)
+
     def test_explain_tells_what_tests_meet_and_leave(self):
         """By hand: the stencil is cleared to 3. Draw 0 discards pixels whose x + y is odd and has counted to 4 before; draw 1 finds 4
         everywhere and counts to 5; draw 2 finds no 9, so that there is no depth test; draw 3 stores no depth, and as a draw without a

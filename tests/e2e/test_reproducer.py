@@ -227,6 +227,7 @@ class Refused(Reproducer):
                 "resolve/depth:mode=sample-zero,samples=2": "a resolve",
                 "multisample/locations-mesh:seed=1": "sample locations of its own",
                 "viewport/several:a=0,last=4": "several viewports",
+                "color-targets/clamped:shown=1": "several colour targets",
                 "depth-bias/exact:format=d24-unorm,constant=4096,slope=2": "a bias by VK_EXT_depth_bias_control",
                 "bad-numbers/attribute:interpolation=flat,first=0,bad=nan": "a flat attribute that is no finite number",
         }.items():
