@@ -10,7 +10,6 @@
 
 #include "cases/format/color_format.hpp"
 #include "cases/load/color.hpp"
-#include "cases/load/loader.hpp"
 
 namespace fuzz {
 
