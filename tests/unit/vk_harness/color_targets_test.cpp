@@ -43,8 +43,8 @@ TEST(ColorTargets, LieInTheOrderOfTheirLocations) {
         roles.push_back(a.role);
     }
     EXPECT_THAT(roles, ElementsAre(Role::writer_and_hits, Role::frag_coord, Role::attribute,
-                                   Role::attribute, Role::attribute, Role::other_color,
-                                   Role::color, Role::other_color, Role::depth));
+                                   Role::attribute, Role::attribute, Role::other_color, Role::color,
+                                   Role::other_color, Role::depth));
     EXPECT_EQ(color_count(all), 8U);
     EXPECT_EQ(all[5].clear.color.float32[0], 1);
     EXPECT_EQ(all[6].clear.color.uint32[0], 7U);
@@ -104,7 +104,8 @@ TEST(ColorTargets, TakeTheInputsThatTheyName) {
     specialize(pipeline_key(lone, lone.draws[0], {}), constants);
     std::vector<std::pair<uint32_t, int32_t>> set;
     for (size_t k = 2; k < constants.entries.size(); ++k) {
-        set.emplace_back(constants.entries[k].constantID, std::bit_cast<int32_t>(constants.words[k]));
+        set.emplace_back(constants.entries[k].constantID,
+                         std::bit_cast<int32_t>(constants.words[k]));
     }
     EXPECT_THAT(set, ElementsAre(std::pair(shaders::kColorAttributeConstant, 0),
                                  std::pair(shaders::kOtherAttributeConstant, -1),
