@@ -139,6 +139,7 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
             doors.emplace_back(cases::row_of(door).word);
         }
         c.rerun = rerun_line(program, options, c.data.id, doors);
+        c.plain_rerun = rerun_line(program, options, c.data.id);
         c.explain = explain_line(program, options, c.data.id, device.subpixel_bits);
         c.no_reproducer = undrawable_part(c.data);
         if (c.no_reproducer.empty()) {

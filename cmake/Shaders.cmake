@@ -50,6 +50,35 @@ foreach(count RANGE 4)
     edgecase_compile_shader(capture.vert vertex_routed_${count} "${variants}")
 endforeach()
 
+# Stages that hand triangles on: a geometry shader with clip or cull distances, or with routing; tessellation without.
+set(geometry_table "")
+set(control_names "")
+set(evaluation_names "")
+foreach(count RANGE 4)
+    set(variants "")
+    foreach(distances "0;0" "1;0" "2;0" "3;0" "4;0" "0;1" "0;2" "0;3" "0;4")
+        list(GET distances 0 clip)
+        list(GET distances 1 cull)
+        set(name geometry_${count}_${clip}_${cull}_0_0)
+        list(APPEND variants "${name}=-DATTRIBUTES=${count},-DCLIP=${clip},-DCULL=${cull},-DLAYER=0,-DVIEWPORT=0")
+        string(APPEND geometry_table "    {{${count}, ${clip}, ${cull}, false, false}, ${name}},\n")
+    endforeach()
+    foreach(routing "1;0" "0;1" "1;1")
+        list(GET routing 0 layer)
+        list(GET routing 1 viewport)
+        set(name geometry_${count}_0_0_${layer}_${viewport})
+        list(APPEND variants "${name}=-DATTRIBUTES=${count},-DCLIP=0,-DCULL=0,-DLAYER=${layer},-DVIEWPORT=${viewport}")
+        string(APPEND geometry_table "    {{${count}, 0, 0, ${layer} != 0, ${viewport} != 0}, ${name}},\n")
+    endforeach()
+    edgecase_compile_shader(capture.geom geometry_${count} "${variants}")
+    edgecase_compile_shader(capture.tesc control_${count} "control_${count}=-DATTRIBUTES=${count}")
+    edgecase_compile_shader(capture.tese evaluation_${count} "evaluation_${count}=-DATTRIBUTES=${count}")
+    list(APPEND control_names control_${count})
+    list(APPEND evaluation_names evaluation_${count})
+endforeach()
+list(JOIN control_names ", " control_names)
+list(JOIN evaluation_names ", " evaluation_names)
+
 # Fragment shaders: attributes x the combinations of features below, one letter each:
 # p probes, l lod, b barycentrics, m mask in, s sample, o mask out, k discard, z depth, c colour (float), u colour (uint),
 # w two sources of colour (float), j several colours, n no instruments, t split instruments, d split with attributes in pairs (at most 8 colour attachments).
@@ -135,6 +164,10 @@ file(CONFIGURE OUTPUT ${EDGECASE_SHADER_DIR}/modules.inc CONTENT
 ${EDGECASE_SHADER_INCLUDES}
 constexpr Module<VertexVariant> kVertex[] = {
 ${vertex_table}};
+constexpr Module<VertexVariant> kGeometry[] = {
+${geometry_table}};
+constexpr std::span<const uint32_t> kControl[] = {${control_names}};
+constexpr std::span<const uint32_t> kEvaluation[] = {${evaluation_names}};
 constexpr std::span<const uint32_t> kCopy[] = {copy_depth, copy_1, copy_2, copy_4};
 constexpr Module<FragmentVariant> kFragment[] = {
 ${fragment_table}};

@@ -510,6 +510,12 @@ void RunLoop::finish(size_t k, CaseRecord record) {
     }
     const bool died = record.status == Status::crash || record.status == Status::timeout ||
                       record.status == Status::device_lost;
+    const bool is_plain =
+        std::ranges::all_of(record.groups, [](const auto& group) { return group.door.empty(); });
+    if (record.status == Status::fail && is_plain && record.rerun == cases_[k].rerun &&
+        !cases_[k].plain_rerun.empty()) {
+        record.rerun = cases_[k].plain_rerun;
+    }
     if (died || !record.findings.empty()) {
         // The program draws the plain picture: what only doors show it would not.
         const bool is_of_doors = !died && std::ranges::all_of(record.groups, [](const auto& group) {

@@ -36,6 +36,7 @@ struct PlannedCase {
     bool alone = false;                       // was in flight when an earlier run was cut off
     std::string selector;                     // names the case in a command line
     std::string rerun, explain;               // command lines without --pixel
+    std::string plain_rerun;                  // the same without doors
     std::string reproducer, no_reproducer;    // as in report::CaseRecord
 };
 

@@ -32,6 +32,18 @@ std::span<const uint32_t> capture_vertex(const VertexVariant& variant) {
     return find(kVertex, variant);
 }
 
+std::span<const uint32_t> capture_geometry(const VertexVariant& variant) {
+    return find(kGeometry, variant);
+}
+
+std::span<const uint32_t> capture_control(uint32_t attributes) {
+    return kControl[attributes];
+}
+
+std::span<const uint32_t> capture_evaluation(uint32_t attributes) {
+    return kEvaluation[attributes];
+}
+
 std::span<const uint32_t> capture_fragment(const FragmentVariant& variant) {
     return find(kFragment, variant);
 }
@@ -49,7 +61,19 @@ std::span<const uint32_t> any_module(size_t i) {
         return kFragment[i].code;
     }
     i -= std::size(kFragment);
-    return i < std::size(kCopy) ? kCopy[i] : std::span<const uint32_t>();
+    if (i < std::size(kCopy)) {
+        return kCopy[i];
+    }
+    i -= std::size(kCopy);
+    if (i < std::size(kGeometry)) {
+        return kGeometry[i].code;
+    }
+    i -= std::size(kGeometry);
+    if (i < std::size(kControl)) {
+        return kControl[i];
+    }
+    i -= std::size(kControl);
+    return i < std::size(kEvaluation) ? kEvaluation[i] : std::span<const uint32_t>();
 }
 
 }  // namespace shaders

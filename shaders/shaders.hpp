@@ -12,8 +12,8 @@ namespace shaders {
 
 inline constexpr uint32_t kMaxAttributes = 4;
 
-// What capture.vert was compiled for. Vertex inputs: location 0 positions, 1 + k attribute k, 5
-// clip distances, 6 cull distances, all vec4.
+// What capture.vert, or capture.geom behind it, was compiled for. Vertex inputs: location 0
+// positions, 1 + k attribute k, 5 clip distances, 6 cull distances, all vec4.
 struct VertexVariant {
     uint32_t attributes = 0;                  // 0..4
     uint32_t clip_count = 0, cull_count = 0;  // 0..4, sizes of gl_ClipDistance and gl_CullDistance
@@ -99,6 +99,14 @@ static_assert(sizeof(DrawConstants) == 128);
 
 // The module of a variant; empty if the build made none of that combination.
 std::span<const uint32_t> capture_vertex(const VertexVariant& variant);
+// The same of capture.geom, which has no variant with both clip and cull distances.
+std::span<const uint32_t> capture_geometry(const VertexVariant& variant);
+// capture.tesc and capture.tese of 0..4 attributes.
+std::span<const uint32_t> capture_control(uint32_t attributes);
+std::span<const uint32_t> capture_evaluation(uint32_t attributes);
+// Ids of the specialization constants of capture.tese: the vertex of a triangle that provokes, 0 or
+// 2; the attributes that are flat, a bit each.
+inline constexpr uint32_t kProvokingConstant = 0, kFlatConstant = 1;
 std::span<const uint32_t> capture_fragment(const FragmentVariant& variant);
 
 // copy_samples.comp for depth attachments, or colour attachments with `words` (1, 2 or 4) a sample.

@@ -15,6 +15,7 @@
 #include "vk_harness/target/resolve.hpp"
 #include "vk_harness/target/shader_interface.hpp"
 #include "vk_harness/target/target.hpp"
+#include "vk_harness/target/target_way.hpp"
 
 namespace vk_harness {
 
@@ -515,6 +516,9 @@ std::optional<Rejection> check_case(const Capabilities& capabilities, const case
     }
     if (c.variation.door != cases::Door::none) {
         if (auto missing = missing_door_support(capabilities.doors, c.variation.door)) {
+            return unsupported("{}", *missing);
+        }
+        if (auto missing = missing_images(capabilities, c)) {
             return unsupported("{}", *missing);
         }
     }

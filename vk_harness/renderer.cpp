@@ -8,7 +8,9 @@
 #include "cases/model/derive.hpp"
 #include "cases/model/sample.hpp"
 #include "vk_harness/case_check.hpp"
+#include "vk_harness/commands/render_pass.hpp"
 #include "vk_harness/target/shader_interface.hpp"
+#include "vk_harness/target/target_way.hpp"
 
 namespace vk_harness {
 
@@ -70,9 +72,12 @@ bool is_feeding(cases::Door door) {
 }
 
 // Whether a rendering gets a submission of its own: a driver that never leaves a pipeline's
-// rasterizer discard (docs/findings) would spoil what comes after it, too, and whose fault that is
-// could not be told.
+// rasterizer discard (docs/findings), or loses one of several submissions, would spoil other cases,
+// too, and whose fault that is could not be told.
 bool is_drawn_alone(const cases::Case& c) {
+    if (c.variation.door == cases::Door::submissions) {
+        return true;
+    }
     return c.variation.door == cases::Door::state_static &&
            std::any_of(c.draws.begin(), c.draws.end(),
                        [](const cases::Draw& draw) { return draw.rasterizer_discard; });
@@ -169,23 +174,43 @@ bool BatchRenderer::plan(CasePlan& plan, Rendered& result) {
         }
         plan.queries = std::make_shared<Queries>(std::move(*queries));
     }
-    auto images = targets_.get(test.target, plan.attachments);
+    auto images = targets_.get(test.target, plan.attachments, image_way(test));
     if (!images) {
         reject(result, images.error());
         return false;
     }
     plan.images = std::move(*images);
+    if (has_pass(test)) {
+        if (auto made = plan_pass(plan); !made) {
+            reject(result, made.error());
+            return false;
+        }
+    }
     return true;
 }
 
-Result<void> BatchRenderer::record(VkCommandBuffer commands, CasePlan& plan, VkBuffer vertices,
+Result<void> BatchRenderer::plan_pass(CasePlan& plan) {
+    if (auto got = put(plan.pass, pipelines_.get_pass(pass_key(*plan.test, plan.attachments)));
+        !got) {
+        return got;
+    }
+    auto framebuffer = make_framebuffer(*device_, plan, plan.pass);
+    if (!framebuffer) {
+        return fail(framebuffer.error());
+    }
+    plan.framebuffer = std::make_shared<Handle<VkFramebuffer>>(std::move(*framebuffer));
+    return {};
+}
+
+Result<void> BatchRenderer::record(VkCommandBuffer& commands, CasePlan& plan, VkBuffer vertices,
                                    bool read_back) {
     auto secondaries = submission_.secondaries(secondaries_of(plan));
     if (!secondaries) {
         return fail(secondaries.error());
     }
     plan.secondaries = std::move(*secondaries);
-    return record_draws(*device_, pipelines_, commands, plan, vertices, read_back);
+    return record_draws(*device_, pipelines_, commands, plan, vertices, read_back,
+                        [this] { return submission_.next(); });
 }
 
 Result<void> BatchRenderer::read_queries(const CasePlan& plan, Rendered& result) {

@@ -21,6 +21,8 @@ class Submission {
     void trim(VkDeviceSize limit);
 
     Result<VkCommandBuffer> begin();
+    // Ends recording, submits, and begins another command buffer, which is executed after it.
+    Result<VkCommandBuffer> next();
     // Secondary command buffers that are in no use since the last begin().
     Result<std::vector<VkCommandBuffer>> secondaries(size_t count);
     // Ends recording, submits, and waits until the device has finished.
@@ -35,11 +37,18 @@ class Submission {
     Result<Buffer*> grow(Buffer& buffer, VkDeviceSize size, VkBufferUsageFlags usage,
                          HostAccess access);
 
+    // Makes them `count` command buffers at least.
+    Result<void> allocate(std::vector<VkCommandBuffer>& buffers, size_t count,
+                          VkCommandBufferLevel level);
+    // Begins a primary command buffer that is in no use since the last begin().
+    Result<VkCommandBuffer> begin_next();
+    Result<void> submit(VkFence fence);  // ends recording before
+
     const Device* device_;
     Handle<VkCommandPool> pool_;
-    VkCommandBuffer commands_ = VK_NULL_HANDLE;  // owned by the pool
-    std::vector<VkCommandBuffer> secondaries_;   // owned by the pool, too
-    size_t used_secondaries_ = 0;                // since the last begin()
+    VkCommandBuffer commands_ = VK_NULL_HANDLE;             // that is recorded
+    std::vector<VkCommandBuffer> primaries_, secondaries_;  // owned by the pool
+    size_t used_primaries_ = 0, used_secondaries_ = 0;      // since the last begin()
     Handle<VkFence> fence_;
     std::vector<Handle<VkDescriptorPool>> descriptor_pools_;
     Buffer vertices_;
@@ -75,8 +84,11 @@ class BatchRenderer {
                             std::vector<Rendered>& results,
                             const std::function<void(std::string_view)>& step,
                             const PlaneStore& store, std::vector<GuardDamage>& damage);
-    // The commands of one case, with secondary command buffers if its door asks for them.
-    Result<void> record(VkCommandBuffer commands, CasePlan& plan, VkBuffer vertices,
+    // The render pass and framebuffer of a case whose door asks for them.
+    Result<void> plan_pass(CasePlan& plan);
+    // The commands of one case, with secondary command buffers if its door asks for them;
+    // `commands` is then the buffer to go on with.
+    Result<void> record(VkCommandBuffer& commands, CasePlan& plan, VkBuffer vertices,
                         bool read_back);
     // Where the planes of a case go that has been drawn: to the store's memory, if it has room.
     capture::PlaneSpans place_planes(const CasePlan& plan, Rendered& result,

@@ -20,16 +20,6 @@ Result<Submission> Submission::create(const Device& device) {
         !made) {
         return fail(made.error());
     }
-    VkCommandBufferAllocateInfo commands_info =
-        Typed{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
-    commands_info.commandPool = submission.pool_.get();
-    commands_info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
-    commands_info.commandBufferCount = 1;
-    const VkResult result =
-        vk.vkAllocateCommandBuffers(device.get(), &commands_info, &submission.commands_);
-    if (result != VK_SUCCESS) {
-        return fail(call_failure(Stage::device, result, "vkAllocateCommandBuffers"));
-    }
     VkFenceCreateInfo fence_info = Typed{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
     if (auto made = put(submission.fence_, make(device, Stage::device, "vkCreateFence",
                                                 vk.vkCreateFence, vk.vkDestroyFence, fence_info));
@@ -82,38 +72,79 @@ Result<VkCommandBuffer> Submission::begin() {
     const VolkDeviceTable& vk = device_->vk();
     descriptor_pools_.clear();
     used_secondaries_ = 0;
-    VkResult result = vk.vkResetCommandPool(device_->get(), pool_.get(), 0);
-    if (result != VK_SUCCESS) {
-        return fail(call_failure(Stage::submit, result, "vkResetCommandPool"));
+    if (auto reset = check(Stage::submit, vk.vkResetCommandPool(device_->get(), pool_.get(), 0),
+                           "vkResetCommandPool");
+        !reset) {
+        return fail(reset.error());
     }
+    used_primaries_ = 0;
+    return begin_next();
+}
+
+Result<VkCommandBuffer> Submission::begin_next() {
+    if (auto made = allocate(primaries_, used_primaries_ + 1, VK_COMMAND_BUFFER_LEVEL_PRIMARY);
+        !made) {
+        return fail(made.error());
+    }
+    commands_ = primaries_[used_primaries_++];
     VkCommandBufferBeginInfo info = Typed{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-    result = vk.vkBeginCommandBuffer(commands_, &info);
+    const VkResult result = device_->vk().vkBeginCommandBuffer(commands_, &info);
     if (result != VK_SUCCESS) {
         return fail(call_failure(Stage::submit, result, "vkBeginCommandBuffer"));
     }
     return commands_;
 }
 
+Result<VkCommandBuffer> Submission::next() {
+    if (auto submitted = submit(VK_NULL_HANDLE); !submitted) {
+        return fail(submitted.error());
+    }
+    return begin_next();
+}
+
+Result<void> Submission::allocate(std::vector<VkCommandBuffer>& buffers, size_t count,
+                                  VkCommandBufferLevel level) {
+    if (buffers.size() >= count) {
+        return {};
+    }
+    const size_t made = buffers.size();
+    buffers.resize(count);
+    VkCommandBufferAllocateInfo info = Typed{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+    info.commandPool = pool_.get();
+    info.level = level;
+    info.commandBufferCount = static_cast<uint32_t>(count - made);
+    const VkResult result =
+        device_->vk().vkAllocateCommandBuffers(device_->get(), &info, buffers.data() + made);
+    if (result != VK_SUCCESS) {
+        buffers.resize(made);
+        return fail(call_failure(Stage::submit, result, "vkAllocateCommandBuffers"));
+    }
+    return {};
+}
+
 Result<std::vector<VkCommandBuffer>> Submission::secondaries(size_t count) {
     const size_t first = used_secondaries_;
-    if (secondaries_.size() < first + count) {
-        const size_t made = secondaries_.size();
-        secondaries_.resize(first + count);
-        VkCommandBufferAllocateInfo info = Typed{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
-        info.commandPool = pool_.get();
-        info.level = VK_COMMAND_BUFFER_LEVEL_SECONDARY;
-        info.commandBufferCount = static_cast<uint32_t>(secondaries_.size() - made);
-        const VkResult result = device_->vk().vkAllocateCommandBuffers(device_->get(), &info,
-                                                                       secondaries_.data() + made);
-        if (result != VK_SUCCESS) {
-            secondaries_.resize(made);
-            return fail(call_failure(Stage::submit, result, "vkAllocateCommandBuffers"));
-        }
+    if (auto made = allocate(secondaries_, first + count, VK_COMMAND_BUFFER_LEVEL_SECONDARY);
+        !made) {
+        return fail(made.error());
     }
     used_secondaries_ += count;
     const auto begin = secondaries_.begin() + static_cast<std::ptrdiff_t>(first);
     return std::vector<VkCommandBuffer>(begin, begin + static_cast<std::ptrdiff_t>(count));
+}
+
+Result<void> Submission::submit(VkFence fence) {
+    const VolkDeviceTable& vk = device_->vk();
+    if (auto ended = check(Stage::submit, vk.vkEndCommandBuffer(commands_), "vkEndCommandBuffer");
+        !ended) {
+        return ended;
+    }
+    VkSubmitInfo info = Typed{VK_STRUCTURE_TYPE_SUBMIT_INFO};
+    info.commandBufferCount = 1;
+    info.pCommandBuffers = &commands_;
+    return check(Stage::submit, vk.vkQueueSubmit(device_->queue(), 1, &info, fence),
+                 "vkQueueSubmit");
 }
 
 Result<void> Submission::run() {
@@ -122,22 +153,14 @@ Result<void> Submission::run() {
                    {VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                     VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT},
                    {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
-    VkResult result = vk.vkEndCommandBuffer(commands_);
-    if (result != VK_SUCCESS) {
-        return fail(call_failure(Stage::submit, result, "vkEndCommandBuffer"));
-    }
-
-    VkSubmitInfo submit = Typed{VK_STRUCTURE_TYPE_SUBMIT_INFO};
-    submit.commandBufferCount = 1;
-    submit.pCommandBuffers = &commands_;
-    result = vk.vkQueueSubmit(device_->queue(), 1, &submit, fence_.get());
-    if (result != VK_SUCCESS) {
-        return fail(call_failure(Stage::submit, result, "vkQueueSubmit"));
+    if (auto submitted = submit(fence_.get()); !submitted) {
+        return submitted;
     }
     // A hang is ended from outside, where the worker has a time limit; should nobody do so, the
     // wait ends all the same, later.
     const VkFence fence = fence_.get();
-    result = vk.vkWaitForFences(device_->get(), 1, &fence, VK_TRUE, device_->longest_wait());
+    const VkResult result =
+        vk.vkWaitForFences(device_->get(), 1, &fence, VK_TRUE, device_->longest_wait());
     if (result != VK_SUCCESS) {
         return fail(call_failure(Stage::submit, result, "vkWaitForFences"));
     }

@@ -8,6 +8,7 @@
 
 #include "cases/model/case.hpp"
 #include "cases/model/derive.hpp"
+#include "cases/model/float_bits.hpp"
 #include "cases/model/rule_ids.hpp"
 
 namespace cases {
@@ -64,6 +65,39 @@ bool has_w_one(const Case& c) {
     });
 }
 
+bool has_half_positions(const Case& c) {
+    return any_draw(c, [](const Draw& draw) { return are_half_floats(draw.positions); });
+}
+
+bool has_one_sample(const Case& c) {
+    return c.target.samples == 1;
+}
+
+bool has_one_layer(const Case& c) {
+    return c.target.layers == 1;
+}
+
+// In which order a stage gets and hands on the vertices of a triangle, barycentrics would tell.
+bool has_barycentrics(const Draw& draw) {
+    return std::any_of(draw.attributes.begin(), draw.attributes.end(),
+                       [](const Attribute& a) { return a.source == Source::barycentric; });
+}
+
+bool can_take_geometry(const Case& c) {
+    return all_draws(c, [](const Draw& draw) {
+        return (draw.distances.clip_count == 0 || draw.distances.cull_count == 0) &&
+               !has_barycentrics(draw);
+    });
+}
+
+bool can_be_tessellated(const Case& c) {
+    return c.target.layers == 1 && all_draws(c, [](const Draw& draw) {
+               return draw.topology == Topology::triangle_list && !draw.primitive_restart &&
+                      draw.distances.clip_count == 0 && draw.distances.cull_count == 0 &&
+                      draw.viewport_index == 0 && !has_barycentrics(draw);
+           });
+}
+
 bool is_constant(const std::vector<glm::vec4>& values) {
     return !values.empty() &&
            std::all_of(values.begin(), values.end(), [&values](const glm::vec4& value) {
@@ -113,7 +147,9 @@ bool can_be_all_static(const Case& c) {
 
 constexpr DoorGroup kVertices = DoorGroup::vertices;
 constexpr DoorGroup kState = DoorGroup::state, kRecording = DoorGroup::recording;
+constexpr DoorGroup kTargets = DoorGroup::targets, kStages = DoorGroup::stages;
 constexpr DoorPromise kSame = DoorPromise::same_bits, kRight = DoorPromise::right_picture;
+constexpr DoorPromise kAlone = DoorPromise::right_alone;
 constexpr std::string_view kAny = "every case that draws";
 
 constexpr std::array<DoorRow, kDoors - 1> kRows = {{
@@ -169,6 +205,9 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
     {Door::three_components, "three-components", kVertices, kRight, rule::door_layout,
      "Positions whose w is 1 are read as three numbers; the fourth is 1 by the format.", "",
      "a draw whose positions all have w = 1", has_w_one},
+    {Door::half_floats, "half-floats", kVertices, kRight, rule::door_layout,
+     "Positions that binary16 holds are read as four numbers of it.", "",
+     "a draw whose positions are all numbers of binary16", has_half_positions},
     {Door::instance_rate, "instance-rate", kVertices, kRight, rule::door_instance,
      "What is the same at every vertex is read once an instance, and the only instance is number "
      "2: firstInstance is 2.",
@@ -222,6 +261,15 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
      kAny, is_any},
     {Door::unoptimized, "unoptimized", kState, kRight, rule::door_state,
      "Pipelines are made with VK_PIPELINE_CREATE_DISABLE_OPTIMIZATION_BIT.", "", kAny, is_any},
+    {Door::pipeline_library, "pipeline-library", kState, kRight, rule::door_state,
+     "Pipelines are linked from four libraries: vertex input, the stages before rasterization, the "
+     "fragment shader, its outputs.",
+     "graphicsPipelineLibrary (VK_EXT_graphics_pipeline_library)", kAny, is_any},
+    {Door::pipeline_derived, "pipeline-derived", kState, kRight, rule::door_state,
+     "Pipelines are derivatives of another one, which writes nothing.", "", kAny, is_any},
+    {Door::pipeline_cached, "pipeline-cached", kState, kRight, rule::door_state,
+     "Pipelines are made a second time, with a cache that was made of the data of a first one.", "",
+     kAny, is_any},
     {Door::secondary, "secondary", kRecording, kSame, rule::door_recording,
      "All draws are recorded in a secondary command buffer.", "", kAny, is_any},
     {Door::secondary_each, "secondary-each", kRecording, kSame, rule::door_recording,
@@ -237,6 +285,38 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
     {Door::clear_commands, "clear-commands", kRecording, kRight, rule::door_recording,
      "Nothing is loaded or cleared when the rendering begins; vkCmdClearAttachments clears.", "",
      kAny, is_any},
+    {Door::render_pass, "render-pass", kRecording, kRight, rule::door_recording,
+     "The rendering is an instance of a render pass object with one subpass.", "", kAny, is_any},
+    {Door::subpasses, "subpasses", kRecording, kRight, rule::door_recording,
+     "The same with two subpasses: the first clears and has the first of several draws, the second "
+     "one the others.",
+     "", kAny, is_any},
+    {Door::submissions, "submissions", kRecording, kRight, rule::door_recording,
+     "As pass-split, and each part is a command buffer and a submission of its own.", "", kAny,
+     is_any},
+    {Door::target_larger, "target-larger", kTargets, kRight, rule::door_target,
+     "Attachments have 29 columns and 19 rows more than the rendering's area.", "", kAny, is_any},
+    {Door::image_layer, "image-layer", kTargets, kRight, rule::door_target,
+     "Attachments are the last layers of images with two layers more.", "", kAny, is_any},
+    {Door::image_level, "image-level", kTargets, kRight, rule::door_target,
+     "Attachments are level 1 of images with three mip levels.", "", "one sample a pixel",
+     has_one_sample},
+    {Door::image_usages, "image-usages", kTargets, kRight, rule::door_target,
+     "Attachments may be used in every way that the device offers for their formats: sampled, "
+     "stored to, copied to, as input attachments, seen in other formats.",
+     "", kAny, is_any},
+    {Door::memory_dedicated, "memory-dedicated", kTargets, kRight, rule::door_target,
+     "Each attachment has an allocation that is dedicated to it.", "", kAny, is_any},
+    {Door::multiview, "multiview", kTargets, kRight, rule::door_target,
+     "The second view of two is drawn, alone, to the second layer.", "multiview",
+     "a target of one layer", has_one_layer},
+    {Door::geometry, "geometry", kStages, kAlone, rule::door_stage,
+     "A geometry shader hands on each triangle as it is.", "geometryShader",
+     "no draw with both clip and cull distances, no barycentrics", can_take_geometry},
+    {Door::tessellation, "tessellation", kStages, kAlone, rule::door_stage,
+     "Each triangle is a patch, which is tessellated into itself.", "tessellationShader",
+     "lists without restart, without distances, layers, viewport indices and barycentrics",
+     can_be_tessellated},
 }};
 
 constexpr bool is_in_order() {
@@ -252,8 +332,8 @@ static_assert(is_in_order());
 }  // namespace
 
 std::string_view to_string(DoorGroup group) {
-    constexpr std::array<std::string_view, 4> kNames = {"feeding vertices", "state", "recording",
-                                                        "stages"};
+    constexpr std::array<std::string_view, 5> kNames = {"feeding vertices", "state", "recording",
+                                                        "targets", "stages"};
     return kNames.at(static_cast<size_t>(group));
 }
 
@@ -311,6 +391,13 @@ uint32_t split_of(Door door, const Draw& draw) {
     }
     const size_t elements = draw.indices ? draw.indices->size() : draw.positions.size();
     return static_cast<uint32_t>(elements / 3 / 2);
+}
+
+bool are_half_floats(std::span<const glm::vec4> positions) {
+    return !positions.empty() &&
+           std::all_of(positions.begin(), positions.end(), [](const glm::vec4& p) {
+               return half_bits(p.x) && half_bits(p.y) && half_bits(p.z) && half_bits(p.w);
+           });
 }
 
 uint32_t largest_index(const Draw& draw) {

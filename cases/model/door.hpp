@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <glm/vec4.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -39,6 +40,7 @@ enum class Door : uint8_t {
     stride_dynamic,
     interleaved,
     three_components,
+    half_floats,
     instance_rate,
     indirect,
     indirect_count,
@@ -52,18 +54,32 @@ enum class Door : uint8_t {
     state_after_static,
     state_output,
     unoptimized,
+    pipeline_library,
+    pipeline_derived,
+    pipeline_cached,
     secondary,
     secondary_each,
     pass_split,
     pass_suspended,
     clear_commands,
+    render_pass,
+    subpasses,
+    submissions,
+    target_larger,
+    image_layer,
+    image_level,
+    image_usages,
+    memory_dedicated,
+    multiview,
+    geometry,
+    tessellation,
 };
-inline constexpr Door kLastDoor = Door::clear_commands;
+inline constexpr Door kLastDoor = Door::tessellation;
 inline constexpr size_t kDoors = static_cast<size_t>(kLastDoor) + 1;  // `none` among them
 template <>
 inline constexpr size_t kValueCount<Door> = kDoors;
 
-enum class DoorGroup : uint8_t { vertices, state, recording, stages };
+enum class DoorGroup : uint8_t { vertices, state, recording, targets, stages };
 std::string_view to_string(DoorGroup group);
 
 // What equal bits follow from.
@@ -72,8 +88,12 @@ enum class DoorPromise : uint8_t {
     // (Invariance, Rule 4): other bits are a finding at `vulkan`.
     same_bits,
     // Another pipeline, or state that no rule of invariance names: at `vulkan` the picture has to
-    // be right by the rules of every picture, and only from `practice` on it has to be the same.
+    // be right by the rules of every picture, and only from `practice` on it has to be the same, if
+    // the plain picture is right itself.
     right_picture,
+    // Another stage hands on the vertices of a triangle in an order that is its own: at every
+    // profile the picture has to be right by the rules of `vulkan`, and other bits are no finding.
+    right_alone,
 };
 
 struct DoorRow {
@@ -104,6 +124,9 @@ uint32_t vertex_shift(Door door);
 // Some doors draw a list of several triangles as two draws: how many triangles the first one has,
 // after which gl_PrimitiveID may begin again; 0 if the door does not split the draw.
 uint32_t split_of(Door door, const struct Draw& draw);
+
+// Whether there are positions and binary16 holds every one of their numbers exactly.
+bool are_half_floats(std::span<const glm::vec4> positions);
 
 // The largest index of a draw's vertices, written out or counted; 0 without vertices.
 uint32_t largest_index(const struct Draw& draw);

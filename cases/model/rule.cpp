@@ -324,8 +324,22 @@ constexpr std::array kRules = {
          "with what was stored, one that is suspended and resumed, and vkCmdClearAttachments "
          "instead of a load operation clear in another way, and which neighbour of a clear value "
          "is stored is not fixed: at vulkan the picture has to be right, from practice on it has "
-         "the same bits.",
+         "the same bits. So it is in a subpass of a render pass object, and where its parts are "
+         "submitted one by one.",
          "vkCmdBeginRendering", "", "diff/consistency.cpp"},
+    Rule{rule::door_target, Profile::vulkan, "What an attachment is a part of changes nothing",
+         "Attachments may be larger than the rendering's area, layers or levels of images with "
+         "more of them, of images that may be used in other ways, too, in memory of their own, or "
+         "the second view of a multiview rendering. Images or the pipeline are others: at vulkan "
+         "the picture has to be right, from practice on it has the same bits.",
+         "VkRenderingInfo", "", "diff/consistency.cpp"},
+    Rule{rule::door_stage, Profile::vulkan, "A stage that hands triangles on changes nothing",
+         "A geometry shader that emits each triangle as it came, and tessellation by factors of 1, "
+         "rasterize the triangles of the draw, with their numbers, flat values and faces. Which of "
+         "its vertices comes first is the stage's own choice, and with it values may be rounded "
+         "otherwise: the picture has to be right by the rules of vulkan, and its bits are not "
+         "compared further.",
+         "geometry", "", "diff/consistency.cpp"},
     Rule{rule::depth_store, Profile::vulkan, "Fixed-point depth is stored as either neighbour",
          "z (2^n - 1) rounds down or up; a whole number of steps is stored as it is. Direct3D "
          "rounds within 0.6 of a step.",

@@ -343,9 +343,15 @@ constexpr Statement kStatements[] = {
     {98, "when and how state is given: before the pipeline, over other state, as a part of the pipeline", exact, not_spoken,
      "The picture has the bits of the plain one; where the pipeline is another one, from practice on.",
      {"door.state"}, ""},
-    {99, "secondary command buffers, renderings that load or are resumed, clears by command", exact, not_spoken,
+    {99, "secondary command buffers, render pass objects, renderings that load or are resumed, submissions, clears by command", exact, not_spoken,
      "The picture has the bits of the plain one; where it is cleared in another way, from practice on.",
      {"door.recording"}, ""},
+    {130, "attachments that are a part of larger images, of other usage or memory, or a view of multiview", exact, not_spoken,
+     "The picture is right at vulkan and has the bits of the plain one from practice on.",
+     {"door.target"}, ""},
+    {131, "triangles through a geometry shader or tessellation that leave them as they are", exact, not_spoken,
+     "The picture is right at vulkan; which vertex comes first, and so the last bits of values, is the stage's choice.",
+     {"door.stage"}, ""},
     // clang-format on
 };
 

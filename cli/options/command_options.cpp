@@ -128,7 +128,7 @@ void define_run(CLI::App& app, RunOptions& o) {
               "draw each case through other ways of the API, too: all, default (each door with "
               "each family), all,-NAME (without this one), or names of 'edgecase doors', separated "
               "by commas; doors that an expectation file knows to be broken are left out of sets "
-              "[none]",
+              "[default for the whole suite of this program, none for a selection]",
               "NAMES", "Selection");
     run->add_flag("--shuffle", o.shuffle, "in an order that depends on the seed")
         ->group("Selection");

@@ -52,7 +52,7 @@ struct RunOptions {
     std::string failed_in, resume;
     bool quick = false, fail_fast = false, require_support = false, diagnosis = true;
     Shard shard;
-    std::string doors = "none";  // cli/prepare/doors.hpp
+    std::string doors;  // cli/prepare/doors.hpp; empty: as doors_of() chooses
     bool shuffle = false;
     uint64_t seed = 1;
     uint32_t repeat = 1;

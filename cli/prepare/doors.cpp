@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <iterator>
 #include <optional>
 #include <sstream>
@@ -171,6 +172,18 @@ OrStop<LeftOutDoors> choose_doors(const std::string& words,
         }
     }
     return left_out;
+}
+
+std::string doors_of(const RunOptions& options) {
+    if (!options.doors.empty()) {
+        return options.doors;
+    }
+    const SuiteOptions& suite = options.suite;
+    const char* other = std::getenv("EDGECASE_SUITE");
+    const bool is_own = suite.suite.empty() && (other == nullptr || *other == '\0');
+    const bool is_whole = is_own && suite.selectors.empty() && !options.quick &&
+                          options.failed_in.empty() && options.device.renderer.empty();
+    return is_whole ? "default" : "none";
 }
 
 bool asks_for_set(const std::string& words) {

@@ -25,6 +25,10 @@ using LeftOutDoors = std::map<std::string, std::vector<std::string>>;
 // that no case can take (4).
 OrStop<LeftOutDoors> choose_doors(const std::string& words, std::span<cases::Case* const> selected);
 
+// The words that are given, or what a run takes without them: "default" if it draws the whole suite
+// that comes with the program on a driver, else "none".
+std::string doors_of(const RunOptions& options);
+
 // Whether `words` ask for a set of doors, of which an expectation file may leave some out.
 bool asks_for_set(const std::string& words);
 

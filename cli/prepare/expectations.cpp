@@ -120,7 +120,7 @@ OrStop<std::map<std::string, run::ExpectationLine>> expectations_of(const RunOpt
     header.skipped_doors.clear();
     for (const run::ExpectationFile& file : *files) {
         for (const run::ExpectationLine& line : file.doors) {
-            if (asks_for_set(options.doors) && !line.is_past) {
+            if (asks_for_set(doors_of(options)) && !line.is_past) {
                 header.skipped_doors.emplace_back(line.glob, line.bug);
             }
         }

@@ -130,7 +130,7 @@ OrStop<Selection> select_cases(const Program& program, const RunOptions& options
     for (size_t k = suite->outside; k < suite->cases.size(); ++k) {
         selection.own_files.insert(suite->cases[k].where.file);
     }
-    if (options.doors != RunOptions().doors && !options.device.renderer.empty()) {
+    if (!options.doors.empty() && options.doors != "none" && !options.device.renderer.empty()) {
         return tl::unexpected(
             stop_with(report::kExitUsage,
                       "--doors needs a Vulkan driver, and --renderer names another; "
@@ -155,7 +155,7 @@ OrStop<Selection> select_cases(const Program& program, const RunOptions& options
         }
         chosen.push_back(&c);
     }
-    OrStop<LeftOutDoors> doors = choose_doors(options.doors, chosen);
+    OrStop<LeftOutDoors> doors = choose_doors(doors_of(options), chosen);
     if (!doors) {
         return tl::unexpected(doors.error());
     }

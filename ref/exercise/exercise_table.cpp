@@ -215,6 +215,8 @@ constexpr ExerciseRow kRows[] = {
     {rule::door_indirect, kOfRelation, {at_all(goes_through_door)}},
     {rule::door_state, kOfRelation, {at_all(goes_through_door)}},
     {rule::door_recording, kOfRelation, {at_all(goes_through_door)}},
+    {rule::door_target, kOfRelation, {at_all(goes_through_door)}},
+    {rule::door_stage, kOfRelation, {at_all(goes_through_door)}},
     {rule::depth_store, "of a target with fixed-point depth", {at_all(is_depth_rounded)}},
     {rule::depth_bias,
      "whose depth, or depth test, would come out otherwise without the bias, with its sign turned "

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <exception>
 #include <iterator>
+#include <set>
+#include <string>
 
 #include "diff/verdict.hpp"
 #include "ref/expectation/expectation.hpp"
@@ -24,9 +26,9 @@ struct Origin {
 };
 
 // What of a picture that has other bits than the plain one is wrong by itself, at profile vulkan;
-// empty if nothing is.
+// empty if nothing is. With `plain`, only rules count that the plain picture does not break itself.
 std::string wrong_at_vulkan(const cases::Case& c, const Rendered& drawn,
-                            const vk_harness::DeviceInfo& device) {
+                            const vk_harness::DeviceInfo& device, const Rendered* plain) {
     try {
         const ref::Expectation expectation =
             ref::expect(c, limits_of(device), cases::Profile::vulkan);
@@ -34,10 +36,38 @@ std::string wrong_at_vulkan(const cases::Case& c, const Rendered& drawn,
         if (!verdict.error.empty() || verdict.findings.empty()) {
             return verdict.error;
         }
-        const diff::Finding& first = verdict.findings.front();
-        return fmt::format("{} at ({}, {}): {}", first.rule, first.x, first.y, first.why);
+        std::set<std::string> broken;
+        if (plain != nullptr) {
+            for (const diff::Finding& f : diff::compare(c, expectation, view_of(*plain)).findings) {
+                broken.insert(f.rule);
+            }
+        }
+        for (const diff::Finding& f : verdict.findings) {
+            if (!broken.contains(f.rule)) {
+                return fmt::format("{} at ({}, {}): {}", f.rule, f.x, f.y, f.why);
+            }
+        }
+        return "";
     } catch (const std::exception& e) {
         return fmt::format("the comparison failed: {}", e.what());
+    }
+}
+
+// What other bits through a door amount to: what of the picture is wrong, or that nothing is to be
+// said of them.
+void judge_door(const cases::Case& c, const Rendered& plain, const Rendered& drawn,
+                const vk_harness::DeviceInfo& device, cases::DoorPromise promise,
+                diff::Consistency& found) {
+    if (promise == cases::DoorPromise::same_bits) {
+        return;
+    }
+    // Where other bits are no finding, neither is what the plain picture does wrong, too.
+    const bool is_alone = promise == cases::DoorPromise::right_alone;
+    found.wrong = wrong_at_vulkan(c, drawn, device, is_alone ? &plain : nullptr);
+    // A picture that is right through the door differs from a wrong one: no fault of the door.
+    if (found.wrong.empty() && (is_alone || !wrong_at_vulkan(c, plain, device, nullptr).empty())) {
+        found.different = 0;
+        found.differences.clear();
     }
 }
 
@@ -130,9 +160,9 @@ std::vector<RenderedCase> render_with_derived(
         }
         diff::Consistency& found = result.consistency[origin.derivation];
         found = diff::compare_bits(view_of(own), view_of(derived), derivation);
-        if (is_door && found.different > 0 &&
-            cases::row_of(derivation.variation.door).promise == cases::DoorPromise::right_picture) {
-            found.wrong = wrong_at_vulkan(batch[origin.of], derived, backend.device());
+        if (is_door && found.different > 0) {
+            judge_door(batch[origin.of], own, derived, backend.device(),
+                       cases::row_of(derivation.variation.door).promise, found);
         }
     };
     for (size_t k = 0; k < beside.origins.size(); ++k) {

@@ -11,6 +11,7 @@
 #include <csignal>
 #include <cstddef>
 #include <cstring>
+#include <set>
 #include <type_traits>
 
 #include "altering.hpp"
@@ -74,6 +75,12 @@ VKAPI_ATTR VkResult VKAPI_CALL allocate_memory(VkDevice device, const VkMemoryAl
                                                VkDeviceMemory* out) {
     static std::atomic<uint64_t> allocations = 0;
     const VkResult result = answer(hooks().allocate, ++allocations);
+    for (const auto* s = static_cast<const VkBaseInStructure*>(info->pNext); s != nullptr;
+         s = s->pNext) {
+        if (s->sType == VK_STRUCTURE_TYPE_MEMORY_DEDICATED_ALLOCATE_INFO) {
+            note_dedicated(reinterpret_cast<const VkMemoryDedicatedAllocateInfo*>(s)->image);
+        }
+    }
     return result != VK_SUCCESS
                ? result
                : driver_of_handle(device).AllocateMemory(device, info, allocator, out);
@@ -82,16 +89,23 @@ VKAPI_ATTR VkResult VKAPI_CALL allocate_memory(VkDevice device, const VkMemoryAl
 VKAPI_ATTR VkResult VKAPI_CALL create_image(VkDevice device, const VkImageCreateInfo* info,
                                             const VkAllocationCallbacks* allocator, VkImage* out) {
     static std::atomic<uint64_t> images = 0;
-    const VkResult result = answer(hooks().make_image, ++images);
-    return result != VK_SUCCESS
-               ? result
-               : driver_of_handle(device).CreateImage(device, info, allocator, out);
+    const VkResult refused = answer(hooks().make_image, ++images);
+    if (refused != VK_SUCCESS) {
+        return refused;
+    }
+    const VkResult result = driver_of_handle(device).CreateImage(device, info, allocator, out);
+    if (result == VK_SUCCESS) {
+        note_image(*out, *info);
+    }
+    return result;
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL create_image_view(VkDevice device, const VkImageViewCreateInfo* info,
                                                  const VkAllocationCallbacks* allocator,
                                                  VkImageView* out) {
-    const VkResult result = driver_of_handle(device).CreateImageView(device, info, allocator, out);
+    VkImageViewCreateInfo own = *info;
+    alter(hooks().view, own);
+    const VkResult result = driver_of_handle(device).CreateImageView(device, &own, allocator, out);
     if (result == VK_SUCCESS) {
         note_view(*out, info->image);
     }
@@ -131,6 +145,34 @@ VKAPI_ATTR VkResult VKAPI_CALL map_memory(VkDevice device, VkDeviceMemory memory
     return result;
 }
 
+// Caches that were made of data.
+std::set<VkPipelineCache>& caches_of_data() {
+    static std::set<VkPipelineCache> caches;
+    return caches;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL create_pipeline_cache(VkDevice device,
+                                                     const VkPipelineCacheCreateInfo* info,
+                                                     const VkAllocationCallbacks* allocator,
+                                                     VkPipelineCache* out) {
+    const VkResult result =
+        driver_of_handle(device).CreatePipelineCache(device, info, allocator, out);
+    if (result == VK_SUCCESS && info->initialDataSize > 0) {
+        caches_of_data().insert(*out);
+    } else if (result == VK_SUCCESS) {
+        caches_of_data().erase(*out);
+    }
+    return result;
+}
+
+VkShaderStageFlags stages_of(const VkGraphicsPipelineCreateInfo& info) {
+    VkShaderStageFlags stages = 0;
+    for (uint32_t k = 0; k < info.stageCount; ++k) {
+        stages |= static_cast<VkShaderStageFlags>(info.pStages[k].stage);
+    }
+    return stages;
+}
+
 VKAPI_ATTR VkResult VKAPI_CALL create_graphics_pipelines(VkDevice device, VkPipelineCache cache,
                                                          uint32_t count,
                                                          const VkGraphicsPipelineCreateInfo* infos,
@@ -146,7 +188,10 @@ VKAPI_ATTR VkResult VKAPI_CALL create_graphics_pipelines(VkDevice device, VkPipe
         const VkResult result =
             driver.CreateGraphicsPipelines(device, cache, count, asked, allocator, out);
         for (uint32_t k = 0; k < count && result == VK_SUCCESS; ++k) {
-            note_pipeline(out[k], infos[k].pDynamicState->dynamicStateCount == 0);
+            // One that is linked has its state from its libraries.
+            note_pipeline(out[k],
+                          infos[k].pVertexInputState != nullptr && !has_dynamic_state(infos[k]),
+                          stages_of(infos[k]));
         }
         return result;
     };
@@ -156,6 +201,7 @@ VKAPI_ATTR VkResult VKAPI_CALL create_graphics_pipelines(VkDevice device, VkPipe
     std::vector<PipelineCopy> copies(infos, infos + count);
     std::vector<VkGraphicsPipelineCreateInfo> own;
     for (PipelineCopy& copy : copies) {
+        copy.has_cached_data = caches_of_data().contains(cache);
         alter(hooks().pipeline, copy);
         own.push_back(copy.info());
     }
@@ -166,6 +212,9 @@ VKAPI_ATTR VkResult VKAPI_CALL queue_submit(VkQueue queue, uint32_t count,
                                             const VkSubmitInfo* infos, VkFence fence) {
     static std::atomic<uint64_t> submissions = 0;
     const VkResult result = answer(hooks().submit, ++submissions);
+    if (result == VK_SUCCESS && alter(hooks().drop_submission, fence != VK_NULL_HANDLE)) {
+        return result;
+    }
     return result != VK_SUCCESS ? result
                                 : driver_of_handle(queue).QueueSubmit(queue, count, infos, fence);
 }
@@ -211,6 +260,9 @@ VKAPI_ATTR void VKAPI_CALL begin_rendering(VkCommandBuffer commands, const VkRen
     }
     if (info->pStencilAttachment != nullptr) {
         own.stencil = *info->pStencilAttachment;
+    }
+    for (const VkRenderingAttachmentInfo& color : own.colors) {
+        own.images.push_back(facts_of(color.imageView));
     }
     alter(hooks().rendering, own);
     own.info.pColorAttachments = own.colors.data();
@@ -308,7 +360,12 @@ std::vector<Region> altered(const Region* regions, uint32_t count, bool (*hook)(
 VKAPI_ATTR void VKAPI_CALL copy_image_to_buffer(VkCommandBuffer commands, VkImage image,
                                                 VkImageLayout layout, VkBuffer buffer,
                                                 uint32_t count, const VkBufferImageCopy* regions) {
-    const auto own = altered(regions, count, hooks().image_to_buffer);
+    auto own = altered(regions, count, hooks().image_to_buffer);
+    for (VkBufferImageCopy& region : own) {
+        ImageCopy copy{region, facts_of(image)};
+        alter(hooks().image_copy, copy);
+        region = copy.region;
+    }
     driver_of_handle(commands).CmdCopyImageToBuffer(commands, image, layout, buffer, count,
                                                     own.data());
 }
@@ -348,6 +405,7 @@ const OwnCommand kCommands[] = {
     BREAKING_OWN(BindBufferMemory, bind_buffer_memory),
     BREAKING_OWN(BindImageMemory, bind_image_memory),
     BREAKING_OWN(FreeMemory, free_memory),
+    BREAKING_OWN(CreatePipelineCache, create_pipeline_cache),
     BREAKING_OWN(CreateGraphicsPipelines, create_graphics_pipelines),
     BREAKING_OWN(QueueSubmit, queue_submit),
     BREAKING_OWN(WaitForFences, wait_for_fences),
@@ -393,6 +451,8 @@ void draw_call(VkCommandBuffer commands, DrawCall call, uint32_t instances) {
     call.topology = recording.topology;
     call.number = recording.draws++;
     call.in_secondary = recording.is_secondary;
+    call.subpass = recording.subpass;
+    call.stages = recording.stages;
     call.rendering = recording.rendering;
     call.index_type = recording.index_type;
     call.has_restart = recording.has_restart;

@@ -17,6 +17,7 @@ namespace breaking {
     X(CreateImage) \
     X(MapMemory) \
     X(CreateImageView) \
+    X(CreatePipelineCache) \
     X(BindBufferMemory) \
     X(BindImageMemory) \
     X(FreeMemory) \
@@ -61,6 +62,8 @@ namespace breaking {
     X(CmdDrawMultiIndexedEXT) \
     X(CmdBeginRendering) \
     X(CmdEndRendering) \
+    X(CmdBeginRenderPass) \
+    X(CmdNextSubpass) \
     X(CmdPipelineBarrier2) \
     X(CmdClearColorImage) \
     X(CmdCopyImageToBuffer) \

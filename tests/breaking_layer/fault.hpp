@@ -41,6 +41,8 @@ struct DrawCall {
     uint32_t first_instance = 0;
     VkIndexType index_type = VK_INDEX_TYPE_UINT32;  // indexed only
     bool has_restart = false;                       // primitive restart is on
+    uint32_t subpass = 0;                           // of a render pass object
+    VkShaderStageFlags stages = 0;                  // of the pipeline
     // Set by a fault: restart is on or off for this draw whatever was asked.
     std::optional<bool> restart;
     // The first index of an indexed draw, if the buffer is mapped.
@@ -95,10 +97,22 @@ struct Neighbours {
     std::optional<std::pair<VkBuffer, VkDeviceSize>> written;  // one word, from that byte on
 };
 
+// What an image was made as, and whether its memory is its alone.
+struct ImageFacts {
+    VkExtent3D extent{};
+    VkImageUsageFlags usage = 0;
+    bool is_dedicated = false;
+};
+struct ImageCopy {
+    VkBufferImageCopy region;
+    ImageFacts image;
+};
+
 // One call of vkCmdBeginRendering.
 struct Rendering {
     VkRenderingInfo info;
     std::vector<VkRenderingAttachmentInfo> colors;
+    std::vector<ImageFacts> images;  // of the colours
     std::optional<VkRenderingAttachmentInfo> depth, stencil;
 };
 
@@ -200,6 +214,11 @@ struct Hooks {
     bool (*clear_color)(VkClearColorValue&) = nullptr;  // of vkCmdClearColorImage
     bool (*drop_clear_color)() = nullptr;               // the same, not done
     bool (*image_to_buffer)(VkBufferImageCopy&) = nullptr;
+    bool (*image_copy)(ImageCopy&) = nullptr;  // the same, of which the image is known
+    bool (*view)(VkImageViewCreateInfo&) = nullptr;
+    bool (*pass_clears)(std::vector<VkClearValue>&) = nullptr;  // of vkCmdBeginRenderPass
+    // Whether commands are not executed that were submitted without a fence, or with one.
+    bool (*drop_submission)(bool has_fence) = nullptr;
     bool (*buffer_to_image)(VkBufferImageCopy&) = nullptr;
     bool (*blit)(VkImageBlit&, VkFilter&) = nullptr;
     bool (*dispatch)(uint32_t& groups_x) = nullptr;
@@ -236,6 +255,7 @@ std::span<const Fault> device_faults();
 std::span<const Fault> query_faults();
 std::span<const Fault> door_faults();
 std::span<const Fault> recording_door_faults();
+std::span<const Fault> target_door_faults();
 std::vector<const Fault*> all_faults();
 
 // The N of EDGECASE_BREAK=NAME:N; 1 if none is given.

@@ -21,6 +21,7 @@ struct Map {
     std::mutex mutex;
     std::map<VkBuffer, VkDeviceSize> sizes;
     std::map<VkImageView, VkImage> images;
+    std::map<VkImage, ImageFacts> facts;
     std::map<VkDeviceMemory, Contents> memories;
     std::map<VkImage, VkDeviceMemory> memory_of;
     std::map<VkBuffer, std::pair<VkDeviceMemory, VkDeviceSize>> place_of;
@@ -60,6 +61,26 @@ void forget_memory(VkDeviceMemory memory) {
     const std::lock_guard lock(map().mutex);
     map().memories.erase(memory);
     map().mapped.erase(memory);
+}
+
+void note_image(VkImage image, const VkImageCreateInfo& info) {
+    const std::lock_guard lock(map().mutex);
+    map().facts[image] = {info.extent, info.usage, false};
+}
+
+void note_dedicated(VkImage image) {
+    const std::lock_guard lock(map().mutex);
+    map().facts[image].is_dedicated = true;
+}
+
+ImageFacts facts_of(VkImage image) {
+    const std::lock_guard lock(map().mutex);
+    return map().facts[image];
+}
+
+ImageFacts facts_of(VkImageView view) {
+    const std::lock_guard lock(map().mutex);
+    return map().facts[map().images[view]];
 }
 
 void note_map(VkDeviceMemory memory, VkDeviceSize offset, void* data) {

@@ -15,6 +15,12 @@ void note_binding(VkBuffer buffer, VkDeviceMemory memory, VkDeviceSize offset);
 void note_binding(VkImage image, VkDeviceMemory memory, VkDeviceSize offset);
 void forget_memory(VkDeviceMemory memory);
 
+// What an image was made as; that its memory is its alone.
+void note_image(VkImage image, const VkImageCreateInfo& info);
+void note_dedicated(VkImage image);
+ImageFacts facts_of(VkImage image);
+ImageFacts facts_of(VkImageView view);
+
 void note_map(VkDeviceMemory memory, VkDeviceSize offset, void* data);
 
 // A word of a buffer whose memory the application has mapped; nothing if it has not.

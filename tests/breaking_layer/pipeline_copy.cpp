@@ -47,15 +47,20 @@ void chain(const void*& to, std::optional<T>& structure) {
 }  // namespace
 
 PipelineCopy::PipelineCopy(const VkGraphicsPipelineCreateInfo& from) : info_(from) {
-    vertex_input = *from.pVertexInputState;
-    inputs.assign(
-        vertex_input.pVertexAttributeDescriptions,
-        vertex_input.pVertexAttributeDescriptions + vertex_input.vertexAttributeDescriptionCount);
-    bindings.assign(
-        vertex_input.pVertexBindingDescriptions,
-        vertex_input.pVertexBindingDescriptions + vertex_input.vertexBindingDescriptionCount);
+    // A library has the state of its part.
+    if (from.pVertexInputState != nullptr) {
+        vertex_input = *from.pVertexInputState;
+        inputs.assign(vertex_input.pVertexAttributeDescriptions,
+                      vertex_input.pVertexAttributeDescriptions +
+                          vertex_input.vertexAttributeDescriptionCount);
+        bindings.assign(
+            vertex_input.pVertexBindingDescriptions,
+            vertex_input.pVertexBindingDescriptions + vertex_input.vertexBindingDescriptionCount);
+    }
 
-    rasterization = *from.pRasterizationState;
+    if (from.pRasterizationState != nullptr) {
+        rasterization = *from.pRasterizationState;
+    }
     for (const auto* s = first_of(rasterization.pNext); s != nullptr; s = s->pNext) {
         expect_one_of(
             s, {VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_DEPTH_CLIP_STATE_CREATE_INFO_EXT,
@@ -66,14 +71,18 @@ PipelineCopy::PipelineCopy(const VkGraphicsPipelineCreateInfo& from) : info_(fro
              provoking);
     }
 
-    viewport_ = *from.pViewportState;
+    if (from.pViewportState != nullptr) {
+        viewport_ = *from.pViewportState;
+    }
     for (const auto* s = first_of(viewport_.pNext); s != nullptr; s = s->pNext) {
         expect_one_of(s, {VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_DEPTH_CLIP_CONTROL_CREATE_INFO_EXT});
         take(s, VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_DEPTH_CLIP_CONTROL_CREATE_INFO_EXT,
              clip_control);
     }
 
-    multisample = *from.pMultisampleState;
+    if (from.pMultisampleState != nullptr) {
+        multisample = *from.pMultisampleState;
+    }
     if (multisample.pSampleMask != nullptr) {
         mask = multisample.pSampleMask[0];
     }
@@ -86,9 +95,13 @@ PipelineCopy::PipelineCopy(const VkGraphicsPipelineCreateInfo& from) : info_(fro
         places.assign(l.pSampleLocations, l.pSampleLocations + l.sampleLocationsCount);
     }
 
-    depth = *from.pDepthStencilState;
-    blend = *from.pColorBlendState;
-    blends.assign(blend.pAttachments, blend.pAttachments + blend.attachmentCount);
+    if (from.pDepthStencilState != nullptr) {
+        depth = *from.pDepthStencilState;
+    }
+    if (from.pColorBlendState != nullptr) {
+        blend = *from.pColorBlendState;
+        blends.assign(blend.pAttachments, blend.pAttachments + blend.attachmentCount);
+    }
 }
 
 const VkGraphicsPipelineCreateInfo& PipelineCopy::info() {
@@ -96,16 +109,16 @@ const VkGraphicsPipelineCreateInfo& PipelineCopy::info() {
     vertex_input.vertexAttributeDescriptionCount = static_cast<uint32_t>(inputs.size());
     vertex_input.pVertexBindingDescriptions = bindings.data();
     vertex_input.vertexBindingDescriptionCount = static_cast<uint32_t>(bindings.size());
-    info_.pVertexInputState = &vertex_input;
+    info_.pVertexInputState = info_.pVertexInputState != nullptr ? &vertex_input : nullptr;
 
     rasterization.pNext = nullptr;
     chain(rasterization.pNext, depth_clip);
     chain(rasterization.pNext, provoking);
-    info_.pRasterizationState = &rasterization;
+    info_.pRasterizationState = info_.pRasterizationState != nullptr ? &rasterization : nullptr;
 
     viewport_.pNext = nullptr;
     chain(viewport_.pNext, clip_control);
-    info_.pViewportState = &viewport_;
+    info_.pViewportState = info_.pViewportState != nullptr ? &viewport_ : nullptr;
 
     multisample.pNext = nullptr;
     if (multisample.pSampleMask != nullptr) {
@@ -115,11 +128,11 @@ const VkGraphicsPipelineCreateInfo& PipelineCopy::info() {
         locations->sampleLocationsInfo.pSampleLocations = places.data();
     }
     chain(multisample.pNext, locations);
-    info_.pMultisampleState = &multisample;
+    info_.pMultisampleState = info_.pMultisampleState != nullptr ? &multisample : nullptr;
 
-    info_.pDepthStencilState = &depth;
+    info_.pDepthStencilState = info_.pDepthStencilState != nullptr ? &depth : nullptr;
     blend.pAttachments = blends.data();
-    info_.pColorBlendState = &blend;
+    info_.pColorBlendState = info_.pColorBlendState != nullptr ? &blend : nullptr;
     return info_;
 }
 

@@ -10,6 +10,10 @@
 
 namespace breaking {
 
+inline bool has_dynamic_state(const VkGraphicsPipelineCreateInfo& info) {
+    return info.pDynamicState != nullptr && info.pDynamicState->dynamicStateCount > 0;
+}
+
 // A VkGraphicsPipelineCreateInfo with everything that faults write, in memory of its own. Chained
 // structures that are not named here go on to the driver as they are.
 class PipelineCopy {
@@ -34,8 +38,11 @@ class PipelineCopy {
     bool is_unoptimized() const {
         return (info_.flags & VK_PIPELINE_CREATE_DISABLE_OPTIMIZATION_BIT) != 0;
     }
+    bool is_library() const { return (info_.flags & VK_PIPELINE_CREATE_LIBRARY_BIT_KHR) != 0; }
+    bool is_derived() const { return (info_.flags & VK_PIPELINE_CREATE_DERIVATIVE_BIT) != 0; }
+    bool has_cached_data = false;  // it is made with a cache that was made of data
     // Nothing of its state is dynamic.
-    bool is_static() const { return info_.pDynamicState->dynamicStateCount == 0; }
+    bool is_static() const { return !has_dynamic_state(info_); }
 
     // Ties the parts together; valid until the copy is changed or moved.
     const VkGraphicsPipelineCreateInfo& info();

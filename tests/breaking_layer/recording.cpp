@@ -19,6 +19,7 @@ void Recording::begin_rendering(bool holds_back) {
 
 void Recording::begin(bool secondary) {
     is_secondary = secondary;
+    subpass = 0;
     draws = 0;
     follows_static = false;
     set_since_bind.clear();
@@ -63,11 +64,13 @@ namespace {
 
 std::mutex pipelines_mutex;
 std::set<VkPipeline> static_pipelines;
+std::map<VkPipeline, VkShaderStageFlags> stages_of_pipelines;
 
 }  // namespace
 
-void note_pipeline(VkPipeline pipeline, bool is_static) {
+void note_pipeline(VkPipeline pipeline, bool is_static, VkShaderStageFlags stages) {
     const std::lock_guard lock(pipelines_mutex);
+    stages_of_pipelines[pipeline] = stages;
     if (is_static) {
         static_pipelines.insert(pipeline);
     } else {
@@ -78,6 +81,12 @@ void note_pipeline(VkPipeline pipeline, bool is_static) {
 bool is_static(VkPipeline pipeline) {
     const std::lock_guard lock(pipelines_mutex);
     return static_pipelines.contains(pipeline);
+}
+
+VkShaderStageFlags stages_of(VkPipeline pipeline) {
+    const std::lock_guard lock(pipelines_mutex);
+    const auto found = stages_of_pipelines.find(pipeline);
+    return found == stages_of_pipelines.end() ? 0 : found->second;
 }
 
 Recording& recording_of(VkCommandBuffer commands) {

@@ -35,6 +35,8 @@ class Recording {
     uint64_t rendering = 0;                  // in this process, from 1
     std::vector<VkImageView> attachments;    // of this rendering
     bool is_secondary = false;
+    uint32_t subpass = 0;               // of a render pass object
+    VkShaderStageFlags stages = 0;      // of the pipeline that was bound last
     bool follows_static = false;        // StateCall
     std::set<StateKey> set_since_bind;  // since the last pipeline was bound
 
@@ -53,9 +55,11 @@ class Recording {
     std::vector<std::pair<State, Command>> held_;
 };
 
-// Whether a pipeline has no dynamic state: written down when it is made, asked when it is bound.
-void note_pipeline(VkPipeline pipeline, bool is_static);
+// Whether a pipeline has no dynamic state, and its stages: written down when it is made, asked when
+// it is bound.
+void note_pipeline(VkPipeline pipeline, bool is_static, VkShaderStageFlags stages);
 bool is_static(VkPipeline pipeline);
+VkShaderStageFlags stages_of(VkPipeline pipeline);
 
 // The recording of a command buffer; made when first asked for.
 Recording& recording_of(VkCommandBuffer commands);

@@ -42,7 +42,27 @@ VKAPI_ATTR void VKAPI_CALL clear_attachments(VkCommandBuffer commands, uint32_t 
         static_cast<uint32_t>(own.rects.size()), own.rects.data());
 }
 
+VKAPI_ATTR void VKAPI_CALL begin_render_pass(VkCommandBuffer commands,
+                                             const VkRenderPassBeginInfo* info,
+                                             VkSubpassContents contents) {
+    std::vector<VkClearValue> clears(info->pClearValues,
+                                     info->pClearValues + info->clearValueCount);
+    alter(hooks().pass_clears, clears);
+    VkRenderPassBeginInfo own = *info;
+    own.pClearValues = clears.data();
+    recording_of(commands).begin_rendering(false);
+    recording_of(commands).subpass = 0;
+    driver_of_handle(commands).CmdBeginRenderPass(commands, &own, contents);
+}
+
+VKAPI_ATTR void VKAPI_CALL next_subpass(VkCommandBuffer commands, VkSubpassContents contents) {
+    ++recording_of(commands).subpass;
+    driver_of_handle(commands).CmdNextSubpass(commands, contents);
+}
+
 const OwnCommand kCommands[] = {
+    BREAKING_OWN(CmdBeginRenderPass, begin_render_pass),
+    BREAKING_OWN(CmdNextSubpass, next_subpass),
     BREAKING_OWN(BeginCommandBuffer, begin_command_buffer),
     BREAKING_OWN(CmdExecuteCommands, execute_commands),
     BREAKING_OWN(CmdClearAttachments, clear_attachments),

@@ -201,6 +201,9 @@ VKAPI_ATTR void VKAPI_CALL bind_pipeline(VkCommandBuffer commands, VkPipelineBin
         alter(hooks().bind, reset);
     }
     recording.follows_static = recording.follows_static || is_static(pipeline);
+    if (point == VK_PIPELINE_BIND_POINT_GRAPHICS) {
+        recording.stages = stages_of(pipeline);
+    }
     recording.set_since_bind.clear();
     recording.set_state({"pipeline", point}, [=] {
         const Driver& driver = driver_of_handle(commands);

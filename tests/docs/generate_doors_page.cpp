@@ -20,19 +20,32 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+std::string_view held_to(cases::DoorPromise promise) {
+    switch (promise) {
+        case cases::DoorPromise::same_bits:
+            return "bits";
+        case cases::DoorPromise::right_picture:
+            return "picture";
+        case cases::DoorPromise::right_alone:
+            break;
+    }
+    return "rules";
+}
+
 void print_doors() {
     fmt::print(
         "\n## The doors\n\n"
         "*Bits*: other bits are a finding at `vulkan`, since the same vertices reach the same "
         "pipeline.\n*Picture*: at `vulkan` the picture has to be right, and only from `practice` "
         "on "
-        "the same.\n\n"
+        "the same.\n*Rules*: at every profile the picture has to be right by the rules of "
+        "`vulkan`.\n\n"
         "| door | group | what it does | needs | takes | rule | held to |\n"
         "| --- | --- | --- | --- | --- | --- | --- |\n");
     for (const cases::DoorRow& row : cases::all_doors()) {
         fmt::print("| `{}` | {} | {} | {} | {} | `{}` | {} |\n", row.word, to_string(row.group),
                    row.does, row.needs.empty() ? "-" : row.needs, row.takes, row.rule,
-                   row.promise == cases::DoorPromise::same_bits ? "bits" : "picture");
+                   held_to(row.promise));
     }
 }
 

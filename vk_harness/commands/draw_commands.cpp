@@ -83,8 +83,8 @@ void push_constants(const Device& device, const PipelineCache& pipelines, VkComm
         constants.other_where = static_cast<uint32_t>(draw.frag_depth->where);
         constants.depth_is_coord = draw.frag_depth->is_coord ? 1 : 0;
     }
-    device.vk().vkCmdPushConstants(commands, pipelines.layout(), kDrawStages, 0, sizeof constants,
-                                   &constants);
+    device.vk().vkCmdPushConstants(commands, pipelines.layout(), draw_stages(device), 0,
+                                   sizeof constants, &constants);
 }
 
 void bind_inputs(const Device& device, VkCommandBuffer commands, const DrawPlan& plan,

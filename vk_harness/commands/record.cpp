@@ -86,9 +86,11 @@ void record_copy(const Device& device, VkCommandBuffer commands, const CasePlan&
     region.imageOffset = {0, static_cast<int32_t>(rows.first), 0};
     region.imageExtent = {target.width, rows.count, 1};
     region.bufferOffset = offset;
-    region.imageSubresource = {aspect, 0, 0, target.layers};  // stacked
-    device.vk().vkCmdCopyImageToBuffer(commands, plan.images[attachment]->get(),
-                                       VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, readback, 1, &region);
+    const Image& image = *plan.images[attachment];
+    region.imageSubresource = {aspect, image.range().baseMipLevel, image.range().baseArrayLayer,
+                               target.layers};  // stacked
+    device.vk().vkCmdCopyImageToBuffer(commands, image.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                                       readback, 1, &region);
 }
 
 void record_copies(const Device& device, std::span<const VkPipeline> pipelines,

@@ -4,6 +4,7 @@
 // One case as commands: upload, draw, copy.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -42,8 +43,14 @@ struct CasePlan {
     std::shared_ptr<BlitImages> blit;          // instead of images and draws
     std::shared_ptr<Queries> queries;          // if draws ask for them
     std::vector<VkCommandBuffer> secondaries;  // secondaries_of() many; empty: none
+    // Of a door that renders by an object.
+    VkRenderPass pass = VK_NULL_HANDLE;
+    std::shared_ptr<Handle<VkFramebuffer>> framebuffer;
     ReadbackLayout readback;
 };
+
+// Ends a command buffer, has it executed after those before it, and begins another.
+using NextCommands = std::function<Result<VkCommandBuffer>()>;
 
 // Assigns the places of all vertices and indices from byte `begin` on; returns the end.
 VkDeviceSize place_vertices(CasePlan& plan, VkDeviceSize begin);
@@ -58,10 +65,11 @@ Result<void> make_door_buffers(const Device& device, const CasePlan& plan,
 size_t secondaries_of(const CasePlan& plan);
 
 // Records clearing and drawing of a case. Afterwards its attachments are in the layout that
-// record_copies expects if `for_copies`.
+// record_copies expects if `for_copies`. A case of several submissions ends `commands`, which then
+// is the buffer to go on with.
 Result<void> record_draws(const Device& device, const PipelineCache& pipelines,
-                          VkCommandBuffer commands, const CasePlan& plan, VkBuffer vertices,
-                          bool for_copies);
+                          VkCommandBuffer& commands, const CasePlan& plan, VkBuffer vertices,
+                          bool for_copies, const NextCommands& next);
 
 // Rows of a target, `count` from `first` on.
 struct Rows {

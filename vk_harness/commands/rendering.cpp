@@ -9,9 +9,11 @@
 
 #include "vk_harness/commands/draw_commands.hpp"
 #include "vk_harness/commands/record.hpp"
+#include "vk_harness/commands/render_pass.hpp"
 #include "vk_harness/device/sample_locations.hpp"
 #include "vk_harness/memory/barrier.hpp"
 #include "vk_harness/target/resolve.hpp"
+#include "vk_harness/target/target_way.hpp"
 
 namespace vk_harness {
 
@@ -42,8 +44,7 @@ void barrier(const Device& device, VkCommandBuffer commands, const CasePlan& pla
     std::vector<VkImageMemoryBarrier2> barriers;
     const auto add = [&](const Image& image, bool resolved, const ImageUse& before,
                          const ImageUse& after) {
-        VkImageMemoryBarrier2 b =
-            image_barrier(image.get(), {image.aspect(), 0, 1, 0, image.layers()}, before, after);
+        VkImageMemoryBarrier2 b = image_barrier(image.get(), image.drawn(), before, after);
         if (!places.empty() && !resolved && (image.aspect() & VK_IMAGE_ASPECT_DEPTH_BIT) != 0) {
             b.pNext = &locations;
         }
@@ -107,6 +108,7 @@ void clear_resolved(const Device& device, VkCommandBuffer commands, const CasePl
     VkRenderingInfo rendering = Typed{VK_STRUCTURE_TYPE_RENDERING_INFO};
     rendering.renderArea = {{0, 0}, {target.width, target.height}};
     rendering.layerCount = 1;
+    rendering.viewMask = view_mask(*plan.test);
     rendering.colorAttachmentCount = color ? 1 : 0;
     rendering.pColorAttachments = color ? &*color : nullptr;
     rendering.pDepthAttachment = depth ? &*depth : nullptr;
@@ -156,6 +158,7 @@ class Attached {
         info_.flags = flags;
         info_.renderArea = {{0, 0}, {target.width, target.height}};
         info_.layerCount = target.layers;
+        info_.viewMask = view_mask(*plan.test);
         info_.colorAttachmentCount = static_cast<uint32_t>(colors_.size());
         info_.pColorAttachments = colors_.data();
         info_.pDepthAttachment = depth_ ? &*depth_ : nullptr;
@@ -254,10 +257,11 @@ Result<void> render_by_secondaries(const Device& device, const PipelineCache& pi
     return {};
 }
 
-// A rendering without draws, which clears, then one for each draw.
-void render_in_pieces(const Device& device, const PipelineCache& pipelines,
-                      VkCommandBuffer commands, const CasePlan& plan, VkBuffer vertices,
-                      bool suspends) {
+// A rendering without draws, which clears, then one for each draw. With `next` each has a command
+// buffer of its own.
+Result<void> render_in_pieces(const Device& device, const PipelineCache& pipelines,
+                              VkCommandBuffer& commands, const CasePlan& plan, VkBuffer vertices,
+                              bool suspends, const NextCommands& next = {}) {
     const auto draws = static_cast<uint32_t>(plan.draws.size());
     for (uint32_t piece = 0; piece <= draws; ++piece) {
         VkRenderingFlags flags = 0;
@@ -265,6 +269,13 @@ void render_in_pieces(const Device& device, const PipelineCache& pipelines,
             flags = (piece > 0 ? VkRenderingFlags{VK_RENDERING_RESUMING_BIT} : 0U) |
                     (piece < draws ? VkRenderingFlags{VK_RENDERING_SUSPENDING_BIT} : 0U);
         } else if (piece > 0) {
+            if (next) {
+                auto made = next();
+                if (!made) {
+                    return fail(made.error());
+                }
+                commands = *made;
+            }
             barrier(device, commands, plan, kColorDrawn, kColorDrawn, kDepthDrawn, kDepthDrawn);
         }
         // All parts of a suspended rendering begin alike.
@@ -278,6 +289,7 @@ void render_in_pieces(const Device& device, const PipelineCache& pipelines,
         }
         device.vk().vkCmdEndRendering(commands);
     }
+    return {};
 }
 
 void render_at_once(const Device& device, const PipelineCache& pipelines, VkCommandBuffer commands,
@@ -308,8 +320,8 @@ size_t secondaries_of(const CasePlan& plan) {
 }
 
 Result<void> record_draws(const Device& device, const PipelineCache& pipelines,
-                          VkCommandBuffer commands, const CasePlan& plan, VkBuffer vertices,
-                          bool for_copies) {
+                          VkCommandBuffer& commands, const CasePlan& plan, VkBuffer vertices,
+                          bool for_copies, const NextCommands& next) {
     barrier(device, commands, plan, kReused, kColorDrawn, kReused, kDepthDrawn);
     clear_resolved(device, commands, plan);
     if (plan.queries) {
@@ -321,8 +333,16 @@ Result<void> record_draws(const Device& device, const PipelineCache& pipelines,
             !rendered) {
             return rendered;
         }
-    } else if (door == Door::pass_split || door == Door::pass_suspended) {
-        render_in_pieces(device, pipelines, commands, plan, vertices, door == Door::pass_suspended);
+    } else if (door == Door::pass_split || door == Door::pass_suspended ||
+               door == Door::submissions) {
+        if (auto rendered = render_in_pieces(device, pipelines, commands, plan, vertices,
+                                             door == Door::pass_suspended,
+                                             door == Door::submissions ? next : NextCommands());
+            !rendered) {
+            return rendered;
+        }
+    } else if (plan.framebuffer) {
+        render_by_pass(device, pipelines, commands, plan, vertices);
     } else {
         render_at_once(device, pipelines, commands, plan, vertices, door == Door::clear_commands);
     }

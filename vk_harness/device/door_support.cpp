@@ -33,6 +33,13 @@ DoorSupport query_door_support(VkPhysicalDevice physical, HasExtension has_exten
         chain(features, optional.multi_draw);
         get_properties(physical, multi_draw);
     }
+    const bool has_library =
+        has_extension(physical, VK_KHR_PIPELINE_LIBRARY_EXTENSION_NAME) &&
+        has_extension(physical, VK_EXT_GRAPHICS_PIPELINE_LIBRARY_EXTENSION_NAME);
+    if (has_library) {
+        chain(features, optional.library);
+    }
+    chain(features, optional.multiview);
     // Before 1.3 the first of these structures is chained for what every case needs.
     const bool has_dynamic_outputs =
         properties.apiVersion >= VK_API_VERSION_1_3 &&
@@ -51,6 +58,11 @@ DoorSupport query_door_support(VkPhysicalDevice physical, HasExtension has_exten
                           three.extendedDynamicState3LogicOpEnable == VK_TRUE &&
                           three.extendedDynamicState3AlphaToOneEnable == VK_TRUE &&
                           three.extendedDynamicState3SampleMask == VK_TRUE;
+    out.library = has_library && optional.library.graphicsPipelineLibrary == VK_TRUE;
+    // maxMultiviewViewCount is at least 6.
+    out.multiview = optional.multiview.multiview == VK_TRUE;
+    out.geometry = features.features.geometryShader == VK_TRUE;
+    out.tessellation = features.features.tessellationShader == VK_TRUE;
     out.index_8 = optional.index_8.indexTypeUint8 == VK_TRUE;
     out.indirect_count = features12.drawIndirectCount == VK_TRUE;
     out.multi_indirect = features.features.multiDrawIndirect == VK_TRUE &&
@@ -84,6 +96,17 @@ void enable_door_features(const DoorSupport& support, VkPhysicalDeviceFeatures2&
         chain(features, three);
         extensions.push_back(VK_EXT_EXTENDED_DYNAMIC_STATE_3_EXTENSION_NAME);
     }
+    if (support.library) {
+        enabled.library.graphicsPipelineLibrary = VK_TRUE;
+        chain(features, enabled.library);
+        extensions.push_back(VK_KHR_PIPELINE_LIBRARY_EXTENSION_NAME);
+        extensions.push_back(VK_EXT_GRAPHICS_PIPELINE_LIBRARY_EXTENSION_NAME);
+    }
+    if (support.multiview) {
+        enabled.multiview.multiview = VK_TRUE;
+        chain(features, enabled.multiview);
+    }
+    features.features.tessellationShader = support.tessellation ? VK_TRUE : VK_FALSE;
     if (support.multi_draw) {
         enabled.multi_draw.multiDraw = VK_TRUE;
         chain(features, enabled.multi_draw);
@@ -100,6 +123,10 @@ std::optional<std::string> missing_door_support(const DoorSupport& support, case
         (door == Door::indirect_after_count &&
          !(support.indirect_count && support.multi_indirect)) ||
         (door == Door::state_output && !support.dynamic_outputs) ||
+        (door == Door::pipeline_library && !support.library) ||
+        (door == Door::multiview && !support.multiview) ||
+        (door == Door::geometry && !support.geometry) ||
+        (door == Door::tessellation && !support.tessellation) ||
         ((door == Door::multi_draw || door == Door::multi_draw_empty) && !support.multi_draw);
     return is_missing ? std::optional(fmt::format("the device lacks {}", cases::row_of(door).needs))
                       : std::nullopt;

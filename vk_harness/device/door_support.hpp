@@ -19,6 +19,10 @@ struct DoorSupport {
     bool multi_indirect = false;   // multiDrawIndirect, with room for three draws
     bool multi_draw = false;       // multiDraw, with room for three draws
     bool dynamic_outputs = false;  // all that pipeline/output_state.hpp sets
+    bool library = false;          // graphicsPipelineLibrary
+    bool multiview = false;        // of two views at least
+    bool geometry = false;         // geometryShader
+    bool tessellation = false;     // tessellationShader
 };
 
 DoorSupport query_door_support(VkPhysicalDevice physical, HasExtension has_extension);
@@ -33,6 +37,10 @@ struct DoorFeatures {
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_EXTENDED_DYNAMIC_STATE_2_FEATURES_EXT};
     VkPhysicalDeviceExtendedDynamicState3FeaturesEXT dynamic_state3 =
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_EXTENDED_DYNAMIC_STATE_3_FEATURES_EXT};
+    VkPhysicalDeviceGraphicsPipelineLibraryFeaturesEXT library =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_GRAPHICS_PIPELINE_LIBRARY_FEATURES_EXT};
+    VkPhysicalDeviceMultiviewFeatures multiview =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MULTIVIEW_FEATURES};
 };
 // Puts what is supported before `features`' chain, and the names of its extensions into the list.
 void enable_door_features(const DoorSupport& support, VkPhysicalDeviceFeatures2& features,

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "capture/capture.hpp"
+#include "cases/model/float_bits.hpp"
 #include "vk_harness/device/clip_support.hpp"
 #include "vk_harness/target/shader_interface.hpp"
 
@@ -216,8 +217,17 @@ void Feed::write_vertices(std::span<std::byte> memory) const {
             continue;
         }
         const size_t size = size_of(way_, array.binding), stride = stride_of(way_, array.binding);
+        const bool is_half = way_.halves && array.binding == 0;
         const auto put = [&](size_t vertex, const glm::vec4& value) {
-            std::memcpy(memory.data() + array.offset + vertex * stride, &value, size);
+            std::byte* to = memory.data() + array.offset + vertex * stride;
+            if (is_half) {
+                const std::array<uint16_t, 4> halves = {
+                    *cases::half_bits(value.x), *cases::half_bits(value.y),
+                    *cases::half_bits(value.z), *cases::half_bits(value.w)};
+                std::memcpy(to, halves.data(), size);
+            } else {
+                std::memcpy(to, &value, size);
+            }
         };
         if ((way_.instance_rate >> array.binding & 1U) != 0) {
             put(kInstance, values.front());

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <optional>
 
@@ -56,18 +57,19 @@ tl::unexpected<Failure> no_memory_type(std::string_view what) {
 
 // Several layers, or samples that copy_samples.comp reads, are seen as an array.
 Result<Handle<VkImageView>> create_view(const Device& device, const VkImageCreateInfo& of,
-                                        VkImage image, VkFormat format, VkImageAspectFlags aspect,
+                                        VkImage image, VkFormat format,
+                                        const VkImageSubresourceRange& range,
                                         VkImageUsageFlags usage) {
     VkImageViewUsageCreateInfo usage_info = Typed{VK_STRUCTURE_TYPE_IMAGE_VIEW_USAGE_CREATE_INFO};
     usage_info.usage = usage;
     VkImageViewCreateInfo info = Typed{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
     info.pNext = &usage_info;
     info.image = image;
-    info.viewType = of.arrayLayers > 1 || of.samples != VK_SAMPLE_COUNT_1_BIT
+    info.viewType = range.layerCount > 1 || of.samples != VK_SAMPLE_COUNT_1_BIT
                         ? VK_IMAGE_VIEW_TYPE_2D_ARRAY
                         : VK_IMAGE_VIEW_TYPE_2D;
     info.format = format;
-    info.subresourceRange = {aspect, 0, 1, 0, of.arrayLayers};
+    info.subresourceRange = range;
     return make(device, Stage::memory, "vkCreateImageView", device.vk().vkCreateImageView,
                 device.vk().vkDestroyImageView, info);
 }
@@ -76,6 +78,43 @@ Result<Handle<VkImageView>> create_view(const Device& device, const VkImageCreat
 bool is_depth_format(VkFormat format, uint32_t cases::DepthFormatRow::*column) {
     return std::any_of(cases::kDepthFormats.begin(), cases::kDepthFormats.end(),
                        [&](const auto& row) { return row.*column == uint32_t{format}; });
+}
+
+// Adds every use of the image that the device offers for its format, and views of other formats.
+void add_usages(const Device& device, VkImageCreateInfo& info, bool is_depth) {
+    const VkPhysicalDevice physical = device.capabilities().physical;
+    VkFormatProperties offered{};
+    vkGetPhysicalDeviceFormatProperties(physical, info.format, &offered);
+    struct Use {
+        VkFormatFeatureFlags feature;
+        VkImageUsageFlags usage;
+        VkImageCreateFlags flags;
+    };
+    const std::array<Use, 6> uses = {{
+        {VK_FORMAT_FEATURE_TRANSFER_SRC_BIT, VK_IMAGE_USAGE_TRANSFER_SRC_BIT, 0},
+        {VK_FORMAT_FEATURE_TRANSFER_DST_BIT, VK_IMAGE_USAGE_TRANSFER_DST_BIT, 0},
+        {VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT, VK_IMAGE_USAGE_SAMPLED_BIT, 0},
+        {VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT, VK_IMAGE_USAGE_STORAGE_BIT, 0},
+        {0, VK_IMAGE_USAGE_INPUT_ATTACHMENT_BIT, 0},
+        {0, 0, is_depth ? 0U : uint32_t{VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT}},
+    }};
+    for (const Use& use : uses) {
+        if ((offered.optimalTilingFeatures & use.feature) != use.feature) {
+            continue;
+        }
+        VkImageFormatProperties limits{};
+        const VkResult result = vkGetPhysicalDeviceImageFormatProperties(
+            physical, info.format, info.imageType, info.tiling, info.usage | use.usage,
+            info.flags | use.flags, &limits);
+        if (result == VK_SUCCESS &&
+            (limits.sampleCounts & static_cast<VkSampleCountFlags>(info.samples)) != 0 &&
+            limits.maxArrayLayers >= info.arrayLayers &&
+            limits.maxExtent.width >= info.extent.width &&
+            limits.maxExtent.height >= info.extent.height) {
+            info.usage |= use.usage;
+            info.flags |= use.flags;
+        }
+    }
 }
 
 }  // namespace
@@ -139,7 +178,7 @@ Result<void> Buffer::invalidate() const {
                        "vkInvalidateMappedMemoryRanges");
 }
 
-Result<ImageMemory> bind_guarded(const Device& device, VkImage image) {
+Result<ImageMemory> bind_guarded(const Device& device, VkImage image, bool is_dedicated) {
     VkImageMemoryRequirementsInfo2 asked =
         Typed{VK_STRUCTURE_TYPE_IMAGE_MEMORY_REQUIREMENTS_INFO_2};
     asked.image = image;
@@ -157,7 +196,8 @@ Result<ImageMemory> bind_guarded(const Device& device, VkImage image) {
     ImageMemory made;
     GuardPlaces places{0, 0, 0, needs.size};
     std::optional<uint32_t> type;
-    if (dedicated.requiresDedicatedAllocation == VK_FALSE) {
+    is_dedicated = is_dedicated || dedicated.requiresDedicatedAllocation != VK_FALSE;
+    if (!is_dedicated) {
         auto guard = Guard::create(device);
         if (!guard) {
             return fail(guard.error());
@@ -178,9 +218,7 @@ Result<ImageMemory> bind_guarded(const Device& device, VkImage image) {
     VkMemoryDedicatedAllocateInfo alone = Typed{VK_STRUCTURE_TYPE_MEMORY_DEDICATED_ALLOCATE_INFO};
     alone.image = image;
     if (auto allocated =
-            put(made.memory,
-                allocate(device, places.size, *type,
-                         dedicated.requiresDedicatedAllocation != VK_FALSE ? &alone : nullptr));
+            put(made.memory, allocate(device, places.size, *type, is_dedicated ? &alone : nullptr));
         !allocated) {
         return fail(allocated.error());
     }
@@ -208,35 +246,40 @@ VkImageCreateFlags color_flags(uint32_t samples) {
 }
 
 Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D extent,
-                            uint32_t samples, uint32_t layers, VkImageCreateFlags flags) {
+                            uint32_t samples, uint32_t layers, VkImageCreateFlags flags,
+                            const ImageWay& way) {
     const bool stencil = is_depth_format(format, &cases::DepthFormatRow::with_stencil);
     const bool depth = stencil || is_depth_format(format, &cases::DepthFormatRow::vulkan);
     const bool multisampled = samples > 1;
     const VkImageUsageFlags attachment =
         depth ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
     VkImageCreateInfo info = image_info(
-        format, extent,
+        format, way.extent(extent),
         attachment | (multisampled ? VK_IMAGE_USAGE_SAMPLED_BIT : VK_IMAGE_USAGE_TRANSFER_SRC_BIT));
-    info.arrayLayers = layers;
+    info.mipLevels = way.levels();
+    info.arrayLayers = way.first_layer + layers;
     info.samples = static_cast<VkSampleCountFlagBits>(samples);  // the bits' values are the counts
     info.flags = flags;
     if (multisampled && !depth) {
         info.flags |= VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT;
+    }
+    if (way.all_usages) {
+        add_usages(device, info, depth);
     }
     Image image;
     if (auto made = put(image.image_, make_image(device, info)); !made) {
         return fail(made.error());
     }
     const VkImage handle = image.get();
-    image.aspect_ = depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+    image.range_ = {depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT, way.level, 1,
+                    way.first_layer, layers};
     if (stencil) {
-        image.aspect_ |= VK_IMAGE_ASPECT_STENCIL_BIT;
+        image.range_.aspectMask |= VK_IMAGE_ASPECT_STENCIL_BIT;
     }
 
-    if (auto made = put(image.memory_, bind_guarded(device, handle)); !made) {
+    if (auto made = put(image.memory_, bind_guarded(device, handle, way.is_dedicated)); !made) {
         return fail(made.error());
     }
-    image.layers_ = layers;
 
     VkImageUsageFlags view_usage = attachment;
     if (multisampled && depth) {
@@ -244,11 +287,23 @@ Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D ex
     }
     const auto add_view = [&](Handle<VkImageView>& to, VkFormat seen, VkImageAspectFlags aspect,
                               VkImageUsageFlags usage) {
-        return put(to, create_view(device, info, handle, seen, aspect, usage));
+        VkImageSubresourceRange range = image.range_;
+        range.aspectMask = aspect;
+        return put(to, create_view(device, info, handle, seen, range, usage));
     };
-    auto made = add_view(image.view_, format, image.aspect_, view_usage);
+    image.drawn_ = image.range_;
+    if (way.is_multiview) {
+        image.drawn_.baseArrayLayer = 0;
+        image.drawn_.layerCount = info.arrayLayers;
+    }
+    auto made =
+        put(image.view_, create_view(device, info, handle, format, image.drawn_, view_usage));
     if (made && multisampled && !depth) {
-        made = add_view(image.bits_view_, bits_format(format), image.aspect_,
+        made = add_view(image.bits_view_, bits_format(format), image.aspect(),
+                        VK_IMAGE_USAGE_SAMPLED_BIT);
+    }
+    if (made && multisampled && way.is_multiview && depth && !stencil) {
+        made = add_view(image.bits_view_, format, VK_IMAGE_ASPECT_DEPTH_BIT,
                         VK_IMAGE_USAGE_SAMPLED_BIT);
     }
     if (made && multisampled && stencil) {  // a descriptor names one aspect

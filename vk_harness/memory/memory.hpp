@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "vk_harness/memory/guard.hpp"
+#include "vk_harness/memory/image_way.hpp"
 
 namespace vk_harness {
 
@@ -54,7 +55,8 @@ struct ImageMemory {
     VkDeviceSize size = 0;         // of it all
 };
 // Memory of its own for an image that is written to, bound to it.
-Result<ImageMemory> bind_guarded(const Device& device, VkImage image);
+// is_dedicated: without guards, in an allocation for it alone.
+Result<ImageMemory> bind_guarded(const Device& device, VkImage image, bool is_dedicated = false);
 
 // A colour or depth attachment.
 class Image {
@@ -63,8 +65,10 @@ class Image {
     // samples == 1: can be copied to a buffer. samples > 1: can be read sample by sample in a
     // shader. `flags`: besides those that this needs.
     // The views show all layers; those of several layers or samples are of an array.
+    // `way`: of what it is a part; `extent` and `layers` are its own.
     static Result<Image> create(const Device& device, VkFormat format, VkExtent2D extent,
-                                uint32_t samples, uint32_t layers, VkImageCreateFlags flags = 0);
+                                uint32_t samples, uint32_t layers, VkImageCreateFlags flags = 0,
+                                const ImageWay& way = {});
 
     VkImage get() const { return image_.get(); }
     VkImageView view() const { return view_.get(); }
@@ -72,8 +76,11 @@ class Image {
     VkImageView sample_view() const { return bits_view_ ? bits_view_.get() : view_.get(); }
     // To read single samples of the stencil, if there is one.
     VkImageView stencil_view() const { return stencil_view_.get(); }
-    VkImageAspectFlags aspect() const { return aspect_; }  // all that it has
-    uint32_t layers() const { return layers_; }
+    VkImageAspectFlags aspect() const { return range_.aspectMask; }
+    // What of the image the attachment is; of all that it has.
+    const VkImageSubresourceRange& range() const { return range_; }
+    // What of the image the view shows that is drawn to: with multiview more than that.
+    const VkImageSubresourceRange& drawn() const { return drawn_; }
     VkDeviceSize memory_size() const { return memory_.size; }
     Guard* guard() const { return memory_.guard.get(); }  // may be null
 
@@ -83,8 +90,8 @@ class Image {
     Handle<VkImageView> view_;
     Handle<VkImageView> bits_view_;
     Handle<VkImageView> stencil_view_;
-    VkImageAspectFlags aspect_ = VK_IMAGE_ASPECT_COLOR_BIT;
-    uint32_t layers_ = 1;
+    VkImageSubresourceRange range_ = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    VkImageSubresourceRange drawn_ = range_;
 };
 
 // Descriptor sets of these layouts, from a new pool with these sizes that owns them.

@@ -102,7 +102,8 @@ DrawState draw_state(const cases::Case& c, const cases::Draw& own, bool has_rest
     DrawState out;
     out.cull = vulkan_of(own.cull);
     out.front_face = vulkan_of(own.front_face);
-    out.topology = vulkan_of(own.topology);
+    out.topology = c.variation.door == cases::Door::tessellation ? VK_PRIMITIVE_TOPOLOGY_PATCH_LIST
+                                                                 : vulkan_of(own.topology);
     out.restart = vulkan_of(has_restart);
     out.discard = vulkan_of(own.rasterizer_discard);
     out.compare = static_cast<VkCompareOp>(own.depth.compare);

@@ -60,6 +60,11 @@ Result<Handle<VkDescriptorSetLayout>> make_set_layout(
 
 }  // namespace
 
+VkShaderStageFlags draw_stages(const Device& device) {
+    const VkShaderStageFlags always = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+    return device.capabilities().doors.geometry ? always | VK_SHADER_STAGE_GEOMETRY_BIT : always;
+}
+
 Result<PipelineCache> PipelineCache::create(const Device& device) {
     PipelineCache cache(device);
     const VolkDeviceTable& vk = device.vk();
@@ -77,7 +82,7 @@ Result<PipelineCache> PipelineCache::create(const Device& device) {
         {{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr}}};
     then(cache.texture_set_layout_, [&] { return make_set_layout(device, texture); });
     then(cache.layout_, [&] {
-        return make_layout(device, kDrawStages, sizeof(shaders::DrawConstants),
+        return make_layout(device, draw_stages(device), sizeof(shaders::DrawConstants),
                            cache.texture_set_layout_.get());
     });
     const std::array<VkDescriptorSetLayoutBinding, 2> copies = {
@@ -140,6 +145,18 @@ Result<VkPipeline> PipelineCache::get(const PipelineKey& key) {
     return pipelines_.emplace(key, std::move(*pipeline)).first->second.get();
 }
 
+Result<VkRenderPass> PipelineCache::get_pass(const PassKey& key) {
+    const auto found = passes_.find(key);
+    if (found != passes_.end()) {
+        return found->second.get();
+    }
+    auto pass = make_render_pass(*device_, key);
+    if (!pass) {
+        return fail(pass.error());
+    }
+    return passes_.emplace(key, std::move(*pass)).first->second.get();
+}
+
 Result<VkPipeline> PipelineCache::get_copy(const Attachment& attachment) {
     const std::span<const uint32_t> source =
         shaders::copy_samples(attachment.is_depth(), attachment.sample_bytes / 4);
@@ -175,12 +192,24 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
     if (!fragment) {
         return fail(fragment.error());
     }
-    std::array<VkPipelineShaderStageCreateInfo, 2> stages = {
-        stage_info(VK_SHADER_STAGE_VERTEX_BIT, *vertex),
-        stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, *fragment)};
+    std::vector<VkPipelineShaderStageCreateInfo> stages = {
+        stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, *fragment),
+        stage_info(VK_SHADER_STAGE_VERTEX_BIT, *vertex)};
     Specialization specialization;
     specialize(key, specialization);
-    stages[1].pSpecializationInfo = &specialization.info;
+    stages[0].pSpecializationInfo = &specialization.info;
+    Specialization patch;
+    specialize_patch(key, patch);
+    for (const auto& [stage, code] : stages_between(key)) {
+        auto module = shader_module(code);
+        if (!module) {
+            return fail(module.error());
+        }
+        stages.push_back(stage_info(stage, *module));
+        if (stage == VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT) {
+            stages.back().pSpecializationInfo = &patch.info;
+        }
+    }
     VertexInputState vertex_input;
     vertex_input_state(key, vertex_input);
 
@@ -210,14 +239,28 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
                                       : key.has_stencil ? key.layout.stencil_format
                                                         : depth_format(key.depth_format);
     rendering.stencilAttachmentFormat = key.layout.stencil_format;
+    rendering.viewMask = key.view_mask;
+
+    VkPipelineTessellationStateCreateInfo tessellation =
+        Typed{VK_STRUCTURE_TYPE_PIPELINE_TESSELLATION_STATE_CREATE_INFO};
+    tessellation.patchControlPoints = 3;
 
     VkGraphicsPipelineCreateInfo info = Typed{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO};
-    info.pNext = &rendering;
-    info.flags = key.is_unoptimized ? VK_PIPELINE_CREATE_DISABLE_OPTIMIZATION_BIT : 0;
+    if (key.pass) {
+        auto pass = get_pass(*key.pass);
+        if (!pass) {
+            return fail(pass.error());
+        }
+        info.renderPass = *pass;
+        info.subpass = key.subpass;
+    } else {
+        info.pNext = &rendering;
+    }
     info.stageCount = static_cast<uint32_t>(stages.size());
     info.pStages = stages.data();
     info.pVertexInputState = &vertex_input.info;
     info.pInputAssemblyState = &assembly;
+    info.pTessellationState = key.stages == StageWay::tessellation ? &tessellation : nullptr;
     info.pViewportState = &viewport.info;
     info.pRasterizationState = &rasterization.info;
     info.pMultisampleState = &multisample.info;
@@ -225,9 +268,30 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
     info.pColorBlendState = &color.info;
     info.pDynamicState = &dynamic;
     info.layout = layout_.get();
+    switch (key.made) {
+        case PipelineWay::usual:
+            break;
+        case PipelineWay::unoptimized:
+            info.flags = VK_PIPELINE_CREATE_DISABLE_OPTIMIZATION_BIT;
+            break;
+        case PipelineWay::base:
+            info.flags = VK_PIPELINE_CREATE_ALLOW_DERIVATIVES_BIT;
+            break;
+        case PipelineWay::library:
+            return make_from_library(info);
+        case PipelineWay::derived:
+            return make_derived(key, info);
+        case PipelineWay::cached:
+            return make_cached(info);
+    }
+    return create(info, cache_.get());
+}
+
+Result<Handle<VkPipeline>> PipelineCache::create(const VkGraphicsPipelineCreateInfo& info,
+                                                 VkPipelineCache cache) {
     VkPipeline pipeline = VK_NULL_HANDLE;
-    const VkResult result = device_->vk().vkCreateGraphicsPipelines(device_->get(), cache_.get(), 1,
-                                                                    &info, nullptr, &pipeline);
+    const VkResult result = device_->vk().vkCreateGraphicsPipelines(device_->get(), cache, 1, &info,
+                                                                    nullptr, &pipeline);
     if (result != VK_SUCCESS) {
         return fail(call_failure(Stage::pipeline, result, "vkCreateGraphicsPipelines"));
     }

@@ -21,6 +21,8 @@ class PipelineCache {
 
     // The pipeline of that key, made at the first call.
     Result<VkPipeline> get(const PipelineKey& key);
+    // The render pass of that key, made at the first call.
+    Result<VkRenderPass> get_pass(const PassKey& key);
     // The compute pipeline that copies the samples of an attachment to a buffer.
     Result<VkPipeline> get_copy(const Attachment& attachment);
 
@@ -40,6 +42,13 @@ class PipelineCache {
                                          shaders::Ending ending = shaders::Ending::kill,
                                          shaders::OutputChange outputs = {});
     Result<Handle<VkPipeline>> make_graphics(const PipelineKey& key);
+    // As PipelineKey::made asks for, of what describes a usual pipeline.
+    Result<Handle<VkPipeline>> make_from_library(const VkGraphicsPipelineCreateInfo& info);
+    Result<Handle<VkPipeline>> make_derived(const PipelineKey& key,
+                                            VkGraphicsPipelineCreateInfo info);
+    Result<Handle<VkPipeline>> make_cached(const VkGraphicsPipelineCreateInfo& info);
+    Result<Handle<VkPipeline>> create(const VkGraphicsPipelineCreateInfo& info,
+                                      VkPipelineCache cache);
 
     const Device* device_;
     Handle<VkPipelineCache> cache_;
@@ -53,13 +62,14 @@ class PipelineCache {
                         shaders::Ending, shaders::OutputChange>,
              Handle<VkShaderModule>>
         modules_;
+    std::map<PassKey, Handle<VkRenderPass>> passes_;
     std::map<PipelineKey, Handle<VkPipeline>> pipelines_;
+    std::vector<Handle<VkPipeline>> libraries_;             // of those that are linked
     std::map<const uint32_t*, Handle<VkPipeline>> copies_;  // by the embedded code's address
 };
 
 // Stages that see shaders::DrawConstants.
-inline constexpr VkShaderStageFlags kDrawStages =
-    VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+VkShaderStageFlags draw_stages(const Device& device);
 // Words of push constants: width, height, samples (compute stage).
 inline constexpr uint32_t kCopyConstants = 3;
 inline constexpr uint32_t kCopyGroupSize = 8;  // local size of copy_samples.comp

@@ -10,6 +10,7 @@
 #include "cases/model/sample.hpp"
 #include "vk_harness/device/format.hpp"
 #include "vk_harness/target/shader_interface.hpp"
+#include "vk_harness/target/target_way.hpp"
 
 namespace vk_harness {
 
@@ -22,6 +23,32 @@ AttributeKey attribute_key(const cases::Attribute& attribute) {
     key.source = attribute.source;
     key.probe = attribute.probe;
     return key;
+}
+
+PipelineWay pipeline_way(cases::Door door) {
+    switch (door) {
+        case cases::Door::unoptimized:
+            return PipelineWay::unoptimized;
+        case cases::Door::pipeline_library:
+            return PipelineWay::library;
+        case cases::Door::pipeline_derived:
+            return PipelineWay::derived;
+        case cases::Door::pipeline_cached:
+            return PipelineWay::cached;
+        default:
+            return PipelineWay::usual;
+    }
+}
+
+StageWay stage_way(cases::Door door) {
+    switch (door) {
+        case cases::Door::geometry:
+            return StageWay::geometry;
+        case cases::Door::tessellation:
+            return StageWay::tessellation;
+        default:
+            return StageWay::vertex;
+    }
 }
 
 ColorKey color_key(const cases::ColorTarget& target, const cases::ColorOutput& output) {
@@ -77,7 +104,13 @@ PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw,
     if (c.variation.door == cases::Door::state_static) {
         key.fixed = draw_state(c, draw, draw.primitive_restart);
     }
-    key.is_unoptimized = c.variation.door == cases::Door::unoptimized;
+    key.made = pipeline_way(c.variation.door);
+    key.stages = stage_way(c.variation.door);
+    if (has_pass(c)) {
+        key.pass = pass_key(c, attachments_of(c, layout));
+        key.subpass = subpass_of(c, static_cast<size_t>(&draw - c.draws.data()));
+    }
+    key.view_mask = view_mask(c);
     key.depth_format = c.target.depth_format;
     key.depth_clamp = draw.depth.clamp;
     key.depth_clip = draw.depth.clip;
@@ -107,6 +140,13 @@ PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw,
 }
 
 shaders::VertexVariant vertex_variant(const PipelineKey& key) {
+    // The last stage before rasterization chooses layer and viewport.
+    const bool is_last = key.stages == StageWay::vertex;
+    return {key.attribute_count, key.clip_count, key.cull_count, is_last && key.layer,
+            is_last && key.viewport_index};
+}
+
+shaders::VertexVariant geometry_variant(const PipelineKey& key) {
     return {key.attribute_count, key.clip_count, key.cull_count, key.layer, key.viewport_index};
 }
 

@@ -15,6 +15,7 @@
 #include "shaders/shaders.hpp"
 #include "shaders/spirv_variant.hpp"
 #include "vk_harness/pipeline/draw_state.hpp"
+#include "vk_harness/pipeline/render_pass.hpp"
 #include "vk_harness/pipeline/vertex_way.hpp"
 #include "vk_harness/target/attachments.hpp"
 
@@ -39,6 +40,11 @@ struct ColorKey {
     int32_t attribute = -1;  // the input that is written, or -1
     friend auto operator<=>(const ColorKey&, const ColorKey&) = default;
 };
+
+// How a pipeline is made, by doors of the group `state`; base: so that others may be derived.
+enum class PipelineWay : uint8_t { usual, unoptimized, library, base, derived, cached };
+// What stands between vertices and rasterization.
+enum class StageWay : uint8_t { vertex, geometry, tessellation };
 
 struct PipelineKey {
     uint32_t attribute_count = 0;
@@ -74,7 +80,11 @@ struct PipelineKey {
     // Of cases::Variation.
     uint32_t masked = 0;
     std::optional<DrawState> fixed = {};  // static; nothing: all of it is dynamic
-    bool is_unoptimized = false;
+    PipelineWay made = PipelineWay::usual;
+    StageWay stages = StageWay::vertex;
+    std::optional<PassKey> pass = {};  // nothing: dynamic rendering
+    uint32_t subpass = 0;
+    uint32_t view_mask = 0;             // target_way.hpp
     bool outputs_are_dynamic = false;   // output_state.hpp
     std::vector<ColorKey> colors = {};  // by location, the first behind those of the instruments
     std::optional<cases::LogicOp> logic = {};
@@ -84,10 +94,13 @@ struct PipelineKey {
 
 // The key of a draw's pipeline. A draw with fewer attributes than its case gets flat ones that are
 // constantly capture::kClearValue: what its fragments leave in those attachments.
+// `draw` is one of the case's.
 PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw, const TargetLayout& layout);
 
 // What the shaders have to be compiled for.
 shaders::VertexVariant vertex_variant(const PipelineKey& key);
+// The same of the geometry shader, if there is one.
+shaders::VertexVariant geometry_variant(const PipelineKey& key);
 shaders::FragmentVariant fragment_variant(const PipelineKey& key);
 // The outputs that its fragment shader keeps of several colours'.
 shaders::OutputChange output_change(const PipelineKey& key);

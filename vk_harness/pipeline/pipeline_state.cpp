@@ -17,11 +17,13 @@ void vertex_input_state(const PipelineKey& key, VertexInputState& state) {
     const Bindings bindings = bindings_of(key.attribute_count, key.clip_count, key.cull_count);
     uint32_t offset = 0;
     for (const uint32_t binding : bindings) {
-        const VkFormat format = size_of(key.way, binding) == 12 ? VK_FORMAT_R32G32B32_SFLOAT
-                                                                : VK_FORMAT_R32G32B32A32_SFLOAT;
+        const uint32_t size = size_of(key.way, binding);
+        const VkFormat format = size == 8    ? VK_FORMAT_R16G16B16A16_SFLOAT
+                                : size == 12 ? VK_FORMAT_R32G32B32_SFLOAT
+                                             : VK_FORMAT_R32G32B32A32_SFLOAT;
         if (key.way.interleaved) {
             state.inputs.push_back({binding, 0, format, offset});
-            offset += size_of(key.way, binding);
+            offset += size;
             continue;
         }
         const VkVertexInputRate rate = (key.way.instance_rate >> binding & 1U) != 0
@@ -77,7 +79,10 @@ VkPipelineInputAssemblyStateCreateInfo assembly_state(const PipelineKey& key) {
     VkPipelineInputAssemblyStateCreateInfo assembly =
         Typed{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
     // Where it is dynamic, the pipeline names its class.
-    assembly.topology = key.fixed ? key.fixed->topology : VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    assembly.topology = key.fixed ? key.fixed->topology
+                        : key.stages == StageWay::tessellation
+                            ? VK_PRIMITIVE_TOPOLOGY_PATCH_LIST
+                            : VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     assembly.primitiveRestartEnable = key.fixed ? key.fixed->restart : VK_FALSE;
     return assembly;
 }

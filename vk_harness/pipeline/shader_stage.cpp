@@ -29,6 +29,19 @@ shaders::Choice choice_of(const AttributeKey& attribute) {
 static_assert(static_cast<uint32_t>(cases::Probe::lod) ==
               static_cast<uint32_t>(shaders::Choice::last_probe));
 
+void add(Specialization& to, uint32_t id, uint32_t word) {
+    to.entries.push_back({id, static_cast<uint32_t>(to.words.size() * sizeof word), sizeof word});
+    to.words.push_back(word);
+}
+
+// Once all constants have been added.
+void tie(Specialization& to) {
+    to.info.mapEntryCount = static_cast<uint32_t>(to.entries.size());
+    to.info.pMapEntries = to.entries.data();
+    to.info.dataSize = to.words.size() * sizeof(uint32_t);
+    to.info.pData = to.words.data();
+}
+
 }  // namespace
 
 std::vector<shaders::InputChange> input_changes(const PipelineKey& key, bool has_primitive_id) {
@@ -67,25 +80,45 @@ std::vector<shaders::InputChange> input_changes(const PipelineKey& key, bool has
 }
 
 void specialize(const PipelineKey& key, Specialization& out) {
-    const auto set = [&](uint32_t id, uint32_t word) {
-        out.entries.push_back(
-            {id, static_cast<uint32_t>(out.words.size() * sizeof word), sizeof word});
-        out.words.push_back(word);
-    };
     for (uint32_t k = 0; k < key.attribute_count; ++k) {
-        set(k, static_cast<uint32_t>(choice_of(key.attributes[k])));
+        add(out, k, static_cast<uint32_t>(choice_of(key.attributes[k])));
     }
     for (uint32_t k = 0; k < key.colors.size(); ++k) {
-        set(k == 0 ? shaders::kColorAttributeConstant : shaders::kOtherAttributeConstant + k - 1,
+        add(out,
+            k == 0 ? shaders::kColorAttributeConstant : shaders::kOtherAttributeConstant + k - 1,
             std::bit_cast<uint32_t>(key.colors[k].attribute));
     }
     if (key.layout.halves) {
-        set(shaders::kBackHitConstant, std::bit_cast<uint32_t>(kBinary16Hits.back_hit));
+        add(out, shaders::kBackHitConstant, std::bit_cast<uint32_t>(kBinary16Hits.back_hit));
     }
-    out.info.mapEntryCount = static_cast<uint32_t>(out.entries.size());
-    out.info.pMapEntries = out.entries.data();
-    out.info.dataSize = out.words.size() * sizeof(uint32_t);
-    out.info.pData = out.words.data();
+    tie(out);
+}
+
+void specialize_patch(const PipelineKey& key, Specialization& out) {
+    uint32_t flat = 0;
+    for (uint32_t k = 0; k < key.attribute_count; ++k) {
+        flat |= (key.attributes[k].interpolation == cases::Interpolation::flat ? 1U : 0U) << k;
+    }
+    add(out, shaders::kProvokingConstant, key.provoking == cases::ProvokingVertex::last ? 2 : 0);
+    add(out, shaders::kFlatConstant, flat);
+    tie(out);
+}
+
+std::vector<std::pair<VkShaderStageFlagBits, std::span<const uint32_t>>> stages_between(
+    const PipelineKey& key) {
+    switch (key.stages) {
+        case StageWay::vertex:
+            break;
+        case StageWay::geometry:
+            return {
+                {VK_SHADER_STAGE_GEOMETRY_BIT, shaders::capture_geometry(geometry_variant(key))}};
+        case StageWay::tessellation:
+            return {{VK_SHADER_STAGE_TESSELLATION_CONTROL_BIT,
+                     shaders::capture_control(key.attribute_count)},
+                    {VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT,
+                     shaders::capture_evaluation(key.attribute_count)}};
+    }
+    return {};
 }
 
 }  // namespace vk_harness

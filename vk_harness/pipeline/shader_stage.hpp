@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the fragment shader of a pipeline gets beside its code: changed decorations and
-// specialization constants.
+// What the shaders of a pipeline get beside their code: changed decorations and specialization
+// constants; which stages there are.
 #pragma once
 
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "shaders/spirv_variant.hpp"
@@ -24,5 +26,11 @@ struct Specialization {
     VkSpecializationInfo info{};
 };
 void specialize(const PipelineKey& key, Specialization& out);
+// The same of capture.tese.
+void specialize_patch(const PipelineKey& key, Specialization& out);
+
+// The stages between the vertex shader and rasterization, with their code.
+std::vector<std::pair<VkShaderStageFlagBits, std::span<const uint32_t>>> stages_between(
+    const PipelineKey& key);
 
 }  // namespace vk_harness

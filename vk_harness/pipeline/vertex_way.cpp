@@ -57,6 +57,9 @@ VertexWay vertex_way(const cases::Case& c, const cases::Draw& draw) {
                 std::all_of(draw.positions.begin(), draw.positions.end(),
                             [](const glm::vec4& p) { return p.w >= 1 && p.w <= 1; });
             break;
+        case cases::Door::half_floats:
+            way.halves = cases::are_half_floats(draw.positions);
+            break;
         case cases::Door::instance_rate:
             way.instance_rate = constant_bindings(c, draw);
             break;
@@ -67,7 +70,10 @@ VertexWay vertex_way(const cases::Case& c, const cases::Draw& draw) {
 }
 
 uint32_t size_of(const VertexWay& way, uint32_t binding) {
-    return way.three_components && binding == 0 ? 12 : 16;
+    if (binding != 0) {
+        return 16;
+    }
+    return way.halves ? 8 : way.three_components ? 12 : 16;
 }
 
 uint32_t stride_of(const VertexWay& way, uint32_t binding) {

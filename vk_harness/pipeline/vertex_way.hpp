@@ -17,6 +17,7 @@ struct VertexWay {
     bool dynamic_stride = false;    // the strides are given with the buffers
     bool interleaved = false;       // all inputs lie in binding 0
     bool three_components = false;  // positions are three numbers
+    bool halves = false;            // positions are of binary16
     uint32_t instance_rate = 0;     // bit b: binding b is read once an instance
     friend auto operator<=>(const VertexWay&, const VertexWay&) = default;
 };

@@ -83,6 +83,10 @@ std::optional<Rejection> check_resolve_and_stencil(const Capabilities& c, const 
     return std::nullopt;
 }
 
+VkResolveModeFlagBits resolve_mode(cases::Resolve mode) {
+    return mode_of(mode).bit;
+}
+
 void resolve_into(VkImageView view, VkImageLayout layout, cases::Resolve mode,
                   VkRenderingAttachmentInfo& from) {
     from.resolveMode = mode_of(mode).bit;

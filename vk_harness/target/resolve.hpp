@@ -16,6 +16,8 @@ namespace vk_harness {
 // all.
 std::optional<Rejection> check_resolve_and_stencil(const Capabilities& c, const cases::Target& t);
 
+VkResolveModeFlagBits resolve_mode(cases::Resolve mode);
+
 // Has the attachment `from` resolved into `view` at the end of rendering.
 void resolve_into(VkImageView view, VkImageLayout layout, cases::Resolve mode,
                   VkRenderingAttachmentInfo& from);

@@ -17,11 +17,12 @@ VkDeviceSize attachment_bytes(const cases::Target& target,
     return VkDeviceSize{target.width} * target.rows() * target.samples * bytes;
 }
 
-TargetCache::Shelf& TargetCache::shelf(VkFormat format, const cases::Target& target) {
+TargetCache::Shelf& TargetCache::shelf(VkFormat format, const cases::Target& target,
+                                       const ImageWay& way) {
     const auto found = std::find_if(shelves_.begin(), shelves_.end(), [&](const auto& s) {
         return s->format == format && s->width == target.width && s->height == target.height &&
                s->samples == target.samples && s->layers == target.layers &&
-               s->sample_locations == target.sample_locations;
+               s->sample_locations == target.sample_locations && s->way == way;
     });
     if (found != shelves_.end()) {
         return **found;
@@ -33,12 +34,14 @@ TargetCache::Shelf& TargetCache::shelf(VkFormat format, const cases::Target& tar
     made->samples = target.samples;
     made->layers = target.layers;
     made->sample_locations = target.sample_locations;
+    made->way = way;
     shelves_.push_back(std::move(made));
     return *shelves_.back();
 }
 
 Result<std::vector<const Image*>> TargetCache::get(const cases::Target& target,
-                                                   const std::vector<Attachment>& attachments) {
+                                                   const std::vector<Attachment>& attachments,
+                                                   const ImageWay& way) {
     ++clock_;
     std::vector<const Image*> out;
     cases::Target single = target;  // what is resolved into
@@ -51,7 +54,7 @@ Result<std::vector<const Image*>> TargetCache::get(const cases::Target& target,
             continue;
         }
         const cases::Target& shape = attachment.is_resolved() ? single : target;
-        Shelf& from = shelf(attachment.format, shape);
+        Shelf& from = shelf(attachment.format, shape, way);
         from.last_use = clock_;
         const size_t nth = taken[&from]++;
         if (nth == from.images.size()) {
@@ -60,7 +63,7 @@ Result<std::vector<const Image*>> TargetCache::get(const cases::Target& target,
                     ? VkImageCreateFlags{VK_IMAGE_CREATE_SAMPLE_LOCATIONS_COMPATIBLE_DEPTH_BIT_EXT}
                     : VkImageCreateFlags{0};
             auto image = Image::create(*device_, attachment.format, {target.width, target.height},
-                                       shape.samples, shape.layers, flags);
+                                       shape.samples, shape.layers, flags, way);
             if (!image) {
                 return fail(image.error());
             }

@@ -21,10 +21,11 @@ class TargetCache {
   public:
     explicit TargetCache(const Device& device) : device_(&device) {}
 
-    // One image an attachment, of the size, layers and sample count of the target; no image twice
-    // in one answer. Valid until trim().
+    // One image an attachment, of the size, layers and sample count of the target, or of which it
+    // is a part that way; no image twice in one answer. Valid until trim().
     Result<std::vector<const Image*>> get(const cases::Target& target,
-                                          const std::vector<Attachment>& attachments);
+                                          const std::vector<Attachment>& attachments,
+                                          const ImageWay& way = {});
 
     // Frees an image, with what it holds of the device's memory; null is left alone.
     void release(const Image* image);
@@ -38,10 +39,11 @@ class TargetCache {
         VkFormat format = VK_FORMAT_UNDEFINED;
         uint32_t width = 0, height = 0, samples = 1, layers = 1;
         std::vector<std::array<uint8_t, 2>> sample_locations;
+        ImageWay way;
         std::vector<std::unique_ptr<Image>> images;
         uint64_t last_use = 0;
     };
-    Shelf& shelf(VkFormat format, const cases::Target& target);
+    Shelf& shelf(VkFormat format, const cases::Target& target, const ImageWay& way);
 
     const Device* device_;
     std::vector<std::unique_ptr<Shelf>> shelves_;

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "vk_harness/commands/render_pass.hpp"
+
+#include <vector>
+
+#include "vk_harness/commands/draw_commands.hpp"
+
+namespace vk_harness {
+
+Result<Handle<VkFramebuffer>> make_framebuffer(const Device& device, const CasePlan& plan,
+                                               VkRenderPass pass) {
+    std::vector<VkImageView> views;
+    for (size_t k = 0; k < plan.images.size(); ++k) {
+        if (!plan.attachments[k].is_beside_depth) {
+            views.push_back(plan.images[k]->view());
+        }
+    }
+    VkFramebufferCreateInfo info = Typed{VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO};
+    info.renderPass = pass;
+    info.attachmentCount = static_cast<uint32_t>(views.size());
+    info.pAttachments = views.data();
+    info.width = plan.test->target.width;
+    info.height = plan.test->target.height;
+    info.layers = plan.test->target.layers;
+    return make(device, Stage::pipeline, "vkCreateFramebuffer", device.vk().vkCreateFramebuffer,
+                device.vk().vkDestroyFramebuffer, info);
+}
+
+void render_by_pass(const Device& device, const PipelineCache& pipelines, VkCommandBuffer commands,
+                    const CasePlan& plan, VkBuffer vertices) {
+    const cases::Case& test = *plan.test;
+    std::vector<VkClearValue> clears;
+    for (const Attachment& a : plan.attachments) {
+        if (!a.is_beside_depth) {
+            clears.push_back(a.clear);
+        }
+    }
+    VkRenderPassBeginInfo begin = Typed{VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO};
+    begin.renderPass = plan.pass;
+    begin.framebuffer = plan.framebuffer->get();
+    begin.renderArea = {{0, 0}, {test.target.width, test.target.height}};
+    begin.clearValueCount = static_cast<uint32_t>(clears.size());
+    begin.pClearValues = clears.data();
+    const VolkDeviceTable& vk = device.vk();
+    vk.vkCmdBeginRenderPass(commands, &begin, VK_SUBPASS_CONTENTS_INLINE);
+    uint32_t subpass = 0;
+    for (uint32_t k = 0; k < plan.draws.size(); ++k) {
+        for (; subpass < subpass_of(test, k); ++subpass) {
+            vk.vkCmdNextSubpass(commands, VK_SUBPASS_CONTENTS_INLINE);
+        }
+        record_draw(device, pipelines, commands, plan, k, vertices);
+    }
+    vk.vkCmdEndRenderPass(commands);
+}
+
+}  // namespace vk_harness

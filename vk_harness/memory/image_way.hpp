@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The image that an attachment is a part of.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+
+#include "vk_harness/device/device.hpp"
+
+namespace vk_harness {
+
+// As constructed: an image of the attachment's size and layers, and nothing more.
+struct ImageWay {
+    uint32_t more_columns = 0, more_rows = 0;  // to the right and below, in pixels of `level`
+    uint32_t first_layer = 0;                  // of the image, in which the attachment begins
+    uint32_t level = 0;                        // of the image; others lie before and behind it
+    bool all_usages = false;
+    bool is_dedicated = false;
+    // The view shows all layers of the image, of which a view mask picks the last.
+    bool is_multiview = false;
+    friend auto operator<=>(const ImageWay&, const ImageWay&) = default;
+
+    uint32_t levels() const { return level > 0 ? level + 2 : 1; }
+    // Size of level 0 in texels: an odd one, so that halves are rounded down.
+    VkExtent2D extent(const VkExtent2D& attachment) const {
+        const uint32_t odd = (1U << level) - 1;
+        return {((attachment.width + more_columns) << level) + odd,
+                ((attachment.height + more_rows) << level) + odd};
+    }
+};
+
+}  // namespace vk_harness

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Render pass objects that do what the rendering of a case does: clear, draw, resolve, store.
+#pragma once
+
+#include <compare>
+#include <vector>
+
+#include "cases/model/case.hpp"
+#include "vk_harness/target/attachments.hpp"
+
+namespace vk_harness {
+
+// What distinguishes two render passes. Attachments are numbered as in attachments_of, without
+// those that lie in the image of another.
+struct PassKey {
+    struct Part {
+        Role role = Role::color;
+        VkFormat format = VK_FORMAT_UNDEFINED;
+        bool has_stencil = false;  // an attachment beside it is the stencil of its image
+        friend auto operator<=>(const Part&, const Part&) = default;
+    };
+    std::vector<Part> parts;
+    uint32_t samples = 1;
+    cases::Resolve color_resolve = cases::Resolve::none, depth_resolve = cases::Resolve::none;
+    uint32_t subpasses = 1;  // 1 or 2, which draw to the same attachments; the last one resolves
+    friend auto operator<=>(const PassKey&, const PassKey&) = default;
+};
+
+// Whether the case is rendered by a render pass object.
+bool has_pass(const cases::Case& c);
+PassKey pass_key(const cases::Case& c, const std::vector<Attachment>& attachments);
+// The subpass of draw number `draw`.
+uint32_t subpass_of(const cases::Case& c, size_t draw);
+
+Result<Handle<VkRenderPass>> make_render_pass(const Device& device, const PassKey& key);
+
+}  // namespace vk_harness

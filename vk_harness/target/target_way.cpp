@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "vk_harness/target/target_way.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace vk_harness {
+
+ImageWay image_way(const cases::Case& c) {
+    ImageWay way;
+    switch (c.variation.door) {
+        case cases::Door::target_larger:
+            way.more_columns = 29;
+            way.more_rows = 19;
+            break;
+        case cases::Door::image_layer:
+            way.first_layer = 2;
+            break;
+        case cases::Door::image_level:
+            way.level = 1;
+            break;
+        case cases::Door::image_usages:
+            way.all_usages = true;
+            break;
+        case cases::Door::memory_dedicated:
+            way.is_dedicated = true;
+            break;
+        case cases::Door::multiview:
+            way.first_layer = 1;
+            way.is_multiview = true;
+            break;
+        default:
+            break;
+    }
+    return way;
+}
+
+std::optional<std::string> missing_images(const Capabilities& capabilities, const cases::Case& c) {
+    const ImageWay way = image_way(c);
+    const VkExtent2D extent = way.extent({c.target.width, c.target.height});
+    const uint32_t layers = c.target.layers + way.first_layer;
+    const VkPhysicalDeviceLimits& limits = capabilities.limits;
+    if (std::max(extent.width, extent.height) > limits.maxImageDimension2D) {
+        return fmt::format("an image of {} x {} texels is more than the device has (maxImageDimension2D {})",
+                           extent.width, extent.height, limits.maxImageDimension2D);
+    }
+    if (layers > limits.maxImageArrayLayers) {
+        return fmt::format("an image of {} layers is more than the device has (maxImageArrayLayers {})",
+                           layers, limits.maxImageArrayLayers);
+    }
+    if (layers > 1 && c.target.samples > 1 && !capabilities.portability.multisampled_arrays) {
+        return "the device lacks the feature multisampleArrayImage (VK_KHR_portability_subset)";
+    }
+    return std::nullopt;
+}
+
+uint32_t view_mask(const cases::Case& c) {
+    return c.variation.door == cases::Door::multiview ? 2U : 0U;
+}
+
+}  // namespace vk_harness
