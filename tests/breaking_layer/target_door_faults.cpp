@@ -16,8 +16,7 @@ bool write_no_green(PipelineCopy& p) {
     bool altered = false;
     for (VkPipelineColorBlendAttachmentState& blend : p.blends) {
         altered = change(blend.colorWriteMask,
-                         blend.colorWriteMask &
-                             ~VkColorComponentFlags{VK_COLOR_COMPONENT_G_BIT}) ||
+                         blend.colorWriteMask & ~VkColorComponentFlags{VK_COLOR_COMPONENT_G_BIT}) ||
                   altered;
     }
     return altered;
@@ -85,8 +84,8 @@ constexpr std::array kFaults = {
           "Of an image that is larger than what is copied, the copy begins a column later.",
           {.image_copy =
                [](ImageCopy& c) {
-                   const auto end = static_cast<uint32_t>(c.region.imageOffset.x) +
-                                    c.region.imageExtent.width;
+                   const auto end =
+                       static_cast<uint32_t>(c.region.imageOffset.x) + c.region.imageExtent.width;
                    return c.region.imageSubresource.mipLevel == 0 && end < c.image.extent.width &&
                           change(c.region.imageOffset.x, c.region.imageOffset.x + 1);
                }}},
@@ -96,12 +95,11 @@ constexpr std::array kFaults = {
                [](VkImageViewCreateInfo& v) {
                    return change(v.subresourceRange.baseArrayLayer, 0);
                }}},
-    Fault{"door-view-of-first-level",
-          "Every view begins with mip level 0.",
-          {.view =
-               [](VkImageViewCreateInfo& v) {
-                   return change(v.subresourceRange.baseMipLevel, 0);
-               }}},
+    Fault{
+        "door-view-of-first-level",
+        "Every view begins with mip level 0.",
+        {.view =
+             [](VkImageViewCreateInfo& v) { return change(v.subresourceRange.baseMipLevel, 0); }}},
     Fault{"door-storage-image-clears-to-zero",
           "Colours that may be stored to are cleared to 0.",
           {.rendering =
@@ -114,19 +112,17 @@ constexpr std::array kFaults = {
           "Colours in memory of their own are cleared to 0.",
           {.rendering =
                [](Rendering& r) {
-                   return clear_to_zero(
-                       r, [](const ImageFacts& image) { return image.is_dedicated; });
+                   return clear_to_zero(r,
+                                        [](const ImageFacts& image) { return image.is_dedicated; });
                }}},
     Fault{"door-multiview-first-view",
           "Of several views the first is drawn instead of the second.",
           {.rendering =
-               [](Rendering& r) {
-                   return r.info.viewMask != 0 && change(r.info.viewMask, 1);
-               }}},
-    Fault{"door-geometry-last-triangle-lost",
-          "A geometry shader never gets a draw's last three vertices.",
-          {.draw =
-               [](DrawCall& d) { return lose_last_triangle(d, VK_SHADER_STAGE_GEOMETRY_BIT); }}},
+               [](Rendering& r) { return r.info.viewMask != 0 && change(r.info.viewMask, 1); }}},
+    Fault{
+        "door-geometry-last-triangle-lost",
+        "A geometry shader never gets a draw's last three vertices.",
+        {.draw = [](DrawCall& d) { return lose_last_triangle(d, VK_SHADER_STAGE_GEOMETRY_BIT); }}},
     Fault{"door-tessellation-last-patch-lost",
           "A draw's last patch is not tessellated.",
           {.draw =

@@ -31,10 +31,9 @@ VkGraphicsPipelineCreateInfo part_of(const VkGraphicsPipelineCreateInfo& whole,
         out.pRasterizationState = nullptr;
         out.pTessellationState = nullptr;
     }
-    if (!is_fragment) {
-        out.pDepthStencilState = nullptr;
-    }
+    // The validation layer of Debian 12 asks for depth state wherever a depth format is named.
     if (!is_fragment && !is_output) {
+        out.pDepthStencilState = nullptr;
         out.pMultisampleState = nullptr;
     }
     if (!is_output) {
@@ -137,10 +136,10 @@ Result<Handle<VkPipeline>> PipelineCache::make_cached(const VkGraphicsPipelineCr
         return fail(asked.error());
     }
     data.resize(size);
-    if (auto asked = check(
-            Stage::pipeline,
-            vk.vkGetPipelineCacheData(device_->get(), first->get(), &size, data.data()),
-            "vkGetPipelineCacheData");
+    if (auto asked =
+            check(Stage::pipeline,
+                  vk.vkGetPipelineCacheData(device_->get(), first->get(), &size, data.data()),
+                  "vkGetPipelineCacheData");
         !asked) {
         return fail(asked.error());
     }

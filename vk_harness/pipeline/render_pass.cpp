@@ -35,8 +35,7 @@ VkAttachmentDescription2 description_of(const PassKey::Part& part, uint32_t samp
     out.stencilLoadOp = has_stencil ? load : VK_ATTACHMENT_LOAD_OP_DONT_CARE;
     out.stencilStoreOp =
         has_stencil ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_DONT_CARE;
-    out.initialLayout = out.finalLayout =
-        is_depth_stencil(part.role) ? kDepthLayout : kColorLayout;
+    out.initialLayout = out.finalLayout = is_depth_stencil(part.role) ? kDepthLayout : kColorLayout;
     return out;
 }
 

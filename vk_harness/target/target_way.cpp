@@ -43,12 +43,14 @@ std::optional<std::string> missing_images(const Capabilities& capabilities, cons
     const uint32_t layers = c.target.layers + way.first_layer;
     const VkPhysicalDeviceLimits& limits = capabilities.limits;
     if (std::max(extent.width, extent.height) > limits.maxImageDimension2D) {
-        return fmt::format("an image of {} x {} texels is more than the device has (maxImageDimension2D {})",
-                           extent.width, extent.height, limits.maxImageDimension2D);
+        return fmt::format(
+            "an image of {} x {} texels is more than the device has (maxImageDimension2D {})",
+            extent.width, extent.height, limits.maxImageDimension2D);
     }
     if (layers > limits.maxImageArrayLayers) {
-        return fmt::format("an image of {} layers is more than the device has (maxImageArrayLayers {})",
-                           layers, limits.maxImageArrayLayers);
+        return fmt::format(
+            "an image of {} layers is more than the device has (maxImageArrayLayers {})", layers,
+            limits.maxImageArrayLayers);
     }
     if (layers > 1 && c.target.samples > 1 && !capabilities.portability.multisampled_arrays) {
         return "the device lacks the feature multisampleArrayImage (VK_KHR_portability_subset)";

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What other bits of a picture through a door amount to, by what its promise is and what of the two
+// pictures is wrong.
+#include "run/worker/derived.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cases/load/loader.hpp"
+
+namespace run {
+namespace {
+
+using vk_harness::Rendered;
+using Alter = std::function<void(capture::Capture&)>;
+
+// A device that draws rightly, after which one picture is altered.
+class Altered : public Backend {
+  public:
+    Altered(Alter plain, Alter door) : plain_(std::move(plain)), door_(std::move(door)) {
+        WorkerOptions options;
+        options.renderer = "software";
+        inner_ = std::move(*make_backend(options));
+    }
+    const vk_harness::DeviceInfo& device() const override { return inner_->device(); }
+    std::string lacking(const cases::Case&) const override { return ""; }
+    std::vector<Rendered> render(const std::vector<cases::Case>& batch,
+                                 const std::function<void(std::string_view)>& step,
+                                 const vk_harness::PlaneStore& /*store*/) override {
+        std::vector<cases::Case> plain = batch;
+        for (cases::Case& c : plain) {
+            c.variation = {};
+        }
+        std::vector<Rendered> out = inner_->render(plain, step, {});
+        for (size_t k = 0; k < out.size(); ++k) {
+            const Alter& alter = batch[k].variation.door == cases::Door::none ? plain_ : door_;
+            if (alter) {
+                alter(out[k].capture);
+            }
+        }
+        return out;
+    }
+
+  private:
+    Alter plain_, door_;
+    std::unique_ptr<Backend> inner_;
+};
+
+constexpr size_t kSample = 8 + 1;  // pixel (1, 1) of 8 x 4, inside
+
+void spoil_value(capture::Capture& c) {
+    c.attributes[0][kSample].x += 0.5F;
+}
+void step_value(capture::Capture& c) {
+    float& value = c.attributes[0][kSample].x;
+    value = std::nextafter(value, 2.0F);
+}
+
+diff::Consistency judged(const std::string& door, Alter plain, Alter through_door) {
+    const auto loaded = cases::load_text(
+        "format = 1\ndescription = \"d\"\nrules = [\"cover.inside\"]\n"
+        "relations = [{ doors = [\"" + door + "\"] }]\n"
+        "[target]\nsize = [8, 4]\n[[draw]]\nvertices = [[0,0],[8,0],[0,4]]\n"
+        "[[draw.attribute]]\nvalues = [0, 1, \"1/3\"]\n",
+        "f", "id");
+    EXPECT_TRUE(loaded) << to_string(loaded.error().front());
+    Altered device(std::move(plain), std::move(through_door));
+    const auto drawn = render_with_derived(device, *loaded, [](std::string_view) {}, {});
+    EXPECT_EQ(drawn[0].rendered.status, Rendered::Status::drawn) << drawn[0].rendered.reason;
+    return drawn[0].consistency.at(0);
+}
+
+TEST(Derived, TheSameBitsAreNoDifference) {
+    for (const char* door : {"index-16", "unoptimized", "geometry"}) {
+        const diff::Consistency found = judged(door, {}, {});
+        EXPECT_GT(found.compared, 0U) << door;
+        EXPECT_EQ(found.different, 0U) << door;
+    }
+}
+
+TEST(Derived, OtherBitsOfARightPictureCountByThePromise) {
+    EXPECT_EQ(judged("index-16", {}, step_value).different, 1U);
+    const diff::Consistency of_picture = judged("unoptimized", {}, step_value);
+    EXPECT_EQ(of_picture.different, 1U);
+    EXPECT_EQ(of_picture.wrong, "");
+    EXPECT_EQ(judged("geometry", {}, step_value).different, 0U);
+}
+
+TEST(Derived, AWrongPictureIsToldThroughEachDoor) {
+    for (const char* door : {"unoptimized", "geometry"}) {
+        const diff::Consistency found = judged(door, {}, spoil_value);
+        EXPECT_EQ(found.different, 1U) << door;
+        EXPECT_TRUE(found.wrong.starts_with("interp.linear at (1, 1)")) << found.wrong;
+    }
+}
+
+TEST(Derived, ARightPictureIsNoFaultOfTheDoorWhereThePlainOneIsWrong) {
+    EXPECT_EQ(judged("index-16", spoil_value, {}).different, 1U);
+    EXPECT_EQ(judged("unoptimized", spoil_value, {}).different, 0U);
+    EXPECT_EQ(judged("geometry", spoil_value, {}).different, 0U);
+}
+
+TEST(Derived, WhatThePlainPictureDoesWrongTooIsNoFaultOfAStage) {
+    const Alter both = [](capture::Capture& c) {
+        spoil_value(c);
+        step_value(c);
+    };
+    EXPECT_EQ(judged("geometry", spoil_value, both).different, 0U);
+}
+
+}  // namespace
+}  // namespace run
