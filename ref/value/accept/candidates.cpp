@@ -300,8 +300,7 @@ std::optional<CandidateSet<T>> try_candidates(const Primitive& primitive,
     const ClipInput input(*primitive.draw, primitive.triangle.vertex);
     if (primitive.needs_clipping) {
         polygon = piece_vertices(primitive, inputs, ideal, roundoff, volume.all());
-        if (getenv("NOG") == nullptr && !is_inside(input, volume.borders()) &&
-            !is_inside(input, volume.without_borders())) {
+        if (!is_inside(input, volume.borders()) && !is_inside(input, volume.without_borders())) {
             guarded = piece_vertices(primitive, inputs, ideal, roundoff, volume.without_borders());
             for (PieceVertex<T>& p : guarded) {
                 // Where a cut lies that is off by more, far outside and near w = 0, position and

@@ -62,9 +62,11 @@ void step_value(capture::Capture& c) {
 diff::Consistency judged(const std::string& door, Alter plain, Alter through_door) {
     const auto loaded = cases::load_text(
         "format = 1\ndescription = \"d\"\nrules = [\"cover.inside\"]\n"
-        "relations = [{ doors = [\"" + door + "\"] }]\n"
-        "[target]\nsize = [8, 4]\n[[draw]]\nvertices = [[0,0],[8,0],[0,4]]\n"
-        "[[draw.attribute]]\nvalues = [0, 1, \"1/3\"]\n",
+        "relations = [{ doors = [\"" +
+            door +
+            "\"] }]\n"
+            "[target]\nsize = [8, 4]\n[[draw]]\nvertices = [[0,0],[8,0],[0,4]]\n"
+            "[[draw.attribute]]\nvalues = [0, 1, \"1/3\"]\n",
         "f", "id");
     EXPECT_TRUE(loaded) << to_string(loaded.error().front());
     Altered device(std::move(plain), std::move(through_door));
