@@ -512,7 +512,8 @@ void RunLoop::finish(size_t k, CaseRecord record) {
                       record.status == Status::device_lost;
     const bool is_plain =
         std::ranges::all_of(record.groups, [](const auto& group) { return group.door.empty(); });
-    if (record.status == Status::fail && is_plain && record.rerun == cases_[k].rerun &&
+    const bool is_judged = !died && record.status != Status::flake && !record.findings.empty();
+    if (is_judged && is_plain && record.rerun == cases_[k].rerun &&
         !cases_[k].plain_rerun.empty()) {
         record.rerun = cases_[k].plain_rerun;
     }

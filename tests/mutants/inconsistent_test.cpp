@@ -111,11 +111,11 @@ TEST(Inconsistent, WhoChangesItsMindIsSeenByRelationsAlone) {
         EXPECT_TRUE(families[name].contains("repeat")) << name;
         EXPECT_TRUE(families[name].contains("tiled")) << name;
     }
-    EXPECT_EQ(rules, (std::set<std::string>{"door.buffer", "door.first", "door.index",
-                                            "door.indirect", "door.instance", "door.layout",
-                                            "door.recording", "door.restart", "door.state",
-                                            "repeat.attachments", "repeat.clears", "repeat.same",
-                                            "repeat.scissor", "repeat.write-masks"}));
+    EXPECT_EQ(rules, (std::set<std::string>{
+                         "door.buffer", "door.first", "door.index", "door.indirect",
+                         "door.instance", "door.layout", "door.recording", "door.restart",
+                         "door.stage", "door.state", "door.target", "repeat.attachments",
+                         "repeat.clears", "repeat.same", "repeat.scissor", "repeat.write-masks"}));
     for (const LegalDevice& legal : devices) {
         // What has no choice of its own cannot change it.
         EXPECT_TRUE(!legal.name.starts_with("plain_at_") || families[legal.name].empty());

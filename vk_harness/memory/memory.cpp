@@ -99,7 +99,10 @@ void add_usages(const Device& device, VkImageCreateInfo& info, bool is_depth) {
         {0, 0, is_depth ? 0U : uint32_t{VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT}},
     }};
     for (const Use& use : uses) {
-        if ((offered.optimalTilingFeatures & use.feature) != use.feature) {
+        // Storage of several samples needs a feature of its own.
+        const bool is_stored = use.usage == VK_IMAGE_USAGE_STORAGE_BIT;
+        if ((offered.optimalTilingFeatures & use.feature) != use.feature ||
+            (is_stored && info.samples != VK_SAMPLE_COUNT_1_BIT)) {
             continue;
         }
         VkImageFormatProperties limits{};
@@ -256,7 +259,9 @@ Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D ex
     VkImageCreateInfo info = image_info(
         format, way.extent(extent),
         attachment | (multisampled ? VK_IMAGE_USAGE_SAMPLED_BIT : VK_IMAGE_USAGE_TRANSFER_SRC_BIT));
-    info.mipLevels = way.levels();
+    info.mipLevels = std::min(
+        way.levels(),
+        static_cast<uint32_t>(std::bit_width(std::max(info.extent.width, info.extent.height))));
     info.arrayLayers = way.first_layer + layers;
     info.samples = static_cast<VkSampleCountFlagBits>(samples);  // the bits' values are the counts
     info.flags = flags;

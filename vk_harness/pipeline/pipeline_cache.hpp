@@ -42,7 +42,8 @@ class PipelineCache {
                                          shaders::Ending ending = shaders::Ending::kill,
                                          shaders::OutputChange outputs = {});
     Result<Handle<VkPipeline>> make_graphics(const PipelineKey& key);
-    // As PipelineKey::made asks for, of what describes a usual pipeline.
+    // As PipelineKey::made asks for, of what describes a usual pipeline; the first of one for
+    // dynamic rendering, which is all that its pNext names.
     Result<Handle<VkPipeline>> make_from_library(const VkGraphicsPipelineCreateInfo& info);
     Result<Handle<VkPipeline>> make_derived(const PipelineKey& key,
                                             VkGraphicsPipelineCreateInfo info);

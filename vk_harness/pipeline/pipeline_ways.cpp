@@ -31,9 +31,10 @@ VkGraphicsPipelineCreateInfo part_of(const VkGraphicsPipelineCreateInfo& whole,
         out.pRasterizationState = nullptr;
         out.pTessellationState = nullptr;
     }
-    // The validation layer of Debian 12 asks for depth state wherever a depth format is named.
-    if (!is_fragment && !is_output) {
+    if (!is_fragment) {
         out.pDepthStencilState = nullptr;
+    }
+    if (!is_fragment && !is_output) {
         out.pMultisampleState = nullptr;
     }
     if (!is_output) {
@@ -63,6 +64,7 @@ Result<Handle<VkPipeline>> PipelineCache::make_from_library(
         VK_GRAPHICS_PIPELINE_LIBRARY_PRE_RASTERIZATION_SHADERS_BIT_EXT,
         VK_GRAPHICS_PIPELINE_LIBRARY_FRAGMENT_SHADER_BIT_EXT,
         VK_GRAPHICS_PIPELINE_LIBRARY_FRAGMENT_OUTPUT_INTERFACE_BIT_EXT};
+    const auto whole_rendering = *static_cast<const VkPipelineRenderingCreateInfo*>(info.pNext);
     std::vector<Handle<VkPipeline>> libraries;
     std::vector<VkPipeline> handles;
     for (const VkGraphicsPipelineLibraryFlagBitsEXT part : kParts) {
@@ -71,7 +73,13 @@ Result<Handle<VkPipeline>> PipelineCache::make_from_library(
         VkGraphicsPipelineLibraryCreateInfoEXT which =
             Typed{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_LIBRARY_CREATE_INFO_EXT};
         which.flags = part;
-        which.pNext = const_cast<void*>(own.pNext);  // is only read, whatever its type says
+        // Formats belong to the outputs, the view mask to all that draws.
+        VkPipelineRenderingCreateInfo rendering = whole_rendering;
+        if (part != VK_GRAPHICS_PIPELINE_LIBRARY_FRAGMENT_OUTPUT_INTERFACE_BIT_EXT) {
+            rendering = Typed{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
+            rendering.viewMask = whole_rendering.viewMask;
+        }
+        which.pNext = &rendering;
         own.pNext = &which;
         own.flags |= VK_PIPELINE_CREATE_LIBRARY_BIT_KHR;
         auto library = create(own, cache_.get());

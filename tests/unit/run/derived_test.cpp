@@ -95,7 +95,7 @@ TEST(Derived, AWrongPictureIsToldThroughEachDoor) {
     for (const char* door : {"unoptimized", "geometry"}) {
         const diff::Consistency found = judged(door, {}, spoil_value);
         EXPECT_EQ(found.different, 1U) << door;
-        EXPECT_TRUE(found.wrong.starts_with("interp.linear at (1, 1)")) << found.wrong;
+        EXPECT_TRUE(found.wrong.starts_with("interp.perspective at (1, 1)")) << found.wrong;
     }
 }
 
