@@ -58,6 +58,9 @@ class Submission {
 // Where a case's planes are guarded, and what the attachments are called.
 std::vector<std::pair<Guard*, std::string>> guards_of(const CasePlan& plan);
 
+// What a failed call makes of a case's result.
+void reject(Rendered& result, const Failure& failure);
+
 class BatchRenderer {
   public:
     static Result<BatchRenderer> create(const Options& options);

@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What drawing one case takes: pipelines, attachments, queries, a render pass if its door asks for
+// one.
+#include "cases/format/color_format.hpp"
+#include "cases/model/sample.hpp"
+#include "vk_harness/case_check.hpp"
+#include "vk_harness/commands/render_pass.hpp"
+#include "vk_harness/renderer.hpp"
+#include "vk_harness/target/shader_interface.hpp"
+#include "vk_harness/target/target_way.hpp"
+
+namespace vk_harness {
+
+namespace {
+
+bool is_feeding(cases::Door door) {
+    return door != cases::Door::none && cases::row_of(door).group == cases::DoorGroup::vertices;
+}
+
+}  // namespace
+
+// A call that fails is never 'unsupported': what a device does not advertise, check_case has
+// rejected before anything is asked of the driver.
+void reject(Rendered& result, const Failure& failure) {
+    result.status = failure.vk_result == VK_ERROR_DEVICE_LOST ? Rendered::Status::device_lost
+                                                              : Rendered::Status::error;
+    result.reason = std::string(to_string(failure.stage)) + ": " + failure.message;
+}
+
+bool BatchRenderer::plan(CasePlan& plan, Rendered& result) {
+    const cases::Case& test = *plan.test;
+    if (auto rejection = check_case(device_->capabilities(), test)) {
+        result.status = rejection->status;
+        result.reason = std::move(rejection->reason);
+        return false;
+    }
+    const bool is_fed = is_feeding(test.variation.door);
+    plan.input_count = input_count(test);
+    const TargetLayout layout = target_layout(device_->capabilities(), test);
+    for (const cases::Draw& draw : test.draws) {
+        DrawPlan item;
+        PipelineKey own = pipeline_key(test, draw, layout);
+        if (test.variation.door == cases::Door::state_output) {
+            item.outputs = output_state(own);
+            own = without_outputs(own);
+        }
+        auto pipeline = pipelines_.get(own);
+        if (!pipeline) {
+            reject(result, pipeline.error());
+            return false;
+        }
+        item.draw = &draw;
+        item.pipeline = *pipeline;
+        if (test.variation.door == cases::Door::state_after_static) {
+            PipelineKey key = pipeline_key(test, draw, layout);
+            key.fixed =
+                other_state(draw_state(test, draw, draw.primitive_restart), Leaves::scissors_empty);
+            auto other = pipelines_.get(key);
+            if (!other) {
+                reject(result, other.error());
+                return false;
+            }
+            item.other_pipeline = *other;
+        }
+        item.is_split = layout.split;
+        if (is_fed) {
+            item.feed = std::make_shared<Feed>(test, draw);
+        }
+        for (const cases::Attribute& attribute : draw.attributes) {
+            if (attribute.probe == cases::Probe::lod) {
+                auto texture = textures_.get(pipelines_, attribute.texture_size);
+                if (!texture) {
+                    reject(result, texture.error());
+                    return false;
+                }
+                item.texture = *texture;
+            }
+        }
+        plan.draws.push_back(item);
+    }
+    plan.attachments = attachments_of(test, layout);
+    if (test.blit) {
+        auto blit = BlitImages::create(*device_, test);
+        if (!blit) {
+            reject(result, blit.error());
+            return false;
+        }
+        plan.blit = std::make_shared<BlitImages>(std::move(*blit));
+        return true;
+    }
+    if (cases::asks_queries(test)) {
+        auto queries = Queries::create(*device_, test);
+        if (!queries) {
+            reject(result, queries.error());
+            return false;
+        }
+        plan.queries = std::make_shared<Queries>(std::move(*queries));
+    }
+    auto images = targets_.get(test.target, plan.attachments, image_way(test));
+    if (!images) {
+        reject(result, images.error());
+        return false;
+    }
+    plan.images = std::move(*images);
+    if (has_pass(test)) {
+        if (auto made = plan_pass(plan); !made) {
+            reject(result, made.error());
+            return false;
+        }
+    }
+    return true;
+}
+
+Result<void> BatchRenderer::plan_pass(CasePlan& plan) {
+    if (auto got = put(plan.pass, pipelines_.get_pass(pass_key(*plan.test, plan.attachments)));
+        !got) {
+        return got;
+    }
+    auto framebuffer = make_framebuffer(*device_, plan, plan.pass);
+    if (!framebuffer) {
+        return fail(framebuffer.error());
+    }
+    plan.framebuffer = std::make_shared<Handle<VkFramebuffer>>(std::move(*framebuffer));
+    return {};
+}
+
+}  // namespace vk_harness
