@@ -299,7 +299,7 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
     {Door::image_layer, "image-layer", kTargets, kRight, rule::door_target,
      "Attachments are the last layers of images with two layers more.", "", kAny, is_any},
     {Door::image_level, "image-level", kTargets, kRight, rule::door_target,
-     "Attachments are level 1 of images with three mip levels.", "", "one sample a pixel",
+     "Attachments are level 1 of images with more mip levels.", "", "one sample a pixel",
      has_one_sample},
     {Door::image_usages, "image-usages", kTargets, kRight, rule::door_target,
      "Attachments may be used in every way that the device offers for their formats: sampled, "

@@ -7,10 +7,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 
 #include "cases/load/loader.hpp"
 #include "cases/model/derive.hpp"
+#include "cases/model/float_bits.hpp"
 #include "cases/model/rule.hpp"
 #include "cases/wire/case_bytes.hpp"
 #include "cases/write/to_toml.hpp"
@@ -72,6 +74,20 @@ TEST(Door, ATriangleTakesAllButWhatNeedsMore) {
                                 row.door == Door::instance_rate || row.door == Door::secondary_each;
         EXPECT_EQ(taken.contains(row.word), !needs_more) << row.word;
     }
+}
+
+TEST(Door, OnlyNumbersOfBinary16GoThroughHalves) {
+    using Positions = std::vector<glm::vec4>;
+    EXPECT_TRUE(are_half_floats(Positions{{-0.0F, 0.5F, -65504.0F, 0x1p-14F}, {1, 2, 3, 4}}));
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    // Between two of them, too large, denormal there, no number.
+    for (const float x : {2049.0F, 1 / 3.0F, 65520.0F, 0x1p-15F, kInfinity, -kInfinity,
+                          std::numeric_limits<float>::quiet_NaN()}) {
+        EXPECT_FALSE(are_half_floats(Positions{{1, 2, 3, 4}, {0, 0, 0, x}})) << x;
+    }
+    EXPECT_FALSE(are_half_floats(Positions{}));
+    EXPECT_EQ(half_bits(-0.0F), 0x8000);
+    EXPECT_EQ(half_bits(1.0F), 0x3c00);
 }
 
 TEST(Door, WhatRestartsTakesNoLargestIndex) {

@@ -6,6 +6,7 @@
 
 #include "hand_case.hpp"
 #include "vk_harness/device/door_support.hpp"
+#include "vk_harness/target/target_way.hpp"
 
 namespace vk_harness::testing {
 namespace {
@@ -40,6 +41,30 @@ TEST(DoorSupport, EveryNeedIsAskedFor) {
         }
         EXPECT_FALSE(missing_door_support(all, row.door)) << row.word;
     }
+}
+
+TEST(DoorImages, ThatAreLargerThanTheDeviceHasAreToldByTheirSize) {
+    Capabilities c;
+    c.limits.maxImageDimension2D = 64;
+    c.limits.maxImageArrayLayers = 3;
+    cases::Case test = two_triangles(cases::Door::image_level);
+    test.target.width = 31;  // 2 x 31 + 1 texels
+    EXPECT_EQ(missing_images(c, test), std::nullopt);
+    test.target.width = 32;
+    EXPECT_EQ(missing_images(c, test),
+              "an image of 65 x 33 texels is more than the device has (maxImageDimension2D 64)");
+    test.variation.door = cases::Door::image_layer;
+    EXPECT_EQ(missing_images(c, test), std::nullopt);
+    test.target.layers = 2;
+    EXPECT_EQ(missing_images(c, test),
+              "an image of 4 layers is more than the device has (maxImageArrayLayers 3)");
+    test = two_triangles(cases::Door::multiview);
+    test.target.samples = 4;
+    EXPECT_EQ(missing_images(c, test), std::nullopt);
+    c.portability.multisampled_arrays = false;
+    EXPECT_TRUE(missing_images(c, test).has_value());
+    test.variation.door = cases::Door::none;
+    EXPECT_EQ(missing_images(c, test), std::nullopt);
 }
 
 // A door that does not draw the plain picture is one that this test knows: the findings are in
