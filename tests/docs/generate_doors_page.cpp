@@ -52,8 +52,8 @@ void print_doors() {
 void print_drivers(const Json& drivers) {
     fmt::print("\n## What ran\n\n{}\n",
                wrapped("Pictures that `edgecase run --doors all` drew and compared, by driver; a "
-                       "dash is a door that the driver lacks. `scripts/record-doors` writes the "
-                       "numbers."));
+                       "dash is a door that the driver lacks, and a door that is newer than the "
+                       "numbers was not run. `scripts/record-doors` writes the numbers."));
     std::string head = "| door |", line = "| --- |";
     for (const Json& driver : drivers) {
         head += fmt::format(" {} |", driver.at("name").get<std::string>());
@@ -64,9 +64,11 @@ void print_drivers(const Json& drivers) {
         fmt::print("| `{}` |", row.word);
         for (const Json& driver : drivers) {
             const auto found = driver.at("pictures").find(std::string(row.word));
-            const uint64_t pictures =
-                found == driver.at("pictures").end() ? 0 : found->get<uint64_t>();
-            fmt::print(" {} |", pictures == 0 ? "-" : std::to_string(pictures));
+            const bool is_known = found != driver.at("pictures").end();
+            const uint64_t pictures = is_known ? found->get<uint64_t>() : 0;
+            fmt::print(" {} |", !is_known       ? "not run"
+                                : pictures == 0 ? "-"
+                                                : std::to_string(pictures));
         }
         fmt::print("\n");
     }
