@@ -75,10 +75,10 @@ class Layer(ClassTest):
 
 
 def share():
-    """The share of the suite that each class draws, as --shard takes it: one of four, another one as the suite grows. All
-    of it takes four times as long: EDGECASE_CLASS_SHARE=1/1, for the night."""
+    """The share of the suite that each class draws, as --shard takes it: one of eight, another one as the suite grows. All
+    of it takes eight times as long: EDGECASE_SUITE_SHARE=1/1, for the night."""
     files = len(list((device_classes.SOURCE / "cases" / "suite").rglob("*.toml")))
-    return os.environ.get("EDGECASE_CLASS_SHARE", f"{files % 4 + 1}/4")
+    return os.environ.get("EDGECASE_SUITE_SHARE", f"{files % 8 + 1}/8")
 
 
 @functools.cache

@@ -291,7 +291,7 @@ class Nightly(CiTest):
                      "build/release/bin/edgecase"):
             path = checkout / name
             path.parent.mkdir(parents=True, exist_ok=True)
-            shares = "SHARES=\"${EDGECASE_REASON_SHARE:+ of $EDGECASE_REASON_SHARE $EDGECASE_CLASS_SHARE}\""
+            shares = "SHARES=\"${EDGECASE_REASON_SHARE:+ of $EDGECASE_REASON_SHARE $EDGECASE_SUITE_SHARE}\""
             path.write_text(f'#!/bin/sh\n{shares}\necho "{path.name} $*$SHARES" >> {log}\n[ "$FAILS" != {path.name} ]\n')
             path.chmod(0o755)
         env = {k: v for k, v in os.environ.items() if k != "FUZZ_SECONDS"}
