@@ -348,6 +348,26 @@ std::optional<Rejection> check_attribute(const Capabilities& c, const cases::Dra
     return std::nullopt;
 }
 
+std::optional<Rejection> check_conservative(const DeviceInfo& device, const cases::Draw& draw) {
+    using enum cases::Conservative;
+    if (draw.conservative == none) {
+        return std::nullopt;
+    }
+    if (!device.has_conservative) {
+        return unsupported("the device lacks VK_EXT_conservative_rasterization");
+    }
+    if (draw.conservative == underestimate && !device.has_underestimation) {
+        return unsupported("the device does not underestimate (primitiveUnderestimation)");
+    }
+    if (draw.conservative_extra > device.most_overestimation) {
+        return unsupported(
+            "the draw enlarges its triangles by {} pixels, the device allows {} "
+            "(maxExtraPrimitiveOverestimationSize)",
+            draw.conservative_extra, device.most_overestimation);
+    }
+    return std::nullopt;
+}
+
 std::optional<Rejection> check_draw(const Capabilities& c, const cases::Draw& draw) {
     if (auto rejection = check_viewport(c, draw.viewport)) {
         return rejection;
@@ -373,6 +393,9 @@ std::optional<Rejection> check_draw(const Capabilities& c, const cases::Draw& dr
     }
     if (draw.query == cases::Query::occlusion_precise && !c.precise_queries) {
         return unsupported("the device lacks the feature occlusionQueryPrecise");
+    }
+    if (auto rejection = check_conservative(c.info, draw)) {
+        return rejection;
     }
     if (auto rejection = check_depth(c, draw.depth)) {
         return rejection;

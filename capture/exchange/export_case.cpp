@@ -278,6 +278,7 @@ class Needs {
         add(d.cull != cases::CullMode::none, "cull");
         add(d.provoking == cases::ProvokingVertex::last, "provoking-last");
         add(d.rasterizer_discard, "rasterizer-discard");
+        add(d.conservative != cases::Conservative::none, "conservative-rasterization");
         add(d.discard != cases::Discard::none, "discard");
         add(d.early_tests, "early-tests");
         add(d.frag_depth.has_value(), "frag-depth");

@@ -42,7 +42,7 @@ class DrawLoader {
                              "offset",        "winding",     "first",        "order",
                              "color",         "sample_mask", "shader_mask",  "min_sample_shading",
                              "stencil",       "discard",     "early_tests",  "frag_depth",
-                             "query",         "discard_by"});
+                             "query",         "discard_by",  "conservative", "conservative_extra"});
         draw_.where = table_.where;
         context_.read(table_, "topology", draw_.topology);
         context_.read(table_, "cull", draw_.cull);
@@ -63,6 +63,7 @@ class DrawLoader {
                            "early_tests or shader_mask");
         }
         read_query();
+        read_conservative();
         read_viewport();
         read_scissor();
         context_.read(table_, "viewport_index", draw_.viewport_index, 0, kMaxViewportIndex);
@@ -107,6 +108,7 @@ class DrawLoader {
             return std::move(draw_);
         }
         read_clipping(source, *positions, *order);
+        check_conservative();
         draw_.positions = ordered(std::move(*positions), *order);
         check_written_depth();
         for (Attribute& attribute : draw_.attributes) {
@@ -140,6 +142,46 @@ class DrawLoader {
             context_.error(table_.find("query")->where,
                            "with early tests a device may count what the sample mask takes away; "
                            "leave out query, early_tests or sample_mask");
+        }
+    }
+
+    void read_conservative() {
+        context_.read(table_, "conservative", draw_.conservative);
+        const TomlValue* extra = table_.find("conservative_extra");
+        if (extra == nullptr) {
+            return;
+        }
+        const bool is_read = context_.read(table_, "conservative_extra", draw_.conservative_extra);
+        if (is_read &&
+            !(draw_.conservative_extra >= 0 && draw_.conservative_extra <= kMaxConservativeExtra)) {
+            context_.error(extra->where,
+                           "conservative_extra is outside 0..4; write by how many pixels the "
+                           "triangles are enlarged");
+        } else if (draw_.conservative != Conservative::overestimate) {
+            context_.error(extra->where,
+                           "conservative_extra enlarges what is overestimated; write conservative "
+                           "= \"overestimate\", or leave it out");
+        }
+    }
+    // What Vulkan says of it is certain without these: a clip distance is tested somewhere in the
+    // pixel, and where the bounds of an enlarged primitive are, in which a centroid lies, is not
+    // said.
+    void check_conservative() {
+        if (draw_.conservative == Conservative::none) {
+            return;
+        }
+        const auto refuse = [&](std::string_view with) {
+            context_.error(
+                table_.find("conservative")->where,
+                fmt::format("conservative does not go with {}; leave out one of them", with));
+        };
+        if (draw_.distances.clip_count > 0 || draw_.distances.cull_count > 0) {
+            refuse("clip and cull distances");
+        }
+        if (std::ranges::any_of(draw_.attributes, [](const Attribute& a) {
+                return a.auxiliary == Auxiliary::centroid || a.probe != Probe::value;
+            })) {
+            refuse("centroid inputs and probes");
         }
     }
 

@@ -29,6 +29,9 @@ enum class ProvokingVertex : uint8_t { first, last };
 enum class Discard : uint8_t { none, odd_columns, odd_rows, checker, front, back };
 // By which instruction: OpKill, OpDemoteToHelperInvocation or OpTerminateInvocation.
 enum class DiscardBy : uint8_t { kill, demote, terminate };
+// Whether a draw covers pixels by area instead of by samples: every one that a triangle touches, or
+// those that it fills (VK_EXT_conservative_rasterization).
+enum class Conservative : uint8_t { none, overestimate, underestimate };
 // The occlusion query that counts a draw's samples; one that is not precise tells only whether any
 // passed.
 enum class Query : uint8_t { none, occlusion, occlusion_precise };
@@ -83,6 +86,7 @@ enum class Probe : uint8_t {
 };
 
 inline constexpr uint32_t kMaxAttributes = 4;
+inline constexpr float kMaxConservativeExtra = 4;       // pixels; known devices have up to 0.75
 inline constexpr uint32_t kRestartIndex = 0xffffffffU;  // primitive restart, 32-bit indices
 inline constexpr float kMaxAttributeMagnitude =
     0x1p126F;  // larger ones could look like the clear value
@@ -285,6 +289,8 @@ struct Draw {
     FrontFace front_face = FrontFace::counter_clockwise;
     ProvokingVertex provoking = ProvokingVertex::first;
     bool rasterizer_discard = false;  // rasterizerDiscardEnable: no fragment comes of it
+    Conservative conservative = Conservative::none;
+    float conservative_extra = 0;     // extraPrimitiveOverestimationSize, pixels; overestimate
     Discard discard = Discard::none;  // by the fragment shader
     DiscardBy discard_by = DiscardBy::kill;
     // EarlyFragmentTests: depth and stencil are tested and stored before the fragment shader, and
@@ -314,6 +320,8 @@ struct Draw {
         visit("front_face", d.front_face...);
         visit("provoking_vertex", d.provoking...);
         visit("rasterizer_discard", d.rasterizer_discard...);
+        visit("conservative", d.conservative...);
+        visit("conservative_extra", d.conservative_extra...);
         visit("discard", d.discard...);
         visit("discard_by", d.discard_by...);
         visit("early_tests", d.early_tests...);

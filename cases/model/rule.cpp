@@ -48,6 +48,29 @@ constexpr std::array kRules = {
          "A top edge is exactly horizontal and above the others, a left edge is not horizontal and "
          "on the left side. Vulkan does not demand this rule.",
          "primsrast-polygons-basic", "3.4.2", "ref/coverage/exact.cpp"},
+    Rule{rule::conservative_overestimate, Profile::vulkan,
+         "Overestimated, a triangle covers every pixel that it touches",
+         "Where the triangle and the pixel have an area in common, all samples of the pixel are "
+         "covered, those outside the triangle and those of every other triangle along a shared "
+         "edge, too. Open where they have only their borders in common.",
+         "primsrast-conservativeraster", "", "ref/coverage/pixel_area.hpp"},
+    Rule{rule::conservative_size, Profile::practice,
+         "An overestimated triangle is enlarged by the sizes that device and draw name",
+         "Each edge is moved outwards by primitiveOverestimationSize and "
+         "extraPrimitiveOverestimationSize at most, along x and y alike, and by half of the extra "
+         "size at least. Vulkan says that results only approximate these sizes.",
+         "primsrast-conservativeraster", "", "ref/coverage/pixel_area.cpp"},
+    Rule{rule::conservative_underestimate, Profile::vulkan,
+         "Underestimated, a triangle covers the pixels that it fills, and no other",
+         "All samples of a pixel are covered if its square, with edges and corners, lies in the "
+         "triangle, and else none. Open where the square reaches the triangle's border.",
+         "primsrast-conservativeraster", "", "ref/coverage/pixel_area.hpp"},
+    Rule{rule::conservative_degenerate, Profile::practice,
+         "Overestimated, a triangle without area is drawn as the device says",
+         "One that has no area once its vertices are snapped covers the pixels that it meets if "
+         "degenerateTrianglesRasterized is true, as a back face, and else none. Open for one that "
+         "had no area before.",
+         "primsrast-conservativeraster", "", "ref/coverage/pixel_area.hpp"},
     Rule{rule::face_area_sign, Profile::vulkan, "Facing follows the sign of the area",
          "a = -1/2 sum(x_i y_i+1 - x_i+1 y_i) in framebuffer coordinates; positive is "
          "counter-clockwise. Zero area is back facing. Free where the sign depends on snapping.",

@@ -45,6 +45,8 @@ inline constexpr WordList<6> kWords<Discard> = {"none",    "odd-columns", "odd-r
 template <>
 inline constexpr WordList<3> kWords<DiscardBy> = {"kill", "demote", "terminate"};
 template <>
+inline constexpr WordList<3> kWords<Conservative> = {"none", "overestimate", "underestimate"};
+template <>
 inline constexpr WordList<3> kWords<Query> = {"none", "occlusion", "occlusion-precise"};
 template <>
 inline constexpr WordList<4> kWords<DepthLayout> = {"any", "greater", "less", "unchanged"};

@@ -278,11 +278,18 @@ constexpr Statement kStatements[] = {
      "",
      {}, "The scheme is the device's choice."},
     {86, "conservative overestimation", tolerance, tolerance,
-     "",
-     {}, "Not checked: no pipeline here turns VK_EXT_conservative_rasterization on. A pixel is then hit if it touches the triangle, enlarged by an amount of the device's choice; the reference knows points in a triangle, not areas."},
+     "Every pixel that the triangle has an area in common with is covered, with all samples; how far beyond it others are "
+     "is asked from practice on (each edge moved by the sizes that device and draw name), the shape of that at direct3d "
+     "(a square swept along the edges). Where borders alone meet it is open.",
+     {"conservative.overestimate", "conservative.size"}, ""},
     {87, "conservative underestimation and FullyCovered", tolerance, tolerance,
-     "",
-     {}, "Not checked, as the statement before."},
+     "A pixel is covered, with all samples, if it lies in the triangle with its edges and corners, and else not; open "
+     "within a unit of the grid inside the triangle's border. No shader reads FullyCoveredEXT.",
+     {"conservative.underestimate"}, ""},
+    {127, "conservative triangles without area", tolerance, tolerance,
+     "One that loses its area when it is snapped is a back face, or culled, as degenerateTrianglesRasterized says; one "
+     "that had none before is open if they are drawn. Its values are not judged.",
+     {"conservative.degenerate"}, ""},
     {88, "lines and points", Strictness::free, Strictness::free,
      "",
      {}, "Not triangles."},

@@ -362,6 +362,8 @@ std::string draw_text(const Draw& draw, const Target& target) {
     add_word(table, "front_face", draw.front_face, usual.front_face);
     add_word(table, "provoking", draw.provoking, usual.provoking);
     table.add_flag("rasterizer_discard", draw.rasterizer_discard, usual.rasterizer_discard);
+    add_word(table, "conservative", draw.conservative, usual.conservative);
+    add_number(table, "conservative_extra", draw.conservative_extra, usual.conservative_extra);
     add_word(table, "discard", draw.discard, usual.discard);
     add_word(table, "discard_by", draw.discard_by, usual.discard_by);
     table.add_flag("early_tests", draw.early_tests, usual.early_tests);

@@ -212,6 +212,14 @@ std::optional<Cause> Causes::of_stencil(bool is_missing) const {
     return of_stencil_of(*it);
 }
 
+namespace {
+// Whether a conservative triangle must not cover the sample for its area.
+bool is_kept_by_area(const TriangleExplanation& t) {
+    return t.why() == ReasonKind::beyond_size || t.why() == ReasonKind::unfilled_pixel ||
+           t.why() == ReasonKind::degenerate_culled;
+}
+}  // namespace
+
 Cause Causes::of_extra() const {
     if (reasons_.of_all) {
         const TriangleExplanation* const t = first_that(
@@ -224,7 +232,8 @@ Cause Causes::of_extra() const {
     }
     if (level_ == cases::Profile::direct3d) {
         const TriangleExplanation* const t = first_that([](const auto& e) {
-            return e.why() == ReasonKind::top_left_out || e.why() == ReasonKind::no_area;
+            return e.why() == ReasonKind::top_left_out || e.why() == ReasonKind::no_area ||
+                   is_kept_by_area(e);
         });
         return t ? of(*t) : of(ReasonKind::nearest_positions);
     }
@@ -245,6 +254,7 @@ Cause Causes::of_count(uint32_t total, bool is_missing) const {
     const TriangleExplanation* const covering = first_with(Coverage::must);
     if (level_ == cases::Profile::direct3d) {
         const TriangleExplanation* t = first_tie(is_missing);
+        t = t || is_missing ? t : first_that(is_kept_by_area);
         t = t ? t : covering;
         return t ? of(*t) : !sets.empty() ? of(sets[0].set) : of(ReasonKind::nearest_positions);
     }

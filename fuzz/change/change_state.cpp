@@ -30,7 +30,7 @@ constexpr std::array<std::string_view, 8> kBlends = {
 constexpr std::array<std::string_view, 6> kMasks = {"rgba", "rgb", "r", "g", "ba", "a"};
 constexpr std::array<std::string_view, 2> kFlags = {"false", "true"};
 
-constexpr std::array<WordKey, 25> kWordKeys = {{
+constexpr std::array<WordKey, 26> kWordKeys = {{
     {"target", "depth", cases::kWords<cases::DepthFormat>},
     {"target", "resolve", cases::kWords<cases::Resolve>},
     {"target", "depth_resolve", cases::kWords<cases::Resolve>},
@@ -45,6 +45,7 @@ constexpr std::array<WordKey, 25> kWordKeys = {{
     {"draw", "depth_volume", cases::kVolumeWords},
     {"draw", "discard", cases::kWords<cases::Discard>},
     {"draw", "early_tests", kFlags},
+    {"draw", "conservative", cases::kWords<cases::Conservative>},
     {"draw", "rasterizer_discard", kFlags},
     {"depth", "compare", cases::kWords<cases::CompareOp>},
     {"depth", "write", kFlags},

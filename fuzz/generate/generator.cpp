@@ -185,6 +185,15 @@ class CaseWriter {
                                             : pose_.is("sample-shading", "full") ? 1.0
                                                                                  : 0.0);
         }
+        // Of several draws one is as all others are.
+        if (!pose_.is_default("conservative") && (draws_ == 1 || number != 1)) {
+            const bool is_extra = pose_.is("conservative", "extra");
+            line("conservative = \"{}\"",
+                 is_extra ? std::string_view("overestimate") : pose_.value("conservative"));
+            if (is_extra) {
+                line("conservative_extra = {}", number == 0 ? 0.25 : 0.75);
+            }
+        }
         const bool is_last = number + 1 == draws_;
         if (is_last || !state_.one_in(3)) {
             word("discard", "discard");

@@ -112,6 +112,11 @@ constexpr std::array<Often, 10> kOften = {{
 // One pose in so many is a blit: it has next to no features, and would never be taken for its
 // pairs. All but its filter and the target's size is the geometries'.
 constexpr uint64_t kPosesOfBlit = 48, kFirstOfBlit = 8;
+// One pose in so many has conservative draws besides what it is, unless that does not go with them:
+// many devices lack them, and would lose every pose that had them for its pairs.
+constexpr uint64_t kPosesOfArea = 8, kFirstOfArea = 5;
+// Which is drawn apart, and stands last.
+constexpr size_t kAreaFeatures = 1;
 
 }  // namespace
 
@@ -189,6 +194,7 @@ const std::vector<Feature>& features() {
           "more-attributes", "scissor-tiles"}},
         {"w", {"one", "equal", "unequal", "steep", "behind"}},
         {"z", {"half", "plane", "beyond"}},
+        {"conservative", {"none", "overestimate", "underestimate", "extra"}},
     };
     return kAll;
 }
@@ -249,7 +255,7 @@ Pose Poses::draw(size_t candidate) const {
     // Few features at a time: what many switch off between them is never seen otherwise.
     const uint64_t count = 1 + dice.below(6);
     for (uint64_t k = 0; k < count; ++k) {
-        const size_t feature = dice.below(features().size());
+        const size_t feature = dice.below(features().size() - kAreaFeatures);
         pose.set(feature, value_of(feature, 0, dice));
     }
     set("blit", 0);
@@ -310,6 +316,18 @@ Pose Poses::draw(size_t candidate) const {
         set("attributes", 1);
     }
     return pose;
+}
+
+Pose Poses::with_area(const Pose& pose) const {
+    Pose out = pose;
+    const bool goes_with_it = pose.is_default("clip-distances") &&
+                              pose.is_default("cull-distances") && pose.is_default("probe") &&
+                              pose.is_default("blit") && !pose.is("auxiliary", "centroid");
+    if (count_ % kPosesOfArea == kFirstOfArea && goes_with_it) {
+        const size_t kinds = features().back().values.size() - 1;
+        out.set(features().size() - kAreaFeatures, 1 + (count_ / kPosesOfArea + seed_) % kinds);
+    }
+    return out;
 }
 
 Pose Poses::blit(uint64_t number) {

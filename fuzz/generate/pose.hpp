@@ -61,8 +61,9 @@ class Poses {
                 found = true;
             }
         }
+        const Pose drawn = with_area(best);
         take(best);
-        return best;
+        return drawn;
     }
     size_t count() const { return count_; }
     size_t pairs() const { return seen_.size(); }
@@ -71,6 +72,8 @@ class Poses {
     static constexpr size_t kCandidates = 12;
     Pose draw(size_t candidate) const;
     static Pose blit(uint64_t number);
+    // The pose, or, of some, the same with conservative draws.
+    Pose with_area(const Pose& pose) const;
     size_t fresh_pairs(const Pose& pose) const;
     void take(const Pose& pose);
 

@@ -172,6 +172,9 @@ std::string unsupported_reason(const cases::Case& c) {
         if (d.query != cases::Query::none) {
             return "the algorithms have no queries";
         }
+        if (d.conservative != cases::Conservative::none) {
+            return "the algorithms cover by samples, and not by area";
+        }
         if (d.discard != cases::Discard::none || d.early_tests || d.frag_depth) {
             return "the algorithms have no shaders that discard fragments or write their depth";
         }

@@ -72,6 +72,15 @@ cases::Draw effective(const cases::Case& c, uint32_t number, const Device& devic
         draw.cull = first.cull;
         draw.front_face = first.front_face;
     }
+    if (fault == Fault::conservative_ignored) {
+        draw.conservative = cases::Conservative::none;
+    } else if (fault == Fault::conservative_of_first_draw) {
+        draw.conservative = c.draws[0].conservative;
+        draw.conservative_extra = c.draws[0].conservative_extra;
+    } else if (fault == Fault::underestimate_enlarges &&
+               draw.conservative == cases::Conservative::underestimate) {
+        draw.conservative = cases::Conservative::overestimate;
+    }
     if (fault == Fault::layer_of_first_draw) {
         draw.layer = c.draws[0].layer;
     }
@@ -243,6 +252,10 @@ void DrawCommand::rasterize_polygon(const Primitive& primitive,
                                     const std::array<ClipVertex, 3>& whole,
                                     std::vector<WindowVertex> polygon, bool was_cut) {
     const int64_t area = twice_area(polygon);
+    if (area == 0 && draw_.conservative != cases::Conservative::none) {
+        cover_degenerate(primitive, polygon);
+        return;
+    }
     if (area == 0) {
         if (device_.fault == Fault::degenerate_drawn) {
             rasterize_line(primitive, polygon);
@@ -311,6 +324,20 @@ void DrawCommand::rasterize_polygon(const Primitive& primitive,
         }
         return *planes[k];
     };
+    if (draw_.conservative != cases::Conservative::none) {
+        size_t largest = 0;
+        int64_t most = 0;
+        for (size_t k = 0; k < pieces; ++k) {
+            const int64_t of_piece =
+                twice_area(std::array{polygon[0], polygon[k + 1], polygon[k + 2]});
+            if (of_piece > most) {
+                most = of_piece;
+                largest = k;
+            }
+        }
+        cover_area(primitive, planes_of(largest), polygon, first, front);
+        return;
+    }
     const auto piece = [&](size_t k) {
         ScanTriangle t{{polygon[0], polygon[k + 1], polygon[k + 2]}, {}, reversed};
         t.inner = {k > 0, false, k + 1 < pieces};

@@ -46,6 +46,11 @@ class DrawCommand {
     void rasterize_polygon(const Primitive& primitive, const std::array<ClipVertex, 3>& whole,
                            std::vector<WindowVertex> polygon, bool was_cut);
     void rasterize_line(const Primitive& primitive, std::vector<WindowVertex>& v);
+    // Of a conservative draw (draw_area.cpp).
+    void cover_area(const Primitive& primitive, const TrianglePlanes& planes,
+                    const std::vector<WindowVertex>& polygon, const WindowVertex& first,
+                    bool front);
+    void cover_degenerate(const Primitive& primitive, const std::vector<WindowVertex>& polygon);
     WindowVertex project(const ClipVertex& v) const;
     std::unique_ptr<TrianglePlanes> planes_in_viewport(const std::array<ClipVertex, 3>& whole,
                                                        bool positive) const;
@@ -53,9 +58,10 @@ class DrawCommand {
     bool is_culled(bool front) const;
     bool is_distance_culled(const Primitive& primitive) const;
     bool is_distance_clipped(const TrianglePlanes& planes, int64_t i, int64_t j, uint32_t s) const;
-    bool is_depth_clipped(const TrianglePlanes& planes, int64_t i, int64_t j, uint32_t s) const;
+    // At a place of the framebuffer.
+    bool is_depth_clipped(const TrianglePlanes& planes, float x, float y) const;
     glm::vec4 distances_of(uint32_t v, const Primitive& primitive, size_t k) const;
-    bool inside_viewport(int64_t i, int64_t j, uint32_t s) const;
+    bool inside_viewport(double x, double y) const;
     bool is_before_scissor(int64_t i, int64_t j, uint32_t s) const;
     // Sample s of pixel (i,j) is covered: with several samples the fragment waits until all of its
     // samples are known.
@@ -88,6 +94,7 @@ class DrawCommand {
     std::vector<SampleOffset> samples_;
     // Samples of the fragments of the triangle at hand: by pixel (row first) and planes.
     std::map<std::tuple<int64_t, int64_t, const TrianglePlanes*>, uint32_t> covered_;
+    std::map<std::pair<int64_t, int64_t>, uint32_t> owners_;  // of pixels, where a fault has them
     std::unique_ptr<TrianglePlanes> cached_planes_;
     WindowVertex cached_first_;
     uint32_t culled_ = 0;       // triangles so far

@@ -17,13 +17,10 @@
 namespace software {
 
 // With a guard band the viewport's rectangle is a scissor for each sample.
-bool DrawCommand::inside_viewport(int64_t i, int64_t j, uint32_t s) const {
+bool DrawCommand::inside_viewport(double x, double y) const {
     if (device_.clip != ClipMethod::guard_band) {
         return true;
     }
-    const double unit = std::ldexp(1.0, -device_.subpixel_bits);
-    const double x = static_cast<double>(i) + static_cast<double>(samples_[s].x) * unit;
-    const double y = static_cast<double>(j) + static_cast<double>(samples_[s].y) * unit;
     const cases::Viewport& view = draw_.viewport;
     const double left = static_cast<double>(view.x);
     const double right = left + static_cast<double>(view.width);
@@ -54,14 +51,11 @@ bool DrawCommand::is_distance_clipped(const TrianglePlanes& planes, int64_t i, i
 }
 
 // With the depth tested at each sample, in the viewport's range.
-bool DrawCommand::is_depth_clipped(const TrianglePlanes& planes, int64_t i, int64_t j,
-                                   uint32_t s) const {
+bool DrawCommand::is_depth_clipped(const TrianglePlanes& planes, float x, float y) const {
     if (!tests_depth_) {
         return false;
     }
-    const float unit = std::ldexp(1.0F, -device_.subpixel_bits);
-    const float z = planes.depth(static_cast<float>(i) + static_cast<float>(samples_[s].x) * unit,
-                                 static_cast<float>(j) + static_cast<float>(samples_[s].y) * unit);
+    const float z = planes.depth(x, y);
     const auto [low, high] = std::minmax(draw_.viewport.min_depth, draw_.viewport.max_depth);
     return !(z >= low && z <= high);
 }
@@ -76,8 +70,11 @@ bool DrawCommand::is_before_scissor(int64_t i, int64_t j, uint32_t s) const {
 
 void DrawCommand::cover(const Primitive& primitive, const TrianglePlanes& planes,
                         const WindowVertex& first, bool front, int64_t i, int64_t j, uint32_t s) {
-    if (!inside_viewport(i, j, s) || is_distance_clipped(planes, i, j, s) ||
-        is_depth_clipped(planes, i, j, s)) {
+    const double unit = std::ldexp(1.0, -device_.subpixel_bits);
+    const double x = static_cast<double>(i) + static_cast<double>(samples_[s].x) * unit;
+    const double y = static_cast<double>(j) + static_cast<double>(samples_[s].y) * unit;
+    if (!inside_viewport(x, y) || is_distance_clipped(planes, i, j, s) ||
+        is_depth_clipped(planes, static_cast<float>(x), static_cast<float>(y))) {
         return;
     }
     if (device_.fault == Fault::scissor_half_early && is_before_scissor(i, j, s)) {

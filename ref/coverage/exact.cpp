@@ -149,12 +149,18 @@ bool is_inside(const HalfPlane& h, const FixedPoint& p) {
 }
 
 // What the clip distances that are tested at the sample leave of the outline's coverage.
-Coverage after_cuts(Coverage c, const Outline& o, const FixedPoint& p) {
+// Of a pixel that is covered whole the place where they are tested may lie anywhere in it.
+Coverage after_cuts(Coverage c, const Outline& o, const FixedPoint& p, int64_t reach) {
+    const std::vector<FixedPoint> places =
+        corners(std::array{Box{p.x - reach, p.y - reach, p.x + reach, p.y + reach}});
     for (const DistanceCut& cut : o.cuts) {
-        if (!is_inside(cut.may, p)) {
+        if (std::none_of(places.begin(), places.end(),
+                         [&](const FixedPoint& q) { return is_inside(cut.may, q); })) {
             return Coverage::must_not;
         }
-        if (c == Coverage::must && !is_inside(cut.must, p)) {
+        if (c == Coverage::must &&
+            !std::all_of(places.begin(), places.end(),
+                         [&](const FixedPoint& q) { return is_inside(cut.must, q); })) {
             c = Coverage::either;
         }
     }
@@ -212,6 +218,9 @@ bool is_inside_whole(const TriangleSetup& setup, const Outline& outline, const F
 }
 
 Coverage coverage_of(const TriangleSetup& setup, const Outline& o, const FixedPoint& p) {
+    if (setup.area.is_on()) {
+        return pixel_coverage(setup, setup.area, o, p);
+    }
     switch (o.mode) {
         case OutlineMode::empty:
             break;
@@ -223,7 +232,8 @@ Coverage coverage_of(const TriangleSetup& setup, const Outline& o, const FixedPo
     return Coverage::must_not;
 }
 
-Decision decide(const TriangleSetup& setup, const FixedPoint& p, bool is_told) {
+Decision decide(const TriangleSetup& setup, const FixedPoint& sample, bool is_told) {
+    const FixedPoint p = setup.area.is_on() ? pixel_centre(sample) : sample;
     const Window& window = setup.window;
     const bool may_draw = setup.kind != TriangleSetup::Kind::nothing && window.may_touch(p);
     if (!may_draw && !is_told) {
@@ -237,7 +247,8 @@ Decision decide(const TriangleSetup& setup, const FixedPoint& p, bool is_told) {
         const size_t count = outlines.size();
         std::array<Coverage, OutlineList::kMaxOutlines> each{};
         for (size_t k = 0; k < count; ++k) {
-            each[k] = after_cuts(coverage_of(setup, *outlines[k], p), *outlines[k], p);
+            each[k] = after_cuts(coverage_of(setup, *outlines[k], p), *outlines[k], p,
+                                 setup.area.is_on() ? kHalfPixel : 0);
         }
         const auto [least, most] = std::minmax_element(each.begin(), each.begin() + count);
         out.coverage = count == 0 || *most == Coverage::must_not ? Coverage::must_not

@@ -22,6 +22,10 @@ Decision decide(const TriangleSetup& setup, const FixedPoint& p, bool is_told);
 // What one outline says of a sample, without its cuts and whatever the window.
 Coverage coverage_of(const TriangleSetup& setup, const Outline& outline, const FixedPoint& p);
 
+// The same of a pixel of a conservative draw, at its centre (exact_pixel.cpp).
+Coverage pixel_coverage(const TriangleSetup& setup, const PixelArea& area, const Outline& outline,
+                        const FixedPoint& centre);
+
 // True if p lies in the closed convex hull of the boxes: no line through p has all corners strictly
 // on one side.
 bool is_in_hull(std::span<const Box> boxes, const FixedPoint& p);

@@ -161,13 +161,13 @@ void choose_mode(Outline& o, int64_t step, cases::Profile profile) {
     o.mode = OutlineMode::boxes;
 }
 
-AreaSigns signs_of(const Outline& o, int64_t step) {
+AreaSigns signs_of(const Outline& o, int64_t step, bool may_be_zero) {
     if (o.mode == OutlineMode::empty) {
         return {};
     }
     if (o.mode == OutlineMode::snapped && o.count == 3) {
         AreaSigns signs = snapped_area_signs(o.vertices(), step);
-        if (signs.negative || signs.positive) {
+        if (!may_be_zero && (signs.negative || signs.positive)) {
             signs.zero = false;  // a snapped triangle without area covers nothing
         }
         return signs;

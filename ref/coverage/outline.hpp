@@ -15,7 +15,8 @@ namespace ref {
 // device's subpixel grid in fixed-point units.
 void choose_mode(Outline& o, int64_t step, cases::Profile profile);
 
-// The signs that the outline's area may have.
-AreaSigns signs_of(const Outline& o, int64_t step);
+// The signs that the outline's area may have; those of what has none only if it `may_be_zero`, or
+// has never any.
+AreaSigns signs_of(const Outline& o, int64_t step, bool may_be_zero);
 
 }  // namespace ref

@@ -236,8 +236,55 @@ Reason reason_of_cut(const DistanceCut& cut, bool is_open) {
 
 }  // namespace
 
+namespace {
+
+// The same of a pixel of a conservative draw: of an outline that must, may or must not cover it.
+void name_pixel_reason(const TriangleSetup& setup, const Outline& o, const FixedPoint& centre,
+                       Coverage coverage, Reasons& out) {
+    const bool is_over = setup.area.is_over();
+    PixelArea other = setup.area;
+    switch (coverage) {
+        case Coverage::must:
+            other.least = 0;
+            other.keeps_degenerates = false;
+            if (!is_over) {
+                add_reason(out, {ReasonKind::fills_pixel});
+            } else if (exact::pixel_coverage(setup, other, o, centre) == Coverage::must) {
+                add_reason(out, {ReasonKind::touches_pixel});
+            } else {
+                other.keeps_degenerates = setup.area.keeps_degenerates;
+                const bool is_kept =
+                    exact::pixel_coverage(setup, other, o, centre) == Coverage::must;
+                add_reason(out,
+                           {is_kept ? ReasonKind::degenerate_kept : ReasonKind::extra_reached});
+            }
+            return;
+        case Coverage::either:
+            add_reason(out, {is_over ? ReasonKind::may_reach : ReasonKind::may_fill});
+            return;
+        case Coverage::must_not:
+            other.keeps_degenerates = true;
+            if (!is_over) {
+                add_reason(out, {ReasonKind::unfilled_pixel});
+            } else if (exact::pixel_coverage(setup, other, o, centre) != Coverage::must_not) {
+                add_reason(out, {ReasonKind::degenerate_culled});
+            } else {
+                add_reason(out, {ReasonKind::beyond_size});
+            }
+            return;
+    }
+}
+
+}  // namespace
+
 void name_reasons(const TriangleSetup& setup, const Outline& o, const FixedPoint& p, Coverage own,
                   Decision& out) {
+    if (setup.area.is_on()) {
+        if (out.coverage == Coverage::must || own != Coverage::must) {
+            name_pixel_reason(setup, o, p, out.coverage, out.reasons);
+        }
+        return;
+    }
     if (out.coverage == Coverage::must) {
         name_must(setup, o, p, out.reasons);
         return;

@@ -58,7 +58,7 @@ void add_depth_tested(const OutlineSource& s, TriangleSetup& t, AreaSigns& signs
         }
         o.cuts = std::move(*cuts);
         choose_mode(o, t.grid_step, s.profile);
-        signs |= signs_of(o, t.grid_step);
+        signs |= signs_of(o, t.grid_step, t.area.keeps_degenerates);
         t.tested.push_back(std::move(o));
     }
 }
@@ -116,7 +116,7 @@ bool add_tested(const OutlineSource& s, TriangleSetup& t, AreaSigns& signs) {
             continue;  // the same as the outline that is cut by the distances
         }
         choose_mode(o, t.grid_step, s.profile);
-        signs |= signs_of(o, t.grid_step);
+        signs |= signs_of(o, t.grid_step, t.area.keeps_degenerates);
         (is_view ? t.tested_clipped : t.tested_unclipped) = static_cast<int8_t>(t.tested.size());
         t.tested.push_back(std::move(o));
     }
@@ -171,6 +171,29 @@ void set_up_anywhere(const OutlineSource& s, ReasonKind why, TriangleSetup& t) {
     t.reasons = {{why}};
 }
 
+// Of the triangle as it is, before anything is rounded: (x, y, w) of its vertices are linearly
+// dependent.
+bool is_flat(const std::array<glm::vec4, 3>& clip) {
+    const auto q = [](float f) { return rational(f); };
+    const auto& [a, b, c] = clip;
+    const mpq_class det = q(a.x) * (q(b.y) * q(c.w) - q(c.y) * q(b.w)) -
+                          q(a.y) * (q(b.x) * q(c.w) - q(c.x) * q(b.w)) +
+                          q(a.w) * (q(b.x) * q(c.y) - q(c.x) * q(b.y));
+    return det == 0;
+}
+
+// A pixel outside the viewport may be touched by what clipping leaves, or reached once that is
+// enlarged.
+void widen_for(const PixelArea& area, Window& w) {
+    if (area.is_over()) {
+        const int64_t by = area.is_unbounded ? int64_t{1} << kPositionBits : kHalfPixel + area.most;
+        for (FixedRange* zone : {&w.zone_x, &w.zone_y}) {
+            zone->low -= by;
+            zone->high += by;
+        }
+    }
+}
+
 // Nothing of the triangle is drawn if its draw has rasterizer discard.
 void discard_by_state(const cases::Draw& draw, TriangleSetup& t) {
     if (draw.rasterizer_discard) {
@@ -200,7 +223,7 @@ void tell_planes(const OutlineSource& s, TriangleSetup& t) {
     AreaSigns signs{true, true, true};
     if (t.has_outline) {
         choose_mode(t.unclipped, t.grid_step, s.profile);
-        signs = signs_of(t.unclipped, t.grid_step);
+        signs = signs_of(t.unclipped, t.grid_step, t.area.keeps_degenerates);
     }
     apply_facing(t, signs, s.draw);
     t.kind = TriangleSetup::Kind::nothing;
@@ -216,7 +239,7 @@ void set_up_outlines(const OutlineSource& s, bool is_told, TriangleSetup& t) {
     t.has_outline = outline_by(s, s.volume.without_borders(), t.unclipped);
     if (t.has_outline) {
         choose_mode(t.unclipped, t.grid_step, profile);
-        signs |= signs_of(t.unclipped, t.grid_step);
+        signs |= signs_of(t.unclipped, t.grid_step, t.area.keeps_degenerates);
     }
     // A vertex beyond the range takes what is cut from its edges with it.
     const bool is_in_range = std::all_of(clip.begin(), clip.end(), [&](const glm::vec4& v) {
@@ -240,7 +263,7 @@ void set_up_outlines(const OutlineSource& s, bool is_told, TriangleSetup& t) {
         }
         if (is_defined) {
             choose_mode(*t.clipped, t.grid_step, profile);
-            signs |= signs_of(*t.clipped, t.grid_step);
+            signs |= signs_of(*t.clipped, t.grid_step, t.area.keeps_degenerates);
         }
     }
     if (is_defined && s.volume.has_user_planes()) {
@@ -293,6 +316,8 @@ TriangleSetup set_up(const cases::Case& c, const cases::Triangle& triangle, cons
     const cases::Draw& draw = c.draws[triangle.draw];
     TriangleSetup t;
     t.window = window;
+    t.area = pixel_area_of(draw, limits, profile);
+    widen_for(t.area, t.window);
     t.grid_step = int64_t{1} << (kFixedBits - limits.subpixel_bits);
     const OutlineSource s{draw,
                           triangle,
@@ -311,6 +336,7 @@ TriangleSetup set_up(const cases::Case& c, const cases::Triangle& triangle, cons
         discard_by_state(draw, t);
         return t;
     }
+    t.is_flat = t.area.keeps_degenerates && is_flat(clip);
     const bool is_outside = is_trivially_outside(clip, s.volume.view());
     const ClipInput flushed = with_zero_for_denormal_depths(s.input, s.volume);
     const bool may_be_flushed = is_outside && !is_trivially_outside(flushed.clip, s.volume.view());
@@ -345,6 +371,12 @@ TriangleSetup set_up(const cases::Case& c, const cases::Triangle& triangle, cons
     }
     discard_by_state(draw, t);
     return t;
+}
+
+bool is_plain_triangle(const Outline& o) {
+    return o.count == 3 && o.must_count == 3 &&
+           std::all_of(o.edge.begin(), o.edge.begin() + 3,
+                       [](EdgeLabel e) { return e < kFirstClipEdge; });
 }
 
 FixedPoint middle_of(const Box& box) {

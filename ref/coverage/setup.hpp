@@ -21,6 +21,7 @@
 #include "cases/model/profile.hpp"
 #include "cases/model/triangle.hpp"
 #include "ref/coverage/coverage.hpp"
+#include "ref/coverage/pixel_area.hpp"
 #include "ref/number/edge_function.hpp"
 #include "ref/number/fixed_point.hpp"
 #include "ref/position/clip.hpp"
@@ -107,6 +108,9 @@ struct Outline {
     std::span<const Box> must_vertices() const { return {must_boxes.data(), must_count}; }
 };
 
+// Whether it has three corners that lie apart, and edges of the triangle between them.
+bool is_plain_triangle(const Outline& o);
+
 // The outlines of a triangle that a device may use, one to six.
 class OutlineList {
   public:
@@ -164,7 +168,9 @@ struct TriangleSetup {
     bool may_be_culled = false;
     bool is_culled = false;  // by its face
     Window window;
-    Reasons reasons;  // of `kind`, but for is_culled; only if set up to be told
+    PixelArea area;        // if the draw is conservative
+    bool is_flat = false;  // it has no area before its vertices are snapped
+    Reasons reasons;       // of `kind`, but for is_culled; only if set up to be told
 
     OutlineList outlines() const;
 };

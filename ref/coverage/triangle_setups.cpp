@@ -57,7 +57,7 @@ void TriangleSetups::forget_last(uint32_t t) {
 bool TriangleSetups::may_touch_a_sample(uint32_t t) {
     const cases::Triangle& triangle = triangles_[t];
     const cases::Draw& draw = case_.draws[triangle.draw];
-    if (draw.distances.clip_count > 0) {
+    if (draw.distances.clip_count > 0 || draw.conservative == cases::Conservative::overestimate) {
         return true;  // what clip distances cut off is snapped anew
     }
     Box hull;

@@ -58,6 +58,11 @@ bool open_scissors(Case& c) {
     return change_draws(c, [&](Draw& draw) { return set(draw.scissor, whole); });
 }
 
+bool cover_by_samples(Case& c) {
+    return change_draws(
+        c, [](Draw& draw) { return set(draw.conservative, cases::Conservative::none); });
+}
+
 bool write_all_samples(Case& c) {
     return change_draws(c, [](Draw& draw) {
         const bool is_masked = set(draw.multisample.sample_mask, 0xffffffffU);

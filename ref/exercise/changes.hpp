@@ -21,6 +21,7 @@ bool put_zero_distances_outside(cases::Case& c);
 bool drop_cull_distances(cases::Case& c);
 bool cull_nothing(cases::Case& c);
 bool cull_other_faces(cases::Case& c);
+bool cover_by_samples(cases::Case& c);  // nothing is conservative
 bool turn_faces(cases::Case& c);
 bool draw_what_is_discarded(cases::Case& c);
 bool draw_to_first_layer(cases::Case& c);

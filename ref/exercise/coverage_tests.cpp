@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ref/coverage/exact.hpp"
 #include "ref/exercise/tests.hpp"
 
 namespace ref {
@@ -76,6 +77,48 @@ bool is_settled_by_snapping(const View& view, std::string_view) {
                    boxes, [](const Box& box) { return box.x0 != box.x1 || box.y0 != box.y1; }) &&
                view.facts.decide(hit.triangle, view.sample).coverage != Coverage::either;
     });
+}
+
+// A triangle must cover the sample for the area that it has in common with its pixel, and does not
+// cover the sample itself.
+bool is_overestimated(const View& view, std::string_view) {
+    return std::ranges::any_of(view.sample.hits, [&](const Hit& hit) {
+        const TriangleSetup& setup = view.setups[hit.triangle];
+        if (!setup.area.is_over() || hit.coverage != Coverage::must || !view.shows(hit.triangle)) {
+            return false;
+        }
+        return std::ranges::none_of(setup.outlines(), [&](const Outline* o) {
+            return exact::is_in_hull(o->vertices(), view.sample.p);
+        });
+    });
+}
+
+// A triangle within a pixel of the sample's own is decided by what this rule says of its area.
+bool has_reason_of_area(const View& view, std::string_view rule) {
+    const auto& triangles = view.facts.triangles();
+    for (uint32_t t = 0; t < triangles.size(); ++t) {
+        const TriangleSetup& setup = view.setups[t];
+        if (!setup.area.is_on() || setup.kind != TriangleSetup::Kind::outlines ||
+            view.facts.draw_of(t).layer != view.sample.id.layer || !view.shows(t)) {
+            continue;
+        }
+        PixelArea near;
+        near.mode = cases::Conservative::overestimate;
+        near.most = 2 * kFixedOne;
+        near.keeps_degenerates = true;
+        const bool is_near = std::ranges::any_of(setup.outlines(), [&](const Outline* o) {
+            return exact::pixel_coverage(setup, near, *o, pixel_centre(view.sample.p)) !=
+                   Coverage::must_not;
+        });
+        if (!is_near) {
+            continue;
+        }
+        const Decision decision = view.facts.decide(t, view.sample);
+        if (decision.coverage != Coverage::either && has_reason_of(decision, rule)) {
+            return true;
+        }
+    }
+    return false;
 }
 
 namespace {

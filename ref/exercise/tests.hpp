@@ -38,6 +38,8 @@ bool is_outside_one(const View& view, std::string_view rule);
 bool is_in_set(const View& view, std::string_view rule);
 bool is_settled(const View& view, std::string_view rule);
 bool is_settled_by_snapping(const View& view, std::string_view rule);
+bool is_overestimated(const View& view, std::string_view rule);
+bool has_reason_of_area(const View& view, std::string_view rule);
 bool is_kept_away(const View& view, std::string_view rule);
 bool is_beside_bad_number(const View& view, std::string_view rule);
 bool crosses_border(const View& view, std::string_view rule);

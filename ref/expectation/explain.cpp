@@ -115,6 +115,9 @@ bool is_suppressed(const Decision& decision) {
     return decision.coverage == Coverage::must_not && !has_reason(decision, ReasonKind::outside) &&
            !has_reason(decision, ReasonKind::outside_hull) &&
            !has_reason(decision, ReasonKind::no_area) &&
+           !has_reason(decision, ReasonKind::beyond_size) &&
+           !has_reason(decision, ReasonKind::unfilled_pixel) &&
+           !has_reason(decision, ReasonKind::degenerate_culled) &&
            !has_reason(decision, ReasonKind::top_left_out);
 }
 

@@ -74,9 +74,10 @@ bool Narrowing::add_sides(const FixedPoint& p, const Hit& hit, uint32_t member,
                           std::vector<Side>& sides) {
     const TriangleSetup& setup = setups_[hit.triangle];
     const cases::Triangle& triangle = triangles_[hit.triangle];
-    if (setup.kind != TriangleSetup::Kind::outlines || setup.orientation == 0 ||
-        setup.may_be_culled || !setup.window.may_write(sample_) || !setup.window.must_touch(p) ||
-        is_taken_away(case_.draws[triangle.draw], p)) {
+    // "Coverage is set for all fragments generated from shared edges" of a conservative draw.
+    if (setup.area.is_on() || setup.kind != TriangleSetup::Kind::outlines ||
+        setup.orientation == 0 || setup.may_be_culled || !setup.window.may_write(sample_) ||
+        !setup.window.must_touch(p) || is_taken_away(case_.draws[triangle.draw], p)) {
         return false;
     }
     const bool is_literal = profile_ == cases::Profile::vulkan;

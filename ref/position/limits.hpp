@@ -13,6 +13,10 @@ struct Limits {
     // triStripVertexOrderIndependentOfProvokingVertex: barycentrics of an odd triangle of a strip
     // have the vertex order of the first vertex convention with the last one, too.
     bool first_strip_order = false;
+    // VkPhysicalDeviceConservativeRasterizationPropertiesEXT, pixels: primitiveOverestimationSize,
+    // extraPrimitiveOverestimationSizeGranularity; and degenerateTrianglesRasterized.
+    float overestimation = 0, overestimation_step = 0;
+    bool rasterizes_degenerates = true;
     friend bool operator==(const Limits&, const Limits&) = default;
 };
 

@@ -33,6 +33,17 @@ constexpr std::array kRows = {
     Row{passes_clip_distance, rule::clip_distance, "{inside}, and no clip distance is negative",
         rule::snap_nearest},
     Row{inside, rule::cover_inside, "{inside}", rule::snap_nearest},
+    Row{touches_pixel, rule::conservative_overestimate,
+        "the triangle has an area in common with the pixel, of which every sample is covered",
+        rule::snap_nearest},
+    Row{extra_reached, rule::conservative_size,
+        "enlarged by the extra size of the draw, the triangle has an area in common with the "
+        "pixel"},
+    Row{fills_pixel, rule::conservative_underestimate,
+        "the triangle holds the whole pixel, with its edges and corners", rule::snap_nearest},
+    Row{degenerate_kept, rule::conservative_degenerate,
+        "the triangle has no area after snapping, and meets the pixel; the device draws such "
+        "triangles (degenerateTrianglesRasterized)"},
     Row{other_layer,
         rule::layer_select,
         "the draw goes to layer {layer}",
@@ -65,6 +76,13 @@ constexpr std::array kRows = {
         "cull distance {number} is negative at all three vertices"},
     Row{clip_distance, rule::clip_distance, "clip distance {number} is negative at the sample"},
     Row{clip_plane, rule::clip_volume, "clipped away by the plane {plane} of the view volume"},
+    Row{beyond_size, rule::conservative_size,
+        "the triangle does not reach the pixel, enlarged by the sizes of the device and the draw"},
+    Row{unfilled_pixel, rule::conservative_underestimate,
+        "the triangle does not hold the whole pixel, with its edges and corners"},
+    Row{degenerate_culled, rule::conservative_degenerate,
+        "the triangle has no area after snapping, and the device culls such triangles "
+        "(degenerateTrianglesRasterized)"},
     Row{undefined, rule::number_undefined,
         "a vertex has a NaN, an infinity or a number beyond the guaranteed range: the triangle may "
         "cover any sample or none"},
@@ -86,6 +104,11 @@ constexpr std::array kRows = {
         "{viewport}"},
     Row{on_edge, rule::tie_top_left,
         "{ties}: only the top-left rule, between fixed points at profile direct3d, would decide"},
+    Row{may_reach, rule::conservative_size,
+        "the triangle may reach the pixel: by its border alone, for some positions of its "
+        "vertices, or as far as the device enlarges it"},
+    Row{may_fill, rule::conservative_underestimate,
+        "the triangle may hold the pixel, for some positions of its vertices or with its border"},
     Row{vertex_boxes, rule::cover_inside, "inside for some positions of the vertices only: {boxes}",
         rule::snap_nearest},
     Row{complement, rule::clip_complement,

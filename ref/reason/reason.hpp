@@ -22,6 +22,10 @@ enum class ReasonKind : uint8_t {
     passes_cull_distance,  // it lies inside, and no cull distance is negative at all vertices
     passes_clip_distance,  // it lies inside, and no clip distance is negative
     inside,                // it lies inside wherever the vertices may lie
+    touches_pixel,    // of a conservative draw: it has an area in common with the sample's pixel
+    extra_reached,    // the extra size of the draw makes it do so
+    fills_pixel,      // it holds the whole pixel
+    degenerate_kept,  // it has no area once it is snapped, and meets the pixel
     // A triangle must not cover the sample.
     other_layer,         // the draw goes to another layer
     masked,              // a sample mask of the draw leaves the sample out
@@ -38,6 +42,9 @@ enum class ReasonKind : uint8_t {
     cull_distance,       // a cull distance is negative at all vertices; its number
     clip_distance,       // a clip distance cuts it off; its number
     clip_plane,          // a plane of the view volume cuts it off; a ClipPlane
+    beyond_size,         // of a conservative draw: enlarged, it does not reach the pixel
+    unfilled_pixel,      // it does not hold the whole pixel
+    degenerate_culled,   // it has no area once it is snapped, and the device culls what has none
     // A triangle may cover the sample.
     undefined,        // a vertex is beyond what the profile promises anything of
     unbounded,        // a vertex of the clipped polygon may be anywhere
@@ -47,6 +54,8 @@ enum class ReasonKind : uint8_t {
     open_facing,      // the triangle is culled or not, as its vertices snap
     viewport_border,  // it lies within a pixel of a viewport's fractional border
     on_edge,          // it lies on an edge, and no rule of the profile decides; the edge's label
+    may_reach,        // of a conservative draw: enlarged, it may reach the pixel
+    may_fill,         // it may hold the whole pixel
     vertex_boxes,  // it is inside for some positions of the vertices; an edge's label or kNothing
     // A triangle may cover the sample, but those of a set share a number of hits.
     complement,     // of clip distances and their negatives

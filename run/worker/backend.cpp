@@ -72,12 +72,15 @@ class ReferenceBackend : public Backend {
         device_.max_color_attachments = 8;
         device_.max_target_size = cases::kMaxTargetSize;
         device_.has_primitive_id = true;
+        device_.rasterizes_degenerates = ref::Limits().rasterizes_degenerates;
         if (algorithm_ != nullptr) {
             device_.name = "Edgecase algorithm " + std::string(algorithm_->name);
         }
         if (software_) {
             device_.name = "Edgecase software rasterizer";
             device_.subpixel_bits = static_cast<uint32_t>(software_->subpixel_bits);
+            device_.overestimation = software::overestimation(*software_);
+            device_.rasterizes_degenerates = software_->rasterizes_degenerates;
         }
     }
     const DeviceInfo& device() const override { return device_; }

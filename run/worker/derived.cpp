@@ -98,6 +98,9 @@ ref::Limits limits_of(const vk_harness::DeviceInfo& device) {
     limits.mipmap_bits = std::max(4, static_cast<int>(device.mipmap_bits));
     limits.viewport_bits = static_cast<int>(std::min(device.viewport_subpixel_bits, 16U));
     limits.first_strip_order = device.has_first_strip_order;
+    limits.overestimation = device.overestimation;
+    limits.overestimation_step = device.overestimation_step;
+    limits.rasterizes_degenerates = device.rasterizes_degenerates;
     return limits;
 }
 

@@ -48,7 +48,7 @@ def lavapipe_alone_lacks(device, reason):
     if found := re.search(r"resolve depth by (\w+)", reason):
         return bool(device["limits"].get("supportedDepthResolveModes", 15) & RESOLVES[found[1]])
     for text, facts in (("fragmentShaderBarycentric", "features"), ("VK_EXT_sample_locations", "extensions"), ("depthBiasControl", "features"),
-                        ("depthBounds", "features")):
+                        ("depthBounds", "features"), ("VK_EXT_conservative_rasterization", "extensions")):
         if text in reason:
             return text in device[facts]
     return False

@@ -52,7 +52,10 @@ struct Judged {
 };
 
 Judged judged(const cases::Case& c, const Device& base, const Device& other, Profile profile) {
-    const ref::Expectation expectation = ref::expect(c, {base.subpixel_bits}, profile);
+    ref::Limits limits{base.subpixel_bits};
+    limits.overestimation = software::overestimation(base);
+    limits.rasterizes_degenerates = base.rasterizes_degenerates;
+    const ref::Expectation expectation = ref::expect(c, limits, profile);
     const capture::Capture own = captured(c, base);
     Judged out{compare(c, expectation, own), {}};
     out.related = out.alone;

@@ -69,6 +69,24 @@ std::vector<LegalDevice> legal_devices() {
     add("strips_keep_the_first_order",
         "barycentrics of strips have the order of the first vertex convention with the last one",
         Profile::direct3d, [](Device& d) { d.first_strip_order = true; });
+    add("enlarges_by_half_a_pixel",
+        "overestimation enlarges triangles by half a pixel, and culls those without area",
+        Profile::direct3d, [](Device& d) {
+            d.overestimation = software::Overestimation::half_pixel;
+            d.rasterizes_degenerates = false;
+        });
+    add("enlarges_by_a_unit_and_counts_borders",
+        "overestimation enlarges triangles by a unit, and borders count", Profile::direct3d,
+        [](Device& d) {
+            d.overestimation = software::Overestimation::unit;
+            d.counts_borders = true;
+            d.clip = ClipMethod::guard_band;
+        });
+    add("mitres_corners", "overestimation moves edges, which meet where they do", Profile::practice,
+        [](Device& d) {
+            d.overestimation = software::Overestimation::half_pixel;
+            d.mitres_corners = true;
+        });
     add("odd_quads", "quads of derivatives begin at odd pixels", Profile::direct3d,
         [](Device& d) { d.odd_quads = true; });
     add("blend_in_binary32", "bytes are blended in binary32", Profile::direct3d,
@@ -221,6 +239,8 @@ diff::Verdict judge(const cases::Case& c, const Device& device, cases::Profile p
     ref::Limits limits{device.subpixel_bits};
     limits.viewport_bits = device.viewport_bits;
     limits.first_strip_order = device.first_strip_order;
+    limits.overestimation = software::overestimation(device);
+    limits.rasterizes_degenerates = device.rasterizes_degenerates;
     const auto capture = captured(c, device);
     diff::Verdict verdict = compare(c, ref::expect(c, limits, profile), capture);
     if (device.keeps_viewport_grid && !c.blit && !verdict.ok() && verdict.error.empty()) {

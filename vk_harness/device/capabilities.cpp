@@ -198,12 +198,28 @@ void query_optional_features(Capabilities& c) {
     }
 }
 
+void query_conservative(Capabilities& c) {
+    if (!has_device_extension(c.physical, VK_EXT_CONSERVATIVE_RASTERIZATION_EXTENSION_NAME)) {
+        return;
+    }
+    VkPhysicalDeviceConservativeRasterizationPropertiesEXT conservative =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_CONSERVATIVE_RASTERIZATION_PROPERTIES_EXT};
+    get_properties(c.physical, conservative);
+    c.info.has_conservative = true;
+    c.info.has_underestimation = conservative.primitiveUnderestimation == VK_TRUE;
+    c.info.rasterizes_degenerates = conservative.degenerateTrianglesRasterized == VK_TRUE;
+    c.info.overestimation = conservative.primitiveOverestimationSize;
+    c.info.overestimation_step = conservative.extraPrimitiveOverestimationSizeGranularity;
+    c.info.most_overestimation = conservative.maxExtraPrimitiveOverestimationSize;
+}
+
 void query_features(Capabilities& c) {
     std::vector<std::string>& missing = c.info.missing;
     c.core = query_core_support(c.physical, c.info.api_version, has_device_extension);
     missing.insert(missing.end(), c.core.missing.begin(), c.core.missing.end());
     if (c.core.missing.empty()) {
         query_optional_features(c);
+        query_conservative(c);
     }
 
     uint32_t count = 0;

@@ -114,6 +114,8 @@ PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw,
     key.depth_format = c.target.depth_format;
     key.depth_clamp = draw.depth.clamp;
     key.depth_clip = draw.depth.clip;
+    key.conservative = draw.conservative;
+    key.extra_bits = std::bit_cast<uint32_t>(draw.conservative_extra);
     key.tests_bounds = cases::tests_bounds(c);
     key.has_depth = c.target.has_depth;
     key.has_stencil = c.target.has_stencil;

@@ -70,6 +70,8 @@ struct PipelineKey {
     cases::DepthFormat depth_format = cases::DepthFormat::d32_float;
     bool depth_clamp = false;
     std::optional<bool> depth_clip = {};
+    cases::Conservative conservative = cases::Conservative::none;
+    uint32_t extra_bits = 0;    // of Draw::conservative_extra
     bool tests_bounds = false;  // some draw of the case
     bool has_depth = true;
     bool has_stencil = false;

@@ -66,6 +66,17 @@ void rasterization_state(const PipelineKey& key, RasterizationState& state) {
         state.depth_clip.pNext = state.info.pNext;
         state.info.pNext = &state.depth_clip;
     }
+    if (key.conservative != cases::Conservative::none) {
+        state.conservative.sType =
+            VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_CONSERVATIVE_STATE_CREATE_INFO_EXT;
+        state.conservative.conservativeRasterizationMode =
+            key.conservative == cases::Conservative::overestimate
+                ? VK_CONSERVATIVE_RASTERIZATION_MODE_OVERESTIMATE_EXT
+                : VK_CONSERVATIVE_RASTERIZATION_MODE_UNDERESTIMATE_EXT;
+        state.conservative.extraPrimitiveOverestimationSize = std::bit_cast<float>(key.extra_bits);
+        state.conservative.pNext = state.info.pNext;
+        state.info.pNext = &state.conservative;
+    }
     if (key.provoking == cases::ProvokingVertex::last) {
         state.provoking.sType =
             VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_PROVOKING_VERTEX_STATE_CREATE_INFO_EXT;

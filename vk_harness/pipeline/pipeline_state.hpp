@@ -21,6 +21,7 @@ void vertex_input_state(const PipelineKey& key, VertexInputState& state);
 
 struct RasterizationState {
     VkPipelineRasterizationProvokingVertexStateCreateInfoEXT provoking{};
+    VkPipelineRasterizationConservativeStateCreateInfoEXT conservative{};
     VkPipelineRasterizationStateCreateInfo info{};
     VkPipelineRasterizationDepthClipStateCreateInfoEXT depth_clip{};
 };

@@ -28,7 +28,13 @@ struct DeviceInfo {
              max_target_size = 0;
     uint32_t interpolation_offset_bits = 0, mipmap_bits = 0;  // of interpolateAtOffset, of a LOD
     bool has_primitive_id = false;                            // the feature geometryShader
-    bool has_first_strip_order = false;     // triStripVertexOrderIndependentOfProvokingVertex
+    bool has_first_strip_order = false;   // triStripVertexOrderIndependentOfProvokingVertex
+    bool has_conservative = false;        // VK_EXT_conservative_rasterization, with
+    bool has_underestimation = false;     // primitiveUnderestimation,
+    bool rasterizes_degenerates = false;  // degenerateTrianglesRasterized,
+    // primitiveOverestimationSize, extraPrimitiveOverestimationSizeGranularity and
+    // maxExtraPrimitiveOverestimationSize, pixels.
+    float overestimation = 0, overestimation_step = 0, most_overestimation = 0;
     std::string hit_counting = "binary32";  // the numbers in which hits are added up, or binary16
     std::vector<std::string> missing;  // features without which no case can run, one sentence each
     static void fields(auto&& visit, auto&... d) {
@@ -51,6 +57,12 @@ struct DeviceInfo {
         visit("mipmap_bits", d.mipmap_bits...);
         visit("has_primitive_id", d.has_primitive_id...);
         visit("has_first_strip_order", d.has_first_strip_order...);
+        visit("has_conservative", d.has_conservative...);
+        visit("has_underestimation", d.has_underestimation...);
+        visit("rasterizes_degenerates", d.rasterizes_degenerates...);
+        visit("overestimation", d.overestimation...);
+        visit("overestimation_step", d.overestimation_step...);
+        visit("most_overestimation", d.most_overestimation...);
         visit("hit_counting", d.hit_counting...);
         visit("missing", d.missing...);
     }

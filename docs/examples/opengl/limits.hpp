@@ -30,6 +30,7 @@ inline std::string refusal(const Context& gl, const Json& c) {
     static const std::map<std::string, std::string> never = {
         {"barycentrics", "OpenGL has no barycentric coordinates"},
         {"alpha-to-one", "OpenGL has it with several samples alone"},
+        {"conservative-rasterization", "OpenGL has no conservative rasterization"},
         {"dual-source-blend", "this program writes one source of colour"},
         {"depth-bias-control", "OpenGL has no other representation of depth bias"}};
     static const std::map<std::string, std::string> extensions = {

@@ -32,6 +32,7 @@ const NEVER = {
   'depth-volume': 'WebGPU has no view volume from -w',
   'cull-distance': 'WebGPU has no cull distances',
   'rasterizer-discard': 'WebGPU has no rasterizer discard',
+  'conservative-rasterization': 'WebGPU has no conservative rasterization',
   'early-tests': 'WebGPU has no early tests',
   'sample-mask': 'this program sets no sample mask',
   'sample-shading': 'WebGPU has no sample shading',

@@ -48,6 +48,10 @@ enum class FixedMultiply : uint8_t { divide, shifts };
 // Where a linear filter that reaches beyond the blitted region is clamped.
 enum class BlitEdge : uint8_t { image, region };
 
+// By how much overestimation enlarges a triangle (primitiveOverestimationSize): not at all, by a
+// unit of the subpixel grid, or by half a pixel.
+enum class Overestimation : uint8_t { none, unit, half_pixel };
+
 // What a device is free to choose. The default is llvmpipe's way.
 struct Device {
     int subpixel_bits = 8;  // 4..12
@@ -73,6 +77,10 @@ struct Device {
     bool keeps_viewport_grid = false;   // bounds of viewports are rounded to it, halves up
     // Barycentrics of strips in the first convention's order, with the last convention, too.
     bool first_strip_order = false;
+    Overestimation overestimation = Overestimation::none;
+    bool counts_borders = false;  // a triangle covers pixels that its border alone touches or fills
+    bool mitres_corners = false;  // edges are moved, and meet where they do, however far away
+    bool rasterizes_degenerates = true;  // degenerateTrianglesRasterized
     UnormRounding unorm = UnormRounding::nearest;
     bool narrow_through_eight = false;  // UNORM of fewer bits is the high bits of an 8-bit code
     BlendMath blend = BlendMath::fixed;
@@ -87,5 +95,18 @@ struct Device {
     // they should be.
     float place_x = 0, place_y = 0;
 };
+
+// primitiveOverestimationSize, pixels.
+inline float overestimation(const Device& device) {
+    switch (device.overestimation) {
+        case Overestimation::none:
+            return 0;
+        case Overestimation::unit:
+            return 1.0F / static_cast<float>(1 << device.subpixel_bits);
+        case Overestimation::half_pixel:
+            return 0.5F;
+    }
+    return 0;
+}
 
 }  // namespace software

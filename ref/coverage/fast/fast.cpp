@@ -176,7 +176,9 @@ void scan_by_sets(const TriangleSetup& setup, uint32_t triangle, const cases::Ta
         if (!setup.window.may_write(s)) {
             continue;
         }
-        const Grid g = grid_of(setup.window, s, target);
+        const FixedPoint offset =
+            setup.area.is_on() ? pixel_centre({0, 0}) : sample_position(0, 0, s, target);
+        const Grid g = grid_of(setup.window, offset);
         Span base;
         base.sample = s;
         base.triangle = triangle;
@@ -188,7 +190,8 @@ void scan_by_sets(const TriangleSetup& setup, uint32_t triangle, const cases::Ta
     }
 }
 
-Coverage classify(const TriangleSetup& setup, const FixedPoint& p) {
+Coverage classify(const TriangleSetup& setup, const FixedPoint& sample) {
+    const FixedPoint p = setup.area.is_on() ? pixel_centre(sample) : sample;
     if (setup.kind == TriangleSetup::Kind::nothing || !setup.window.may_touch(p)) {
         return Coverage::must_not;
     }

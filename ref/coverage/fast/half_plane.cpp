@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "ref/coverage/fast/pixel_sets.hpp"
+
 namespace ref::fast {
 
 namespace {
@@ -14,17 +16,6 @@ Box bounds_of(std::span<const FixedPoint> points) {
         b = {std::min(b.x0, p.x), std::min(b.y0, p.y), std::max(b.x1, p.x), std::max(b.y1, p.y)};
     }
     return b;
-}
-
-// Sign of the area of the polygon through the low corners of the boxes. If some sample must be
-// covered, every choice of positions has this sign.
-int corner_sign(std::span<const Box> boxes) {
-    Int128 area = 0;
-    for (size_t i = 1; i + 1 < boxes.size(); ++i) {
-        area += edge_function({boxes[0].x0, boxes[0].y0}, {boxes[i].x0, boxes[i].y0},
-                              {boxes[i + 1].x0, boxes[i + 1].y0});
-    }
-    return sign_of(area);
 }
 
 void add_once(std::vector<HalfPlane>& planes, const HalfPlane& plane) {
@@ -61,6 +52,17 @@ HalfPlane parallel_plane(const Box& from, const Box& to, int sign) {
     return plane;
 }
 
+}  // namespace
+
+int corner_sign(std::span<const Box> boxes) {
+    Int128 area = 0;
+    for (size_t i = 1; i + 1 < boxes.size(); ++i) {
+        area += edge_function({boxes[0].x0, boxes[0].y0}, {boxes[i].x0, boxes[i].y0},
+                              {boxes[i + 1].x0, boxes[i + 1].y0});
+    }
+    return sign_of(area);
+}
+
 void add_edge(const Box& from, const Box& to, EdgeTest test, int sign,
               std::vector<HalfPlane>& planes) {
     switch (test) {
@@ -79,6 +81,8 @@ void add_edge(const Box& from, const Box& to, EdgeTest test, int sign,
             return;
     }
 }
+
+namespace {
 
 void add_boxes(const Outline& o, CoverageSets& out) {
     out.may.push_back(hull_set(o.vertices()));
@@ -190,6 +194,9 @@ CoverageSets coverage_set(const Outline& outline, int64_t grid_step) {
 }
 
 CoverageSets coverage_sets(const TriangleSetup& setup) {
+    if (setup.area.is_on()) {
+        return pixel_sets(setup);
+    }
     CoverageSets out;
     const OutlineList outlines = setup.outlines();
     out.has_must = outlines.size() > 0;

@@ -38,6 +38,14 @@ std::vector<FixedPoint> convex_hull(std::vector<FixedPoint> points);
 // The closed convex hull of the boxes.
 ConvexSet hull_set(std::span<const Box> boxes);
 
+// Sign of the area of the polygon through the low corners of the boxes. If some sample must be
+// covered, every choice of positions has this sign.
+int corner_sign(std::span<const Box> boxes);
+
+// Adds the half planes of an edge of an outline in mode boxes whose area has this sign.
+void add_edge(const Box& from, const Box& to, EdgeTest test, int sign,
+              std::vector<HalfPlane>& planes);
+
 // Makes the sets of one outline as if nothing cut it.
 CoverageSets coverage_set(const Outline& outline, int64_t grid_step);
 

@@ -6,18 +6,18 @@
 
 namespace ref::fast {
 
-Grid grid_of(const Window& w, uint32_t sample, const cases::Target& target) {
+Grid grid_of(const Window& w, const FixedPoint& offset) {
     Grid g;
-    g.offset = sample_position(0, 0, sample, target);
+    g.offset = offset;
     g.may_columns = {w.pixel_x0, w.pixel_x1 - 1};
     g.may_row_low = w.pixel_y0;
     g.may_row_high = w.pixel_y1 - 1;
     if (w.is_viewport_ignored) {
         return g;  // nothing must be drawn
     }
-    const auto limit = [](const FixedRange& r, int64_t offset, int64_t& low, int64_t& high) {
-        low = std::max(low, first_at(r.low, offset));
-        high = std::min(high, last_at(r.high, offset));
+    const auto limit = [](const FixedRange& r, int64_t at, int64_t& low, int64_t& high) {
+        low = std::max(low, first_at(r.low, at));
+        high = std::min(high, last_at(r.high, at));
     };
     limit(w.zone_x, g.offset.x, g.may_columns.low, g.may_columns.high);
     limit(w.zone_y, g.offset.y, g.may_row_low, g.may_row_high);

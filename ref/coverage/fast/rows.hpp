@@ -69,8 +69,8 @@ inline int64_t last_at(int64_t high, int64_t offset) {
     return floor_pixel(high - offset);
 }
 
-// The rows and columns of pixels in a window whose sample of this number may, and must, be touched.
-Grid grid_of(const Window& w, uint32_t sample, const cases::Target& target);
+// The rows and columns of pixels in a window whose sample at this offset may, and must, be touched.
+Grid grid_of(const Window& w, const FixedPoint& offset);
 
 // Appends one row: what is in `may` but not in `must` is either. The may intervals may overlap;
 // must lies inside them.

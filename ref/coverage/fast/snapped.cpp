@@ -114,9 +114,9 @@ void scan_candidates(std::span<const Corners> corners, const Grid& g, bool has_m
 
 bool is_plain_snapped(const TriangleSetup& setup) {
     const Outline& o = setup.unclipped;
-    if (setup.kind != TriangleSetup::Kind::outlines || !setup.has_outline || setup.is_clipped ||
-        !setup.tested.empty() || o.mode != OutlineMode::snapped || o.count != 3 ||
-        !o.cuts.empty()) {
+    if (setup.area.is_on() || setup.kind != TriangleSetup::Kind::outlines || !setup.has_outline ||
+        setup.is_clipped || !setup.tested.empty() || o.mode != OutlineMode::snapped ||
+        o.count != 3 || !o.cuts.empty()) {
         return false;
     }
     return std::all_of(o.vertices().begin(), o.vertices().end(), [](const Box& b) {
@@ -154,8 +154,9 @@ void scan_snapped(const TriangleSetup& setup, uint32_t triangle, const cases::Ta
             Span base;
             base.sample = s;
             base.triangle = triangle;
-            scan_candidates({corners.data(), count}, grid_of(setup.window, s, target), has_must,
-                            base, out);
+            scan_candidates({corners.data(), count},
+                            grid_of(setup.window, sample_position(0, 0, s, target)), has_must, base,
+                            out);
         }
     }
 }

@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <limits>
 
+#include "ref/number/edge_function.hpp"
 #include "ref/position/clip.hpp"
 #include "ref/position/viewport_grid.hpp"
 #include "ref/value/accept/judge_candidates.hpp"
@@ -278,6 +279,31 @@ bool has_border_between_pixels(const cases::Viewport& v) {
     return !is_on_viewport_grid(v.x, v.width, 0) || !is_on_viewport_grid(v.y, v.height, 0);
 }
 
+// Whether the vertices may be snapped to a line.
+bool may_have_no_area(const Primitive& primitive, const Limits& limits, cases::Profile profile) {
+    std::vector<BoxCorners> boxes;
+    for (const glm::vec4& clip : primitive.clip) {
+        const auto box = position_box(clip, primitive.draw->viewport, limits, profile);
+        if (!box) {
+            return true;
+        }
+        boxes.emplace_back(*box);
+    }
+    // The area is affine in each position, so that its extremes lie at corners.
+    bool has_positive = false;
+    bool has_negative = false;
+    for (const FixedPoint& a : boxes[0]) {
+        for (const FixedPoint& b : boxes[1]) {
+            for (const FixedPoint& c : boxes[2]) {
+                const Int128 area = edge_function(a, b, c);
+                has_positive = has_positive || area >= 0;
+                has_negative = has_negative || area <= 0;
+            }
+        }
+    }
+    return has_positive && has_negative;
+}
+
 // Nothing if T cannot tell an orientation.
 template <class T>
 std::optional<CandidateSet<T>> try_candidates(const Primitive& primitive,
@@ -328,6 +354,15 @@ std::optional<CandidateSet<T>> try_candidates(const Primitive& primitive,
         set.hulls = hulls_of(primitive, inputs, quantities, polygon, roundoff);
     }
 
+    const bool is_overestimated = primitive.draw->conservative == cases::Conservative::overestimate;
+    if (is_overestimated) {
+        // The centre of a pixel that is covered may lie outside of the triangle, where values are
+        // extrapolated: nothing holds them in the range of the vertices.
+        for (Range<T>& hull : set.hulls) {
+            hull = {T(-0x1p127), T(0x1p127)};
+        }
+    }
+
     Basis<T> unsnapped = make_basis(ideal, inputs, kBudgetFactor);
     is_known = unsnapped.orientation != 2;
     const bool has_area = unsnapped.orientation == 1 || unsnapped.orientation == -1;
@@ -363,6 +398,12 @@ std::optional<CandidateSet<T>> try_candidates(const Primitive& primitive,
         // those before: these have an area by roundings alone, of any size and sign, and the
         // sample need not lie between them. So such a plane has any value there; the weights of
         // the specification have the area for a denominator ("Basic Polygon Rasterization").
+        set.candidates.push_back({ref::BasisKind::unsnapped, {}, false, false, true});
+    }
+    // Of a triangle that may have no area, values are those of the provoking vertex, and which
+    // piece of a clipped one a pixel outside of all belongs to is not said.
+    if (is_overestimated &&
+        (primitive.needs_clipping || may_have_no_area(primitive, limits, profile))) {
         set.candidates.push_back({ref::BasisKind::unsnapped, {}, false, false, true});
     }
     if (set.candidates.empty()) {

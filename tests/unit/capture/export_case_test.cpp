@@ -89,8 +89,9 @@ std::vector<Change> target_changes() {
 std::vector<Change> draw_changes() {
     [[maybe_unused]] const auto& [topology, positions, indices, primitive_restart, attributes,
                                   viewport, scissor, cull, front_face, provoking,
-                                  rasterizer_discard, discard, discard_by, early_tests, frag_depth,
-                                  query, depth, stencil, distances, multisample, color,
+                                  rasterizer_discard, conservative, conservative_extra, discard,
+                                  discard_by, early_tests, frag_depth, query, depth, stencil,
+                                  distances, multisample, color,
                                   other_colors,  // not told
                                   layer, viewport_index, where] = cases::Draw{};
     [[maybe_unused]] const auto& [x, y, width, height, min_depth, max_depth] = cases::Viewport{};
@@ -118,6 +119,9 @@ std::vector<Change> draw_changes() {
         {"front_face", [](Case& c) { draw(c).front_face = cases::FrontFace::clockwise; }},
         {"provoking", [](Case& c) { draw(c).provoking = cases::ProvokingVertex::last; }},
         {"rasterizer_discard", [](Case& c) { draw(c).rasterizer_discard = true; }},
+        {"conservative",
+         [](Case& c) { draw(c).conservative = cases::Conservative::underestimate; }},
+        {"conservative_extra", [](Case& c) { draw(c).conservative_extra = 0.5F; }},
         {"discard", [](Case& c) { draw(c).discard = cases::Discard::odd_rows; }},
         {"discard_by", [](Case& c) { draw(c).discard_by = cases::DiscardBy::demote; }},
         {"early_tests", [](Case& c) { draw(c).early_tests = true; }},

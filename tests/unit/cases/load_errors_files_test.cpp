@@ -350,6 +350,62 @@ rules = ["cover.inside"]
 size = [2, 1]
 [[draw]]
 vertices = [[0,0],[8,0],[0,8]]
+conservative_extra = 0.5
+)~"),
+     R"~(f:8:22: error: conservative_extra enlarges what is overestimated; write conservative = "overestimate", or leave it out)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [2, 1]
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+conservative = "overestimate"
+conservative_extra = 5
+)~"),
+     R"~(f:9:22: error: conservative_extra is outside 0..4; write by how many pixels the triangles are enlarged)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [2, 1]
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+conservative = "overestimated"
+)~"),
+     R"~(f:8:16: error: conservative is "overestimated"; did you mean "overestimate"?)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [2, 1]
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+conservative = "underestimate"
+[[draw.clip_distance]]
+constant = 1
+)~"),
+     R"~(f:8:16: error: conservative does not go with clip and cull distances; leave out one of them)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [2, 1]
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+conservative = "overestimate"
+[[draw.attribute]]
+constant = 1
+auxiliary = "centroid"
+)~"),
+     R"~(f:8:16: error: conservative does not go with centroid inputs and probes; leave out one of them)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [2, 1]
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
 discard_by = "demote"
 )~"),
      R"~(f:8:14: error: discard_by without discard means nothing; leave it out)~"},

@@ -238,6 +238,31 @@ hits = [
     EXPECT_EQ(written(text), text);
 }
 
+TEST(ToToml, WritesConservativeDraws) {
+    const std::string text = R"toml(format      = 1
+description = "family/name"
+rules       = ["cover.inside"]
+
+[target]
+size = [8, 8]
+
+[[draw]]
+vertices           = [[0,0], [8,0], [0,8]]
+conservative       = "overestimate"
+conservative_extra = 0.25
+)toml";
+    const std::optional<Case> c = load_one(text, "family/name");
+    ASSERT_TRUE(c);
+    EXPECT_EQ(c->draws[0].conservative, Conservative::overestimate);
+    const Expected<std::string> once = to_toml(*c);
+    ASSERT_TRUE(once);
+    EXPECT_NE(once->find("conservative       = \"overestimate\"\nconservative_extra = 0.25\n"),
+              std::string::npos);
+    const std::optional<Case> back = load_one(*once, "family/name");
+    ASSERT_TRUE(back);
+    EXPECT_EQ(to_bytes(*back), to_bytes(*c));
+}
+
 // One row a way to write a number: what is given, and the vertices that come of it.
 TEST(ToToml, WritesNumbersShortest) {
     struct NumberRow {

@@ -39,6 +39,8 @@ Case sample() {
     draw.attributes.push_back(weights);
     draw.provoking = ProvokingVertex::last;
     draw.rasterizer_discard = true;
+    draw.conservative = cases::Conservative::overestimate;
+    draw.conservative_extra = 0.75F;
     draw.discard = cases::Discard::checker;
     draw.discard_by = cases::DiscardBy::terminate;
     draw.early_tests = true;
@@ -147,6 +149,8 @@ TEST(Wire, RoundTripKeepsEveryBit) {
         EXPECT_EQ(a.provoking, b.provoking);
         EXPECT_EQ(a.rasterizer_discard, b.rasterizer_discard);
         EXPECT_EQ(a.discard, b.discard);
+        EXPECT_EQ(a.conservative, b.conservative);
+        EXPECT_EQ(a.conservative_extra, b.conservative_extra);
         EXPECT_EQ(a.discard_by, b.discard_by);
         EXPECT_EQ(a.early_tests, b.early_tests);
         EXPECT_EQ(a.frag_depth, b.frag_depth);

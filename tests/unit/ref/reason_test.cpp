@@ -205,6 +205,12 @@ void take_away(Scene& s, Reason reason, int orientation) {
             set_distances(draw.distances.clip, kNothing, -1);
             return;
         case ReasonKind::inside:
+        case ReasonKind::touches_pixel:
+        case ReasonKind::extra_reached:
+        case ReasonKind::fills_pixel:
+        case ReasonKind::degenerate_kept:
+        case ReasonKind::may_reach:
+        case ReasonKind::may_fill:
             replace(s, true, orientation);
             return;
         case ReasonKind::masked:
@@ -221,6 +227,9 @@ void take_away(Scene& s, Reason reason, int orientation) {
         case ReasonKind::outside:
         case ReasonKind::outside_hull:
         case ReasonKind::no_area:
+        case ReasonKind::beyond_size:
+        case ReasonKind::unfilled_pixel:
+        case ReasonKind::degenerate_culled:
         case ReasonKind::undefined:
         case ReasonKind::unbounded:
             replace(s, false, orientation);
@@ -422,9 +431,10 @@ class LeafReasons {
 };
 
 TEST(Reasons, DecideWhatTheyAreToldFor) {
-    // The others are of values (value_reason_test.cpp) and of findings (diff/attribution.cpp).
+    // The others are of values (value_reason_test.cpp) and of findings (diff/attribution.cpp), and
+    // the limits here are those of a device that draws what has no area.
     const auto is_asked = [](ReasonKind kind) {
-        return kind <= ReasonKind::shared_edge ||
+        return (kind <= ReasonKind::shared_edge && kind != ReasonKind::degenerate_culled) ||
                (kind >= ReasonKind::depth_ranges && kind <= ReasonKind::depth_apart);
     };
     std::map<ReasonKind, size_t> seen;

@@ -128,6 +128,28 @@ TEST(CaseCheck, SampleShading) {
                     "the fraction of samples that is shaded at least must lie in [0, 1]");
 }
 
+TEST(CaseCheck, Conservative) {
+    using enum Rendered::Status;
+    Capabilities m = made_up();
+    cases::Case c = good();
+    c.draws[0].conservative = cases::Conservative::underestimate;
+    expect_rejected(m, c, unsupported, "the device lacks VK_EXT_conservative_rasterization");
+    m.info.has_conservative = true;
+    expect_rejected(m, c, unsupported,
+                    "the device does not underestimate (primitiveUnderestimation)");
+    m.info.has_underestimation = true;
+    EXPECT_FALSE(check_case(m, c).has_value());
+    c.draws[0].conservative = cases::Conservative::overestimate;
+    EXPECT_FALSE(check_case(m, c).has_value());
+    c.draws[0].conservative_extra = 0.5F;
+    m.info.most_overestimation = 0.25F;
+    expect_rejected(m, c, unsupported,
+                    "the draw enlarges its triangles by 0.5 pixels, the device allows 0.25 "
+                    "(maxExtraPrimitiveOverestimationSize)");
+    m.info.most_overestimation = 0.5F;
+    EXPECT_FALSE(check_case(m, c).has_value());
+}
+
 TEST(CaseCheck, HitsThatShareANumber) {
     using enum Rendered::Status;
     Capabilities m = made_up();

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "vk_harness/pipeline/pipeline_key.hpp"
+#include "vk_harness/pipeline/pipeline_state.hpp"
+
+namespace vk_harness {
+namespace {
+
+const VkPipelineRasterizationConservativeStateCreateInfoEXT* conservative_of(
+    const RasterizationState& state) {
+    const auto* s = static_cast<const VkBaseInStructure*>(state.info.pNext);
+    for (; s != nullptr; s = s->pNext) {
+        if (s->sType ==
+            VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_CONSERVATIVE_STATE_CREATE_INFO_EXT) {
+            return reinterpret_cast<const VkPipelineRasterizationConservativeStateCreateInfoEXT*>(
+                s);
+        }
+    }
+    return nullptr;
+}
+
+TEST(ConservativeState, IsThatOfTheDraw) {
+    PipelineKey key;
+    RasterizationState plain;
+    rasterization_state(key, plain);
+    EXPECT_EQ(conservative_of(plain), nullptr);
+    key.conservative = cases::Conservative::overestimate;
+    key.extra_bits = 0x3e800000U;  // 0.25
+    key.provoking = cases::ProvokingVertex::last;
+    key.depth_clip = true;
+    RasterizationState over;
+    rasterization_state(key, over);
+    const auto* state = conservative_of(over);
+    ASSERT_NE(state, nullptr);
+    EXPECT_EQ(state->conservativeRasterizationMode,
+              VK_CONSERVATIVE_RASTERIZATION_MODE_OVERESTIMATE_EXT);
+    EXPECT_EQ(state->extraPrimitiveOverestimationSize, 0.25F);
+    key.conservative = cases::Conservative::underestimate;
+    key.extra_bits = 0;
+    RasterizationState under;
+    rasterization_state(key, under);
+    ASSERT_NE(conservative_of(under), nullptr);
+    EXPECT_EQ(conservative_of(under)->conservativeRasterizationMode,
+              VK_CONSERVATIVE_RASTERIZATION_MODE_UNDERESTIMATE_EXT);
+    EXPECT_NE(under.info.pNext, nullptr);
+}
+
+}  // namespace
+}  // namespace vk_harness
