@@ -19,6 +19,7 @@
 #include "cli/commands.hpp"
 #include "cli/diagnose.hpp"
 #include "cli/prepare/expectations.hpp"
+#include "cli/prepare/loop_config.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/prepare_run.hpp"
 #include "cli/prepare/run_plan.hpp"
@@ -217,7 +218,8 @@ report::Run make_header(const Program& program, const DiffOptions& options,
     header.device.driver_name = "files";
     header.device.driver_info = "in " + options.captures;
     header.device.type = "other";
-    header.device.subpixel_bits = options.subpixel_bits;
+    header.device.subpixel_bits = options.judged.subpixel_bits;
+    header.device.sample_locations = options.judged.sample_locations;
     header.device.has_primitive_id = true;
     for (const cases::Case& c : selection.cases) {
         header.cases.push_back(run::make_record(c));
@@ -295,7 +297,7 @@ int diff_command(const Program& program, const DiffOptions& given) {
 
     const Clock::time_point begin = Clock::now();
     Work work{options, {}};
-    work.limits.subpixel_bits = static_cast<int>(options.subpixel_bits);
+    work.limits = limits_of(options.judged);
     std::map<std::string, size_t> skipped;
     std::string failure;
     size_t done = 0;
@@ -319,7 +321,7 @@ int diff_command(const Program& program, const DiffOptions& given) {
         const auto finish = [&, k] {
             settle(record, *expected, o.require_support);
             if (!record.findings.empty()) {
-                record.explain = explain_line(program, o, record.id, options.subpixel_bits) +
+                record.explain = explain_line(program, o, record.id, options.judged) +
                                  report::sample_options(report::leading_finding(record), c.target);
             }
             if (auto written = journal->write_end(record); !written && failure.empty()) {

@@ -17,6 +17,7 @@
 #include "capture/exchange/plane_files.hpp"
 #include "cases/base/printable.hpp"
 #include "cli/commands.hpp"
+#include "cli/prepare/loop_config.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
 #include "cli/reproducer/reproducer.hpp"
@@ -53,9 +54,7 @@ int export_reproducer(const Program& program, const ExportOptions& options) {
     if (!c) {
         return report_stop(c.error());
     }
-    ref::Limits limits;
-    limits.subpixel_bits = static_cast<int>(options.subpixel_bits);
-    const auto text = reproducer(*c, limits, options.profile, kVersion);
+    const auto text = reproducer(*c, limits_of(options.judged), options.profile, kVersion);
     if (!text) {
         return report_stop({report::kExitUsage, {text.error().message}});
     }

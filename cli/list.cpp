@@ -17,6 +17,7 @@
 #include "cli/commands.hpp"
 #include "cli/explain_text.hpp"
 #include "cli/options/stop.hpp"
+#include "cli/prepare/loop_config.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
 #include "ref/expectation/expectation.hpp"
@@ -144,7 +145,7 @@ int explain_command(const Program& program, const ExplainOptions& options) {
     if (!options.rule.empty()) {
         return explain_rule(program, options);
     }
-    const OrStop<cases::Case> c = load_one_case(program, options.suite);
+    OrStop<cases::Case> c = load_one_case(program, options.suite);
     if (!c) {
         return report_stop(c.error());
     }
@@ -165,8 +166,10 @@ int explain_command(const Program& program, const ExplainOptions& options) {
         return report_stop(
             {report::kExitUsage, {"'" + c->id + "' is a blit: name one of its texels by --pixel"}});
     }
-    ref::Limits limits;
-    limits.subpixel_bits = static_cast<int>(options.subpixel_bits);
+    const ref::Limits limits = limits_of(options.judged);
+    if (auto placed = ref::with_own_samples(*c, limits)) {
+        *c = std::move(*placed);
+    }
     const std::string text =
         !options.has_pixel ? explain_text(*c, limits, options.profile)
                            : explain_text(*c, limits, options.profile,

@@ -57,7 +57,7 @@ OrStop<Drawer> make_drawer(const Program& program, const ReduceOptions& options,
     }
     OrStop<CapturesCommand> command =
         CapturesCommand::open({options.captures_command, options.run.device.timeout,
-                               options.subpixel_bits, options.run.profile},
+                               limits_of(options.judged), options.run.profile},
                               signals);
     if (!command) {
         return tl::unexpected(command.error());

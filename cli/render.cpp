@@ -15,6 +15,7 @@
 #include "cases/model/words.hpp"
 #include "cli/commands.hpp"
 #include "cli/prepare/drawing.hpp"
+#include "cli/prepare/loop_config.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
 #include "ref/expectation/counted.hpp"
@@ -219,8 +220,7 @@ capture::Image coverage_image(const Reference& r) {
 
 // What the reference allows at each sample.
 Drawing allowed_picture(const cases::Case& c, const RenderOptions& options) {
-    ref::Limits limits;
-    limits.subpixel_bits = static_cast<int>(options.subpixel_bits);
+    const ref::Limits limits = limits_of(options.judged);
     const auto r =
         std::make_shared<Reference>(Reference{c, ref::expect(c, limits, options.profile),
                                               ref::ValueReference(c, limits, options.profile)});
@@ -245,9 +245,12 @@ OrStop<Drawing> picture_of(const cases::Case& c, const RenderOptions& options) {
 }  // namespace
 
 int render_command(const Program& program, const RenderOptions& options) {
-    const OrStop<cases::Case> c = load_one_case(program, options.suite);
+    OrStop<cases::Case> c = load_one_case(program, options.suite);
     if (!c) {
         return report_stop(c.error());
+    }
+    if (auto placed = ref::with_own_samples(*c, limits_of(options.judged))) {
+        *c = std::move(*placed);
     }
     const std::string extension = std::filesystem::path(options.output).extension().string();
     if (extension != ".json" && extension != ".png" && extension != ".exr" && extension != ".tif") {

@@ -64,7 +64,7 @@ OrStop<std::monostate> check_required_device(const RunOptions& options,
 
 bool is_same_device(const report::Device& a, const report::Device& b) {
     return a.name == b.name && a.uuid == b.uuid && a.driver_version == b.driver_version &&
-           a.subpixel_bits == b.subpixel_bits;
+           a.subpixel_bits == b.subpixel_bits && a.sample_locations == b.sample_locations;
 }
 
 // One case, drawn once, by a worker that a person looks at.
@@ -132,6 +132,7 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
     if (auto applied = apply_expectations(p); !applied) {
         return stopped(options, applied.error());
     }
+    const JudgedDevice judged{device.subpixel_bits, device.sample_locations};
     for (run::PlannedCase& c : p.plan) {
         c.selector = shell_quote(selector_of(options, c.data.id));
         std::vector<std::string> doors;
@@ -140,10 +141,10 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
         }
         c.rerun = rerun_line(program, options, c.data.id, doors);
         c.plain_rerun = rerun_line(program, options, c.data.id);
-        c.explain = explain_line(program, options, c.data.id, device.subpixel_bits);
+        c.explain = explain_line(program, options, c.data.id, judged);
         c.no_reproducer = undrawable_part(c.data);
         if (c.no_reproducer.empty()) {
-            c.reproducer = reproducer_line(program, options, c.data.id, device.subpixel_bits);
+            c.reproducer = reproducer_line(program, options, c.data.id, judged);
             c.no_reproducer = may_be_too_large(c.data) ? "many values" : "";
         }
     }

@@ -29,10 +29,18 @@ using report::Diagnosis;
 
 constexpr uint64_t kMaxSeedCost = 1U << 14U;  // of all seeds: some seconds of one core
 
+ref::Limits limits_of(const report::Device& device) {
+    ref::Limits limits{static_cast<int>(device.subpixel_bits)};
+    if (auto lists = cases::parse_sample_locations(device.sample_locations)) {
+        limits.sample_locations = std::move(*lists);
+    }
+    return limits;
+}
+
 class Diagnoser {
   public:
     Diagnoser(const report::Run& run, const CaseOf& case_of, const Bound& bound)
-        : bound_(bound), bits_(static_cast<int>(run.device.subpixel_bits)), profile_(run.profile) {
+        : bound_(bound), limits_(limits_of(run.device)), profile_(run.profile) {
         // A known failure that fails otherwise, too, shows two errors at once: such cases are
         // looked at where there are no others.
         const bool has_news = std::any_of(run.cases.begin(), run.cases.end(), [](const auto& r) {
@@ -58,7 +66,7 @@ class Diagnoser {
                 break;
             }
             work_ += work_of_subject(*choice.data);
-            if (auto subject = make_subject(*choice.data, *choice.record, bits_, profile_)) {
+            if (auto subject = make_subject(*choice.data, *choice.record, limits_, profile_)) {
                 subjects_.push_back(std::move(*subject));
                 families.insert(family_of(*choice.record));
             }
@@ -145,7 +153,8 @@ class Diagnoser {
         }
         size_t fits = 0;
         for (size_t k = 0; k < subjects_.size() && fits < kMaxFits; ++k) {
-            const std::vector<Hypothesis> fitted = fitted_hypotheses(subjects_[k], bits_);
+            const std::vector<Hypothesis> fitted =
+                fitted_hypotheses(subjects_[k], limits_.subpixel_bits);
             fits += fitted.empty() ? 0U : 1U;
             for (const Hypothesis& h : fitted) {
                 if (std::none_of(out.begin(), out.end(),
@@ -155,7 +164,7 @@ class Diagnoser {
             }
         }
         fitted_ = out.size();
-        const std::vector<Hypothesis> known = known_hypotheses(bits_);
+        const std::vector<Hypothesis> known = known_hypotheses(limits_.subpixel_bits);
         out.insert(out.end(), known.begin(), known.end());
         return out;
     }
@@ -314,7 +323,7 @@ class Diagnoser {
     const std::vector<Subject>& more_failed() {
         for (const Choice& choice : std::exchange(more_failed_, {})) {
             work_ += work_of_subject(*choice.data);
-            if (auto subject = make_subject(*choice.data, *choice.record, bits_, profile_)) {
+            if (auto subject = make_subject(*choice.data, *choice.record, limits_, profile_)) {
                 more_subjects_.push_back(std::move(*subject));
             }
         }
@@ -350,7 +359,7 @@ class Diagnoser {
             work_ += work_of_picture(*c);
             std::optional<capture::Capture> drawn = draw(known_[tally.hypothesis], *c);
             const std::optional<Subject>& subject = drawn ? passed_subject(*c) : nothing_;
-            if (subject && subject->with_instruments) {
+            if (subject && subject->altered) {
                 drawn = draw(known_[tally.hypothesis], *subject->data);
             }
             if (subject && is_against(*subject, *drawn)) {
@@ -363,7 +372,7 @@ class Diagnoser {
         const auto [at, is_new] = passed_subjects_.try_emplace(&c);
         if (is_new) {
             work_ += work_of_subject(c);
-            at->second = make_subject(c, *passed_records_.at(c.id), bits_, profile_);
+            at->second = make_subject(c, *passed_records_.at(c.id), limits_, profile_);
         }
         return at->second;
     }
@@ -403,7 +412,7 @@ class Diagnoser {
     Bound bound_;
     uint64_t all_failed_ = 0;
     Work work_ = 0;
-    int bits_;
+    ref::Limits limits_;
     cases::Profile profile_;
     std::vector<Subject> subjects_;
     size_t failed_ = 0;                   // cases that could be subjects

@@ -95,21 +95,24 @@ bool is_same_value(std::string_view expected, std::string_view device, std::stri
     return true;
 }
 
-std::optional<Subject> make_subject(const cases::Case& c, const report::CaseRecord& record,
-                                    int subpixel_bits, cases::Profile profile) {
+std::optional<Subject> make_subject(const cases::Case& filed, const report::CaseRecord& record,
+                                    const ref::Limits& limits, cases::Profile profile) {
     Subject out;
-    out.data = &c;
+    out.data = &filed;
     out.record = &record;
-    if (record.is_delivered && !c.blit && !c.target.has_instruments) {
-        auto whole = std::make_shared<cases::Case>(c);
-        whole->target.has_instruments = true;
-        out.with_instruments = std::move(whole);
-        out.data = out.with_instruments.get();
+    const std::optional<cases::Case> placed = ref::with_own_samples(filed, limits);
+    const cases::Case& c = placed ? *placed : filed;
+    const bool is_whole = record.is_delivered && !c.blit && !c.target.has_instruments;
+    if (placed || is_whole) {
+        auto altered = std::make_shared<cases::Case>(c);
+        altered->target.has_instruments = c.target.has_instruments || is_whole;
+        out.altered = std::move(altered);
+        out.data = out.altered.get();
     }
-    out.expectation = c.blit ? ref::Expectation{} : ref::expect(c, {subpixel_bits}, profile);
+    out.expectation = c.blit ? ref::Expectation{} : ref::expect(c, limits, profile);
     out.expectation.profile = profile;
     software::Device right;
-    right.subpixel_bits = subpixel_bits;
+    right.subpixel_bits = limits.subpixel_bits;
     out.right = software::captured(*out.data, right);
     if (!verdict_of(out, out.right).ok()) {
         return std::nullopt;

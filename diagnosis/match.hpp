@@ -40,8 +40,9 @@ struct Match {
 // A case ready to be compared with: what may be drawn of it, and what a right device draws.
 struct Subject {
     const cases::Case* data = nullptr;
-    // What `data` is if the case, as a driver draws it, has not all planes that were delivered.
-    std::shared_ptr<const cases::Case> with_instruments;
+    // What `data` is if it is not the case of the file: with the planes that were delivered, which
+    // a driver would not draw, or with the device's own sample locations.
+    std::shared_ptr<const cases::Case> altered;
     const report::CaseRecord* record = nullptr;  // of the device
     ref::Expectation expectation;
     capture::Capture right;
@@ -49,7 +50,7 @@ struct Subject {
 
 // Prepares a case; nothing if the software device without a fault has a finding itself there.
 std::optional<Subject> make_subject(const cases::Case& c, const report::CaseRecord& record,
-                                    int subpixel_bits, cases::Profile profile);
+                                    const ref::Limits& limits, cases::Profile profile);
 
 // The verdict on another picture of the case, on what was judged of the device's alone: a renderer
 // elsewhere need not deliver all planes.

@@ -116,10 +116,16 @@ CaseRecord make_record(const cases::Case& c) {
     return record;
 }
 
-void judge(CaseRecord& record, const cases::Case& c, const capture::CaptureView& capture,
+void judge(CaseRecord& record, const cases::Case& filed, const capture::CaptureView& drawn,
            const WorkerFindings& found, const ref::Limits& limits, cases::Profile profile,
            KeepPictures pictures) {
     try {
+        const std::optional<cases::Case> placed = ref::with_own_samples(filed, limits);
+        const cases::Case& c = placed ? *placed : filed;
+        capture::CaptureView capture = drawn;
+        if (placed) {
+            capture.target = c.target;
+        }
         ref::Expectation expectation =
             c.blit ? ref::Expectation{} : ref::expect(c, limits, profile);
         diff::Verdict verdict = c.blit ? diff::compare_blit(c, profile, capture)
@@ -157,10 +163,12 @@ void judge(CaseRecord& record, const cases::Case& c, const capture::CaptureView&
     }
 }
 
-void judge_delivered(CaseRecord& record, const cases::Case& c, const capture::Delivered& planes,
+void judge_delivered(CaseRecord& record, const cases::Case& filed, const capture::Delivered& planes,
                      const ref::Limits& limits, cases::Profile profile, KeepPictures pictures) {
     record.is_delivered = true;
     try {
+        const std::optional<cases::Case> placed = ref::with_own_samples(filed, limits);
+        const cases::Case& c = placed ? *placed : filed;
         diff::Verdict verdict;
         ref::Expectation expectation;
         capture::Capture capture;

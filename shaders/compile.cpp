@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// compile_shader SOURCE VARIANTS OUTPUT, at build time: compiles SOURCE (GLSL; the end of its name says the stage) once a
-// variant and writes all modules to OUTPUT as C++ arrays. Each line of VARIANTS is a variant: the array's name, 1.1 or 1.2
-// (the Vulkan version whose SPIR-V it is: 1.3 or 1.5), then its definitions as NAME=VALUE. One process for all, because
-// glslang reads its own built-in declarations for 0.1 s first, ten times what a variant takes.
+// compile_shader SOURCE VARIANTS OUTPUT, at build time: compiles SOURCE (GLSL; the end of its name
+// says the stage) once a variant and writes all modules to OUTPUT as C++ arrays. Each line of
+// VARIANTS is a variant: the array's name, 1.1 or 1.2 (the Vulkan version whose SPIR-V it is: 1.3
+// or 1.5), then its definitions as NAME=VALUE. One process for all, because glslang reads its own
+// built-in declarations for 0.1 s first, ten times what a variant takes.
 #include <glslang/Include/glslang_c_interface.h>
 #include <glslang/Public/ResourceLimits.h>
 
@@ -32,8 +33,9 @@ std::string content_of(const char* path) {
 
 glslang_stage_t stage_of(const std::filesystem::path& source) {
     static const std::map<std::string, glslang_stage_t> kStages{
-        {".vert", GLSLANG_STAGE_VERTEX},           {".frag", GLSLANG_STAGE_FRAGMENT},       {".geom", GLSLANG_STAGE_GEOMETRY},
-        {".tesc", GLSLANG_STAGE_TESSCONTROL}, {".tese", GLSLANG_STAGE_TESSEVALUATION}, {".comp", GLSLANG_STAGE_COMPUTE}};
+        {".vert", GLSLANG_STAGE_VERTEX},         {".frag", GLSLANG_STAGE_FRAGMENT},
+        {".geom", GLSLANG_STAGE_GEOMETRY},       {".tesc", GLSLANG_STAGE_TESSCONTROL},
+        {".tese", GLSLANG_STAGE_TESSEVALUATION}, {".comp", GLSLANG_STAGE_COMPUTE}};
     const auto found = kStages.find(source.extension().string());
     if (found == kStages.end()) {
         throw std::runtime_error(source.string() + " names no stage");
@@ -59,35 +61,43 @@ std::vector<Variant> variants_of(const char* path) {
         while (words >> word) {
             const size_t equals = word.find('=');
             if (equals == std::string::npos) {
-                throw std::runtime_error(word + " of " + variant.name + " is no definition NAME=VALUE");
+                throw std::runtime_error(word + " of " + variant.name +
+                                         " is no definition NAME=VALUE");
             }
-            variant.preamble += "#define " + word.substr(0, equals) + " " + word.substr(equals + 1) + "\n";
+            variant.preamble +=
+                "#define " + word.substr(0, equals) + " " + word.substr(equals + 1) + "\n";
         }
         variants.push_back(variant);
     }
     return variants;
 }
 
-std::vector<uint32_t> compiled(const std::string& code, glslang_stage_t stage, const Variant& variant) {
+std::vector<uint32_t> compiled(const std::string& code, glslang_stage_t stage,
+                               const Variant& variant) {
     glslang_input_t input{};
     input.language = GLSLANG_SOURCE_GLSL;
     input.stage = stage;
     input.client = GLSLANG_CLIENT_VULKAN;
-    input.client_version = variant.is_of_vulkan_12 ? GLSLANG_TARGET_VULKAN_1_2 : GLSLANG_TARGET_VULKAN_1_1;
+    input.client_version =
+        variant.is_of_vulkan_12 ? GLSLANG_TARGET_VULKAN_1_2 : GLSLANG_TARGET_VULKAN_1_1;
     input.target_language = GLSLANG_TARGET_SPV;
-    input.target_language_version = variant.is_of_vulkan_12 ? GLSLANG_TARGET_SPV_1_5 : GLSLANG_TARGET_SPV_1_3;
+    input.target_language_version =
+        variant.is_of_vulkan_12 ? GLSLANG_TARGET_SPV_1_5 : GLSLANG_TARGET_SPV_1_3;
     input.code = code.c_str();
     input.default_version = 100;
     input.default_profile = GLSLANG_NO_PROFILE;
-    input.messages = static_cast<glslang_messages_t>(GLSLANG_MSG_SPV_RULES_BIT | GLSLANG_MSG_VULKAN_RULES_BIT);
-    // The C++ structure is the C one, member by member; Debian 12's library lacks the function that returns the latter.
+    input.messages =
+        static_cast<glslang_messages_t>(GLSLANG_MSG_SPV_RULES_BIT | GLSLANG_MSG_VULKAN_RULES_BIT);
+    // The C++ structure is the C one, member by member; Debian 12's library lacks the function that
+    // returns the latter.
     input.resource = reinterpret_cast<const glslang_resource_t*>(GetDefaultResources());
     glslang_shader_t* shader = glslang_shader_create(&input);
     glslang_shader_set_preamble(shader, variant.preamble.c_str());
     glslang_program_t* program = glslang_program_create();
     std::string wrong;
     std::vector<uint32_t> module;
-    if (glslang_shader_preprocess(shader, &input) == 0 || glslang_shader_parse(shader, &input) == 0) {
+    if (glslang_shader_preprocess(shader, &input) == 0 ||
+        glslang_shader_parse(shader, &input) == 0) {
         wrong = glslang_shader_get_info_log(shader);
     } else {
         glslang_program_add_shader(program, shader);

@@ -58,6 +58,10 @@ class Submission {
 // Where a case's planes are guarded, and what the attachments are called.
 std::vector<std::pair<Guard*, std::string>> guards_of(const CasePlan& plan);
 
+// The locations that gl_SamplePosition told, pixel by pixel; empty if they differ among pixels or
+// are not in sixteenths of a pixel.
+cases::SampleLocations told_locations(std::span<const glm::vec4> positions, uint32_t samples);
+
 // What a failed call makes of a case's result.
 void reject(Rendered& result, const Failure& failure);
 
@@ -71,6 +75,10 @@ class BatchRenderer {
     std::vector<Rendered> render(std::span<const cases::Case> batch, bool read_back,
                                  const std::function<void(std::string_view)>& step,
                                  const PlaneStore& store = {});
+
+    // Where the device's samples are, if it does not promise the standard locations: into its
+    // DeviceInfo. An error if it cannot draw what asks.
+    Result<void> ask_sample_locations();
 
     const Device& device() const { return *device_; }
 

@@ -4,6 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
+#include <sstream>
+
+#include "cases/base/counted.hpp"
+
 namespace cases {
 
 namespace {
@@ -33,6 +38,45 @@ std::span<const std::array<uint8_t, 2>> standard_sample_locations(uint32_t sampl
         default:
             return kLocations1;
     }
+}
+
+std::string to_text(std::span<const SampleLocations> lists) {
+    std::string text;
+    for (const SampleLocations& list : lists) {
+        for (size_t s = 0; s < list.size(); ++s) {
+            text += fmt::format("{}{},{}",
+                                s > 0          ? ";"
+                                : text.empty() ? ""
+                                               : " ",
+                                list[s][0], list[s][1]);
+        }
+    }
+    return text;
+}
+
+Expected<std::vector<SampleLocations>> parse_sample_locations(std::string_view text) {
+    std::vector<SampleLocations> lists;
+    std::istringstream words{std::string(text)};
+    for (std::string word; words >> word;) {
+        SampleLocations& list = lists.emplace_back();
+        std::istringstream pairs(word);
+        for (std::string pair; std::getline(pairs, pair, ';');) {
+            unsigned x = 0, y = 0;
+            char comma = 0;
+            std::istringstream numbers(pair);
+            if (!(numbers >> x >> comma >> y) || comma != ',' || numbers.peek() != EOF || x > 15 ||
+                y > 15) {
+                return failure("'{}' is no sample location: write x,y in 1/16 pixel, 0 to 15",
+                               pair);
+            }
+            list.push_back({static_cast<uint8_t>(x), static_cast<uint8_t>(y)});
+        }
+        if (list.size() != 2 && list.size() != 4 && list.size() != 8 && list.size() != 16) {
+            return failure("'{}' has {}: write the locations of 2, 4, 8 or 16 samples", word,
+                           counted(list.size(), "location"));
+        }
+    }
+    return lists;
 }
 
 std::span<const std::array<uint8_t, 2>> sample_locations(const Target& target) {

@@ -11,7 +11,10 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
+#include "cases/base/error.hpp"
 #include "cases/model/case.hpp"
 
 namespace cases {
@@ -36,9 +39,17 @@ inline SampleId sample_at(const Target& target, size_t index) {
             static_cast<uint32_t>(row / target.height)};
 }
 
-// Sample locations inside a pixel in 1/16 pixel, sample 0 first. Source: Vulkan specification,
-// "Standard sample locations". `samples` is 1, 2, 4, 8 or 16.
+// Sample locations inside a pixel in 1/16 pixel, sample 0 first, one a sample.
+using SampleLocations = std::vector<std::array<uint8_t, 2>>;
+
+// Those that Vulkan names, which a device promises by standardSampleLocations. Source: Vulkan
+// specification, "Multisampling". `samples` is 1, 2, 4, 8 or 16.
 std::span<const std::array<uint8_t, 2>> standard_sample_locations(uint32_t samples);
+
+// Lists as words, each location as x,y: "4,4;12,12 6,2;14,6;2,10;10,14", one list a sample count.
+std::string to_text(std::span<const SampleLocations> lists);
+// Lists of 2, 4, 8 or 16 locations, or what is wrong with the text.
+Expected<std::vector<SampleLocations>> parse_sample_locations(std::string_view text);
 
 // The locations of a target: its own (VK_EXT_sample_locations) or else the standard ones.
 std::span<const std::array<uint8_t, 2>> sample_locations(const Target& target);

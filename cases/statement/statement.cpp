@@ -133,7 +133,7 @@ constexpr Statement kStatements[] = {
      "",
      {}, "The application must prevent it; there is nothing that a device could do wrong."},
     {40, "standard sample locations", exact, exact,
-     "Coverage, depth and values at the sixteenths that the specification lists; devices without them are asked with locations of the case's own.",
+     "Coverage, depth and values at the sixteenths that the specification lists; a device that does not promise them is held to those that its gl_SamplePosition tells.",
      {"sample.locations"}, ""},
     {41, "sample mask and gl_SampleMask", exact, exact,
      "A sample is written if and only if it is covered and both masks have its bit.",

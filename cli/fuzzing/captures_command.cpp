@@ -203,8 +203,6 @@ std::vector<CaseRecord> CapturesCommand::draw(const std::vector<cases::Case>& ca
         }
         return records;
     }
-    ref::Limits limits;
-    limits.subpixel_bits = static_cast<int>(options_.subpixel_bits);
     for (size_t k = 0; k < cases.size(); ++k) {
         CaseRecord& record = records[k];
         record.reason = end.reason;
@@ -227,7 +225,7 @@ std::vector<CaseRecord> CapturesCommand::draw(const std::vector<cases::Case>& ca
             record.reason = "the command ended well and delivered no plane of the case in '%out/" +
                             capture::folder_of(cases[k].id) + "'";
         } else {
-            run::judge_delivered(record, cases[k], read->planes, limits, options_.profile,
+            run::judge_delivered(record, cases[k], read->planes, options_.limits, options_.profile,
                                  run::KeepPictures::none);
         }
     }

@@ -21,7 +21,7 @@ namespace cli {
 struct CapturesOptions {
     std::string command;  // for a shell; %in and %out stand for folders
     double seconds = 30;  // for one start of the command
-    uint32_t subpixel_bits = 8;
+    ref::Limits limits = {};
     cases::Profile profile = cases::Profile::direct3d;
 };
 

@@ -268,7 +268,7 @@ void define_reduce(CLI::App& app, ReduceOptions& o) {
               "folder %in into the folder %out",
               "COMMAND", "Device");
     add_profile(reduce, o.run.profile);
-    add_subpixel_bits(reduce, o.subpixel_bits);
+    add_judged_device(reduce, o.judged);
     add_value(reduce, "-o,--output", o.run.output, "the case file to write [standard output]",
               "FILE", "Output");
     reduce->add_flag("-q,--quiet", o.run.quiet, "say nothing else")->group("Output");
@@ -338,8 +338,8 @@ void define_images(CLI::App& app, AllOptions& all) {
     out->add_flag("--reproducer", all.export_cases.reproducer,
                   "one case as a C program for a bug report, needs the Vulkan loader alone");
     add_profile(out, all.export_cases.profile);
-    add_subpixel_bits(out, all.export_cases.subpixel_bits);
-    for (const char* judging : {"--profile", "--subpixel-bits"}) {
+    add_judged_device(out, all.export_cases.judged);
+    for (const char* judging : {"--profile", "--subpixel-bits", "--sample-locations"}) {
         // The environment says how runs are judged, which is no reason to refuse an export.
         out->get_option(judging)->needs("--reproducer")->envname("");
     }
@@ -357,7 +357,7 @@ void define_images(CLI::App& app, AllOptions& all) {
     add_value(in, "--name", all.diff.name, "of the renderer, for the reports", "NAME", "Output");
     add_profile(in, o.profile);
     add_fail_at(in, o.fail_at);
-    add_subpixel_bits(in, all.diff.subpixel_bits);
+    add_judged_device(in, all.diff.judged);
     add_require_support(in, o, "renderer");
     add_expectations(in, o);
     add_outputs(in, o, "where the reports go [out/<time>-captures]", false);
@@ -398,7 +398,7 @@ void define_others(CLI::App& app, AllOptions& all) {
     explain->add_option("--layer", all.explain.layer, "the layer of the target [0]")
         ->type_name("L");
     add_profile(explain, all.explain.profile);
-    add_subpixel_bits(explain, all.explain.subpixel_bits);
+    add_judged_device(explain, all.explain.judged);
 
     CLI::App* render =
         app.add_subcommand("render", "write the reference picture of a case; needs no Vulkan");
@@ -413,7 +413,7 @@ void define_others(CLI::App& app, AllOptions& all) {
               "Output")
         ->check(in_range(1U, 512U));
     add_profile(render, all.render.profile);
-    add_subpixel_bits(render, all.render.subpixel_bits);
+    add_judged_device(render, all.render.judged);
     add_choice(render, "--renderer", all.render.renderer, drawing_names(),
                "what draws: an algorithm of docs/algorithms.md or the reference; allowed: no "
                "drawing, but what the reference allows");

@@ -46,6 +46,13 @@ struct Shard {
     uint32_t index = 1, count = 1;
 };
 
+// What the reference has to know of a device that is not asked.
+struct JudgedDevice {
+    uint32_t subpixel_bits = 8;
+    std::string
+        sample_locations;  // as cases::parse_sample_locations takes them; "": the standard ones
+};
+
 struct RunOptions {
     SuiteOptions suite;
     DeviceOptions device;
@@ -94,7 +101,7 @@ struct FuzzOptions {
 struct ReduceOptions {
     RunOptions run;                // its suite with exactly one case, device, judging and output
     std::string captures_command;  // of a renderer that no worker drives; empty: a device draws
-    uint32_t subpixel_bits = 8;    // of that renderer
+    JudgedDevice judged;           // that renderer
 };
 
 struct DiagnoseOptions {
@@ -127,7 +134,7 @@ struct ExplainOptions {
     bool has_pixel = false;
     uint32_t x = 0, y = 0, sample = 0, layer = 0;
     cases::Profile profile = cases::Profile::direct3d;
-    uint32_t subpixel_bits = 8;
+    JudgedDevice judged;
 };
 
 struct ExpectOptions {
@@ -151,7 +158,7 @@ struct RenderOptions {
     std::string renderer;  // "": what the reference allows; else what this one draws
     uint32_t scale = 0;    // side of a pixel in a *.png; 0: chosen by the target's size
     cases::Profile profile = cases::Profile::direct3d;
-    uint32_t subpixel_bits = 8;
+    JudgedDevice judged;
 };
 
 struct ExportOptions {
@@ -159,7 +166,7 @@ struct ExportOptions {
     std::string output;                                 // folder; of a reproducer the file
     bool reproducer = false;                            // one case as a C program
     cases::Profile profile = cases::Profile::direct3d;  // that a reproducer judges at
-    uint32_t subpixel_bits = 8;                         // of the device that it is for
+    JudgedDevice judged;                                // that it is for
 };
 
 struct DiffOptions {
@@ -168,7 +175,7 @@ struct DiffOptions {
     std::string
         exported;      // folder whose index.json lists the cases, "": those that captures are of
     std::string name;  // of the renderer, for the reports
-    uint32_t subpixel_bits = 8;
+    JudgedDevice judged;
 };
 
 struct DoctorOptions {

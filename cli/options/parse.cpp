@@ -181,11 +181,14 @@ OrStop<std::monostate> check_reduce(const CLI::App& reduce, const ReduceOptions&
         return tl::unexpected(usage_error(sentence, "reduce"));
     };
     if (!is_given(reduce, "--captures-command", words)) {
-        return is_given(reduce, "--subpixel-bits", words)
-                   ? refused(
-                         "--subpixel-bits is for a renderer that --captures-command starts; "
-                         "devices tell it themselves")
-                   : OrStop<std::monostate>();
+        for (const std::string name : {"--subpixel-bits", "--sample-locations"}) {
+            if (is_given(reduce, name.c_str(), words)) {
+                return refused(name +
+                               " is for a renderer that --captures-command starts; devices tell it "
+                               "themselves");
+            }
+        }
+        return std::monostate{};
     }
     for (const char* name : {"--device", "--icd", "--renderer", "--validation"}) {
         if (is_given(reduce, name, words)) {

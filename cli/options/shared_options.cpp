@@ -79,10 +79,18 @@ void add_fail_at(CLI::App* app, std::optional<cases::Profile>& level) {
         ->group("Judging");
 }
 
-void add_subpixel_bits(CLI::App* app, uint32_t& bits) {
-    add_value(app, "--subpixel-bits", bits, "subpixel precision bits of the device, 4 to 16 [8]",
-              "N", "Judging")
+void add_judged_device(CLI::App* app, JudgedDevice& device) {
+    add_value(app, "--subpixel-bits", device.subpixel_bits,
+              "subpixel precision bits of the device, 4 to 16 [8]", "N", "Judging")
         ->check(in_range(4U, 16U));
+    add_value(app, "--sample-locations", device.sample_locations,
+              "where its samples are, in 1/16 pixel, if not at the standard locations: a list a "
+              "sample count, as \"12,4;4,12\"",
+              "LISTS", "Judging")
+        ->check([](const std::string& text) {
+            const auto lists = cases::parse_sample_locations(text);
+            return lists ? std::string() : lists.error().message;
+        });
 }
 
 void add_driver(CLI::App* app, DeviceOptions& o) {

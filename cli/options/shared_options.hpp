@@ -90,7 +90,7 @@ void add_suite(CLI::App* app, SuiteOptions& o);
 void add_case(CLI::App* app, SuiteOptions& o);
 void add_profile(CLI::App* app, cases::Profile& profile);
 void add_fail_at(CLI::App* app, std::optional<cases::Profile>& level);
-void add_subpixel_bits(CLI::App* app, uint32_t& bits);
+void add_judged_device(CLI::App* app, JudgedDevice& device);
 // What add_device adds but for the renderer.
 void add_driver(CLI::App* app, DeviceOptions& o);
 void add_device(CLI::App* app, DeviceOptions& o);

@@ -35,6 +35,15 @@ void set_limits(run::LoopConfig& config, const vk_harness::DeviceInfo& device) {
     config.limits = run::limits_of(device);
 }
 
+ref::Limits limits_of(const JudgedDevice& device) {
+    ref::Limits limits;
+    limits.subpixel_bits = static_cast<int>(device.subpixel_bits);
+    if (auto lists = cases::parse_sample_locations(device.sample_locations)) {
+        limits.sample_locations = std::move(*lists);
+    }
+    return limits;
+}
+
 OrStop<ReadyWorker> ready_first_worker(run::LoopConfig& config, run::SignalFd& signals) {
     OrStop<run::WorkerClient> worker = start_first_worker(config);
     if (!worker) {

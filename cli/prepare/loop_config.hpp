@@ -15,6 +15,8 @@ run::LoopConfig loop_config(const Program& program, const RunOptions& options);
 
 // The limits that the device has told, by which it is judged.
 void set_limits(run::LoopConfig& config, const vk_harness::DeviceInfo& device);
+// The same of a device that is not asked.
+ref::Limits limits_of(const JudgedDevice& device);
 // Starts the first worker and waits until it is ready; the limits are then its device's. Errors: no
 // or wrong device (5), interrupted (130).
 OrStop<ReadyWorker> ready_first_worker(run::LoopConfig& config, run::SignalFd& signals);

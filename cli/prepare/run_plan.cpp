@@ -231,10 +231,11 @@ void add_given(std::vector<std::string>& words, const char* option, const std::s
     }
 }
 
-void add_subpixel_bits(std::vector<std::string>& words, uint32_t bits) {
-    if (bits != 8) {
-        words.insert(words.end(), {"--subpixel-bits", std::to_string(bits)});
+void add_judged_device(std::vector<std::string>& words, const JudgedDevice& device) {
+    if (device.subpixel_bits != 8) {
+        words.insert(words.end(), {"--subpixel-bits", std::to_string(device.subpixel_bits)});
     }
+    add_given(words, "--sample-locations", device.sample_locations);
 }
 
 void add_suite_and_profile(std::vector<std::string>& words, const RunOptions& options) {
@@ -345,7 +346,7 @@ std::string diff_line(const Program& program, const DiffOptions& options, const 
                                       "--captures", options.captures};
     add_given(words, "--exported", options.exported);
     add_suite_and_profile(words, options.run);
-    add_subpixel_bits(words, options.subpixel_bits);
+    add_judged_device(words, options.judged);
     add_given(words, "--name", options.name);
     add_fail_at(words, options.run);
     if (options.run.require_support) {
@@ -356,20 +357,20 @@ std::string diff_line(const Program& program, const DiffOptions& options, const 
 }
 
 std::string explain_line(const Program& program, const RunOptions& options, const std::string& id,
-                         uint32_t subpixel_bits) {
+                         const JudgedDevice& device) {
     std::vector<std::string> words = {program.arguments.front(), "explain",
                                       selector_of(options, id)};
     add_suite_and_profile(words, options);
-    add_subpixel_bits(words, subpixel_bits);
+    add_judged_device(words, device);
     return join(words);
 }
 
 std::string reproducer_line(const Program& program, const RunOptions& options,
-                            const std::string& id, uint32_t subpixel_bits) {
+                            const std::string& id, const JudgedDevice& device) {
     std::vector<std::string> words = {program.arguments.front(), "export", "--reproducer",
                                       selector_of(options, id)};
     add_suite_and_profile(words, options);
-    add_subpixel_bits(words, subpixel_bits);
+    add_judged_device(words, device);
     words.insert(words.end(), {"-o", "repro.c"});
     return join(words);
 }
@@ -400,6 +401,7 @@ report::Device to_report(const vk_harness::DeviceInfo& device) {
     report::Device d;
     cases::copy_like_fields(device, d);
     d.type = device.device_type;
+    d.sample_locations = cases::to_text(device.sample_locations);
     if (device.api_version == 0) {
         return d;  // no Vulkan: an algorithm, or the reference
     }

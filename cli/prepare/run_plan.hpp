@@ -46,10 +46,10 @@ std::string rerun_line(const Program& program, const RunOptions& options, const 
                        const std::vector<std::string>& doors = {});
 std::string diff_line(const Program& program, const DiffOptions& options, const std::string& id);
 std::string explain_line(const Program& program, const RunOptions& options, const std::string& id,
-                         uint32_t subpixel_bits);
+                         const JudgedDevice& device);
 // Writes the case as a C program into the working directory.
 std::string reproducer_line(const Program& program, const RunOptions& options,
-                            const std::string& id, uint32_t subpixel_bits);
+                            const std::string& id, const JudgedDevice& device);
 
 // What was set of the variables that choose or change drivers, and PWD.
 std::vector<std::pair<std::string, std::string>> recorded_environment();

@@ -93,7 +93,7 @@ std::string_view missing_of(const cases::Draw& d) {
 }
 
 // The text inside a C string or comment: what could end either is left out.
-std::string quoted(std::string_view text) {
+std::string c_text(std::string_view text) {
     std::string out;
     for (const char letter : text) {
         const bool is_plain = letter >= ' ' && letter < 0x7f && letter != '"' && letter != '\\' &&
@@ -188,19 +188,20 @@ bool may_be_too_large(const cases::Case& c) {
     return size_t{t.width} * t.rows() * t.samples * (3 + 4 * attributes) > kMostRanges;
 }
 
-cases::Expected<std::string> reproducer(const cases::Case& c, const ref::Limits& limits,
+cases::Expected<std::string> reproducer(const cases::Case& filed, const ref::Limits& limits,
                                         cases::Profile profile, std::string_view version) {
-    if (const std::string_view missing = undrawable_part(c); !missing.empty()) {
+    if (const std::string_view missing = undrawable_part(filed); !missing.empty()) {
         return cases::failure(fmt::format(
             "the case '{}' has {}, which a reproducer cannot draw; send the case file with the "
             "output of 'edgecase run' instead",
-            c.id, missing));
+            filed.id, missing));
     }
+    const cases::Case c = ref::with_own_samples(filed, limits).value_or(filed);
     const cases::Expected<std::string> expected = expected_tables(c, limits, profile);
     if (!expected) {
         return expected;
     }
-    const std::string id = quoted(c.id);
+    const std::string id = c_text(c.id);
     return fmt::format(
                "// {}\n// {}\n//\n"
                "// Written by edgecase {}; https://www.apache.org/licenses/LICENSE-2.0 holds.\n"
@@ -210,7 +211,7 @@ cases::Expected<std::string> reproducer(const cases::Case& c, const ref::Limits&
                "//     cc -std=c99 FILE.c -lvulkan -lm && ./a.out [PART OF THE DEVICE'S NAME]\n"
                "// Exit code: 0 all samples are right, 1 some are wrong, 2 it could not be "
                "drawn.\n",
-               id, quoted(c.description), version)
+               id, c_text(c.description), version)
         .append(kTypes.substr(kTypes.find("#include")))
         .append(fmt::format("static const char kCase[] = \"{}\";\n"
                             "static const char kProfile[] = \"judged at profile {} with {} "

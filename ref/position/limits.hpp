@@ -2,6 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+#include <vector>
+
+#include "cases/model/sample.hpp"
+
 namespace ref {
 
 // What the reference has to know of the device it judges.
@@ -17,7 +22,12 @@ struct Limits {
     // extraPrimitiveOverestimationSizeGranularity; and degenerateTrianglesRasterized.
     float overestimation = 0, overestimation_step = 0;
     bool rasterizes_degenerates = true;
+    // Without standardSampleLocations: what gl_SamplePosition says, one entry a sample count.
+    std::vector<cases::SampleLocations> sample_locations = {};
     friend bool operator==(const Limits&, const Limits&) = default;
 };
+
+// The case with the device's own sample locations; nothing if it has its own, or the standard ones.
+std::optional<cases::Case> with_own_samples(const cases::Case& c, const Limits& limits);
 
 }  // namespace ref

@@ -111,6 +111,7 @@ std::string header(const Run& run) {
     text += "</dl>\n<details><summary>About this run</summary><dl>\n";
     text += fact("edgecase", run.tool_version);
     text += fact("ended with", exit_text(run));
+    text += fact("sample locations, 1/16 pixel", d.sample_locations);
     if (const CaseRecord* worst = worst_case(run)) {
         text += fact("largest accepted error",
                      fmt::format("{}, {}", accepted_text(run, *worst), worst->id));

@@ -61,6 +61,7 @@ struct Device {
     uint32_t vendor_id = 0, device_id = 0, driver_version = 0, driver_id = 0;
     uint32_t subpixel_bits = 0, viewport_subpixel_bits = 0;
     bool has_primitive_id = false;
+    std::string sample_locations;  // its own, cases::to_text; "": the standard ones
     static void fields(auto&& visit, auto&... d) {
         visit("name", d.name...);
         visit("driver_name", d.driver_name...);
@@ -75,6 +76,7 @@ struct Device {
         visit("subpixel_bits", d.subpixel_bits...);
         visit("viewport_subpixel_bits", d.viewport_subpixel_bits...);
         visit("has_primitive_id", d.has_primitive_id...);
+        visit("sample_locations", d.sample_locations...);
     }
 };
 

@@ -27,18 +27,25 @@ struct Origin {
 
 // What of a picture that has other bits than the plain one is wrong by itself, at profile vulkan;
 // empty if nothing is. With `plain`, only rules count that the plain picture does not break itself.
-std::string wrong_at_vulkan(const cases::Case& c, const Rendered& drawn,
+std::string wrong_at_vulkan(const cases::Case& filed, const Rendered& drawn,
                             const vk_harness::DeviceInfo& device, const Rendered* plain) {
     try {
-        const ref::Expectation expectation =
-            ref::expect(c, limits_of(device), cases::Profile::vulkan);
-        const diff::Verdict verdict = diff::compare(c, expectation, view_of(drawn));
+        const ref::Limits limits = limits_of(device);
+        const std::optional<cases::Case> placed = ref::with_own_samples(filed, limits);
+        const cases::Case& c = placed ? *placed : filed;
+        const ref::Expectation expectation = ref::expect(c, limits, cases::Profile::vulkan);
+        const auto compare = [&](const Rendered& picture) {
+            capture::CaptureView view = view_of(picture);
+            view.target = c.target;
+            return diff::compare(c, expectation, view);
+        };
+        const diff::Verdict verdict = compare(drawn);
         if (!verdict.error.empty() || verdict.findings.empty()) {
             return verdict.error;
         }
         std::set<std::string> broken;
         if (plain != nullptr) {
-            for (const diff::Finding& f : diff::compare(c, expectation, view_of(*plain)).findings) {
+            for (const diff::Finding& f : compare(*plain).findings) {
                 broken.insert(f.rule);
             }
         }
@@ -101,6 +108,7 @@ ref::Limits limits_of(const vk_harness::DeviceInfo& device) {
     limits.overestimation = device.overestimation;
     limits.overestimation_step = device.overestimation_step;
     limits.rasterizes_degenerates = device.rasterizes_degenerates;
+    limits.sample_locations = device.sample_locations;
     return limits;
 }
 

@@ -65,14 +65,20 @@ def part(number, parts):
     """A part of the faults, as a test class of its own: ctest runs them side by side."""
 
     class Part(LayerTest):
+        def uncaught(self, name, ids, *words):
+            """Why the run does not show that the cases catch the fault; nothing if it does."""
+            run = self.run_cases(name, ids, *words)
+            told = {c["id"]: f"{c['status']}: {c['reason']}" for c in (run.results or {"cases": []})["cases"] if not broken.is_caught(c)}
+            if run.altered > 0 and run.code in (1, 7) and not told and set(self.statuses(run)) == set(ids):
+                return ""
+            return f"{name}: {run.altered} calls altered, exit code {run.code}, not caught: {told}\n{run.out}{run.err}"
+
         def test_faults_are_caught(self):
             for name, ids in list(CATCHES.items())[number::parts]:
                 with self.subTest(fault=name):
-                    run = self.run_cases(name, ids, "--retries", "0")
-                    self.assertGreater(run.altered, 0, f"{name} was never reached")
-                    self.assertIn(run.code, (1, 7), run.out + run.err)
-                    self.assertEqual(set(self.statuses(run)), set(ids))
-                    self.assertEqual([c["id"] for c in run.results["cases"] if not broken.is_caught(c)], [])
+                    # Alone and once, which is quick; where a driver under a fault dies of it, as users run it.
+                    if first := self.uncaught(name, ids, "--retries", "0"):
+                        self.assertEqual(self.uncaught(name, ids), "", first)
 
     Part.__name__ = Part.__qualname__ = f"Part{number}"
     return Part

@@ -8,6 +8,7 @@ import json
 import os
 import pathlib
 import shutil
+import subprocess
 import tempfile
 import unittest
 
@@ -65,6 +66,23 @@ class Layer(ClassTest):
         code, _, printed = device_classes.run(device, self.folder, ["coverage/half-square"])
         self.assertEqual(code, 5, printed)
         self.assertIn("Vulkan 1.1 is needed, the device has 1.0", printed)
+
+    def test_a_device_with_samples_of_its_own_is_asked_where_they_are(self):
+        # lavapipe's are the standard ones, whatever the class promises of them.
+        device = device_classes.read("v3dv-pi5")
+        results, statuses, printed = self.statuses(device, ["multisample/large-triangle", "multisample/mesh"])
+        self.assertEqual(results["device"]["sample_locations"], "6,2;14,6;2,10;10,14")
+        self.assertIn("pass", statuses.values(), printed)
+        self.assertLessEqual(set(statuses.values()), {"pass", "unsupported"}, printed)
+        environment = device_classes.environment(device, self.folder) | {"EDGECASE_FAULT": "flip-pixel"}
+        done = subprocess.run([device_classes.PROGRAM, "run", "multisample/large-triangle", "-o", self.folder / "faulty"],
+                              env=environment, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+        self.assertRegex(done.stdout, r"explain: \S+ explain \S+ .*--sample-locations '6,2;14,6;2,10;10,14'")
+        device["features"].remove("sampleRateShading")
+        results, statuses, printed = self.statuses(device, ["multisample/large-triangle"])
+        self.assertEqual((results["device"]["sample_locations"], set(statuses.values())), ("", {"unsupported"}))
+        self.assertIn("does not tell its own at sample count 4 by gl_SamplePosition", "".join(c["reason"] for c in results["cases"]))
 
     def test_a_wrong_class_stops_the_run(self):
         device = device_classes.read("nvidia")

@@ -321,6 +321,23 @@ class Listing(ProgramTest):
     def test_explain(self):
         self.assertIn("must be covered", self.edgecase("explain", "fam/c1", "--pixel", "2,2", check=0).stdout)
 
+    def test_explain_at_samples_of_the_device(self):
+        """By hand: right of x = 2.5 the triangle has the standard locations (6, 2) and (14, 6) of pixel 2 with 14 alone; a device whose
+        sample 0 is at 15 sixteenths has it inside."""
+        self.write_case("fam/samples", CASE.format(n=0).replace("[8, 8]", "[8, 8]\nsamples = 4")
+                        .replace("vertices = ", 'vertices = [["2+1/2",0], ["10+1/2",0], ["2+1/2",8]] #'))
+        words = ["explain", "fam/samples", "--pixel", "2,1", "--sample", "0"]
+        self.assertIn("must not be covered", self.edgecase(*words, check=0).stdout)
+        own = ["--sample-locations", "4,4;12,12 15,2;1,6;2,10;3,14"]
+        self.assertIn("must be covered", self.edgecase(*words, *own, check=0).stdout)
+        self.assertIn("must not be covered", self.edgecase(*words, *own[:1], "4,4;15,2", check=0).stdout)  # of two samples alone
+        self.edgecase("render", "fam/samples", *own, "-o", "own.json", check=0)
+        samples = json.loads((self.folder / "own.json").read_text())["samples"]
+        self.assertTrue([s for s in samples if (s["x"], s["y"], s["sample"]) == (2, 1, 0)], samples[:3])
+        for wrong, sentence in (("16,2;1,6", "'16,2' is no sample location: write x,y in 1/16 pixel, 0 to 15"),
+                                ("1,6", "'1,6' has 1 location: write the locations of 2, 4, 8 or 16 samples")):
+            self.assertIn(sentence, self.edgecase(*words, "--sample-locations", wrong, check=2).stderr)
+
     def test_explain_a_layer(self):
         self.write_case("fam/layered", LAYERED)
         inside = self.edgecase("explain", "fam/layered", "--pixel", "2,2", "--layer", "1", check=0).stdout

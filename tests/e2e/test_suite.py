@@ -18,6 +18,16 @@ class Suite(ProgramTest):
     def run_lavapipe(self, *words, fault="", check=None):
         return self.edgecase("run", "-o", self.out, "--device", "llvmpipe", *words, fault=fault, check=check)
 
+    def share(self, parts):
+        """As --shard takes it: one of these parts, another one as the suite grows. By night all of it (.ci/nightly)."""
+        count = len(self.edgecase("list", "--ids", check=0).stdout.splitlines())
+        return os.environ.get("EDGECASE_SUITE_SHARE", f"{count % parts + 1}/{parts}")
+
+    def of_share(self, profile, share, *words):
+        cases = self.of_profile(profile, "--shard", share, *words)
+        self.assertGreater(len(cases) * int(share.split("/")[1]), 4000)
+        return cases
+
     def of_profile(self, profile, *words):
         """Runs the suite and checks what holds at every profile; its cases by their ids."""
         self.run_lavapipe("--profile", profile, *words, check=0)
@@ -38,19 +48,12 @@ class Suite(ProgramTest):
         return {case["id"]: case for case in results["cases"]}
 
     def test_profile_vulkan(self):
-        """What passes at direct3d, where all of it is drawn below, passes here: a quarter shows that. All of it by night."""
-        count = len(self.edgecase("list", "--ids", check=0).stdout.splitlines())
-        share = os.environ.get("EDGECASE_SUITE_SHARE", f"{count % 4 + 1}/4")
-        cases = self.of_profile("vulkan", "--shard", share)
-        self.assertGreater(len(cases) * int(share.split("/")[1]), 4000)
+        """What passes at direct3d, at which all of it is drawn below, passes here: a quarter shows that."""
+        self.of_share("vulkan", self.share(4))
 
     def test_silent_under_the_validation_layer(self):
-        """At profile practice, at which it passes like that, too. A half of the cases, another one as the suite grows; all of them
-        by night (.ci/nightly)."""
-        count = len(self.edgecase("list", "--ids", check=0).stdout.splitlines())
-        share = os.environ.get("EDGECASE_SUITE_SHARE", f"{count % 2 + 1}/2")
-        cases = self.of_profile("practice", "--validation", "--shard", share)
-        self.assertGreater(len(cases) * int(share.split("/")[1]), 4000)
+        """At profile practice, at which it passes like that, too."""
+        cases = self.of_share("practice", self.share(3), "--validation")
         self.assertEqual({i: case["messages"] for i, case in cases.items() if case["messages"]}, {})
 
     def test_profile_direct3d_where_two_workers_agree_with_one(self):
@@ -58,17 +61,15 @@ class Suite(ProgramTest):
             return (c["id"], c["status"], c["counts"], c["either_samples"], c["worst_ratio"])
 
         two = self.of_profile("direct3d", "-j", "2")
-        # A half of the cases, another one as the suite grows.
-        self.run_lavapipe("-j", "1", "--shard", f"{len(two) % 2 + 1}/2", check=0)
+        share = self.share(4)
+        self.run_lavapipe("-j", "1", "--shard", share, check=0)
         one = self.results()["cases"]
-        self.assertGreater(len(one), len(two) // 3)
+        self.assertGreater(len(one) * int(share.split("/")[1]), 4000)
         self.assertEqual([told(c) for c in one], [told(two[c["id"]]) for c in one])
 
     def test_the_reference_passes_its_own_judge(self):
-        # A quarter of the quick cases, another one as the suite grows: it draws by rationals, a minute for all of them.
-        count = len(self.edgecase("list", "--ids", check=0).stdout.splitlines())
-        quarter = f"{count % 4 + 1}/4"
-        for words in (("--quick", "--shard", quarter), ("multisample/**", "clip/**"), ("multisample/**", "clip/**", "--profile", "vulkan")):
+        # It draws by rationals, a minute for all quick cases.
+        for words in (("--quick", "--shard", self.share(4)), ("multisample/**", "clip/**"), ("multisample/**", "clip/**", "--profile", "vulkan")):
             self.edgecase("run", "-o", self.out, "--renderer", "reference", *words, "--timeout", "100", check=0)
             results = self.results()
             left_out = {case["id"]: case["reason"] for case in results["cases"] if case["status"] == "unsupported"}
@@ -78,7 +79,8 @@ class Suite(ProgramTest):
                 self.assertIn("no doors", reason)
 
     def test_one_flipped_pixel_in_every_case_fails_every_case(self):
-        self.run_lavapipe("--no-expect", "--no-diagnosis", "--retries", "0", "--capture", "none", fault="flip-pixel", check=1)
+        self.run_lavapipe("--no-expect", "--no-diagnosis", "--retries", "0", "--capture", "none", "--shard", self.share(4),
+                          fault="flip-pixel", check=1)
         # Of triangles with bad numbers nothing is asked: the flipped sample may be one of theirs.
         statuses = {status for case_id, status in self.statuses().items() if not case_id.startswith("bad-numbers/")}
         self.assertEqual(statuses, {"fail", "unsupported"})

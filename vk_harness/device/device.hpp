@@ -32,6 +32,9 @@ class Device {
     VkQueue queue() const { return queue_; }
     const VolkDeviceTable& vk() const { return *table_; }
     const Capabilities& capabilities() const { return *capabilities_; }
+    void set_sample_locations(std::vector<cases::SampleLocations> told) {
+        capabilities_->info.sample_locations = std::move(told);
+    }
     // Nanoseconds that a wait for the device lasts at most; UINT64_MAX: without end.
     uint64_t longest_wait() const { return longest_wait_; }
     void set_longest_wait(uint64_t nanoseconds) { longest_wait_ = nanoseconds; }

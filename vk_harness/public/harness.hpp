@@ -15,6 +15,7 @@
 
 #include "capture/capture.hpp"
 #include "cases/model/case.hpp"
+#include "cases/model/sample.hpp"
 
 namespace vk_harness {
 
@@ -35,6 +36,9 @@ struct DeviceInfo {
     // primitiveOverestimationSize, extraPrimitiveOverestimationSizeGranularity and
     // maxExtraPrimitiveOverestimationSize, pixels.
     float overestimation = 0, overestimation_step = 0, most_overestimation = 0;
+    // Without standardSampleLocations: where it says by gl_SamplePosition that its samples are, one
+    // list a sample count. Of an opened device (Renderer::device()) alone.
+    std::vector<cases::SampleLocations> sample_locations = {};
     std::string hit_counting = "binary32";  // the numbers in which hits are added up, or binary16
     std::vector<std::string> missing;  // features without which no case can run, one sentence each
     static void fields(auto&& visit, auto&... d) {
@@ -63,6 +67,7 @@ struct DeviceInfo {
         visit("overestimation", d.overestimation...);
         visit("overestimation_step", d.overestimation_step...);
         visit("most_overestimation", d.most_overestimation...);
+        visit("sample_locations", d.sample_locations...);
         visit("hit_counting", d.hit_counting...);
         visit("missing", d.missing...);
     }

@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "vk_harness/case_check.hpp"
+#include "vk_harness/renderer.hpp"
 #include "vk_harness/target/shader_interface.hpp"
 #include "vk_harness/target/target.hpp"
 
@@ -44,6 +45,19 @@ TEST(DecodeId, NothingElseLooksLikeAnId) {
                   id == capture::kNoPrimitive || id == capture::kPoison ||
                   (id < (1U << 24) && bits_of(static_cast<float>(id)) == word));
     }));
+}
+
+TEST(ToldLocations, AreSixteenthsAlikeInEveryPixel) {
+    std::vector<glm::vec4> told(8);
+    for (size_t k = 0; k < told.size(); ++k) {
+        told[k] = {k % 2 == 0 ? 0.25F : 0.9375F, k % 2 == 0 ? 0.0F : 0.5F, 0, 0};
+    }
+    EXPECT_EQ(told_locations(told, 2), (cases::SampleLocations{{4, 0}, {15, 8}}));
+    for (const float wrong : {0.3125F, 0.26F, 1.0F, -0.0625F, NAN, capture::kClearValue}) {
+        std::vector<glm::vec4> altered = told;
+        altered.back().y = wrong;  // elsewhere in one pixel, or no location
+        EXPECT_TRUE(told_locations(altered, 2).empty()) << wrong;
+    }
 }
 
 TEST(DecodeHits, EveryPairOfCountsAndBothClearValues) {

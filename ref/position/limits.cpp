@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ref/position/limits.hpp"
+
+namespace ref {
+
+std::optional<cases::Case> with_own_samples(const cases::Case& c, const Limits& limits) {
+    if (!c.target.sample_locations.empty()) {
+        return std::nullopt;
+    }
+    for (const cases::SampleLocations& own : limits.sample_locations) {
+        if (own.size() == c.target.samples) {
+            cases::Case placed = c;
+            placed.target.sample_locations = own;
+            return placed;
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace ref
