@@ -243,6 +243,11 @@ ColorReference::~ColorReference() = default;
 bool ColorReference::is_of_neighbour(const Sequence& sequence, cases::SampleId id,
                                      const std::array<uint32_t, 4>& codes) {
     using color::Taken;
+    // Asked without the value that was written, as below, it may be right: then nothing is mixed
+    // up.
+    if (leaves(sequence, id, nullptr, codes)) {
+        return false;
+    }
     const uint32_t count = mistakes_.empty() ? case_.target.color_count() : 0;
     for (uint32_t k = 0; k < count; ++k) {
         for (const Taken taken : {Taken::state, Taken::color, Taken::clear, Taken::all}) {

@@ -56,20 +56,20 @@ class Hunts(FuzzTest):
         self.assertIn("0 cases and 0 triangles judged in ", done.stdout)
 
     def test_causes_are_reduced_and_kept(self):
-        done = self.fuzz("--seed=6", "--cases=1536", check=1)
+        done = self.fuzz("--seed=6", "--cases=768", check=1)
         ledger, found = self.ledger(), self.found()
         jsonschema.Draft7Validator(json.loads((SOURCE / "docs/schema/fuzz-1.json").read_text())).validate(ledger)
         self.assertTrue(ledger["is_finished"])
         self.assertEqual(ledger["unjudged_cases"], 0)
-        self.assertLess(ledger["judged_cases"] + ledger["unsupported_cases"] + ledger["empty_cases"], 1537)
-        self.assertGreater(ledger["judged_cases"], 600)
-        # lavapipe resolves depth by sample 0 where the average is asked (docs/findings/lavapipe-depth-average.md).
-        average = [c for c in ledger["causes"] if c["essentials"] == ["depth_resolve=average", "several samples"]]
-        self.assertTrue(average, done.stdout)
-        self.assertIn("not without target depth resolve", average[0]["needs"])
+        self.assertLess(ledger["judged_cases"] + ledger["unsupported_cases"] + ledger["empty_cases"], 769)
+        self.assertGreater(ledger["judged_cases"], 300)
+        # lavapipe loses what a scissor that ends beyond 65535 leaves (docs/findings/lavapipe-scissor-16-bits.md).
+        scissor = [c for c in ledger["causes"] if c["essentials"] == ["draw.scissor", "draw.scissor beyond 32767"]]
+        self.assertTrue(scissor, done.stdout)
+        self.assertIn("not without scissor", scissor[0]["needs"])
         # One entry a cause, not one a failing case.
         self.assertLess(len(ledger["causes"]), 16, done.stdout)
-        self.assertGreater(ledger["failed_cases"], 50)
+        self.assertGreater(ledger["failed_cases"], 25)
         self.assertEqual(ledger["waiting"], [])
         self.assertEqual(self.accounted(ledger), ledger["failed_cases"])
         self.assertEqual(len(found), len(ledger["causes"]))
@@ -91,13 +91,13 @@ class Hunts(FuzzTest):
             self.assertEqual(set(self.statuses(self.folder / "run").values()), {"fail"})
             self.assertEqual(len(self.statuses(self.folder / "run")), len(found))
         # What is known is no news. (A few causes may be: the first hunt reduced a part of what failed.)
-        done = self.fuzz("--seed=6", "--cases=1600", "--known", self.folder / "hunt", out=self.folder / "again")
+        done = self.fuzz("--seed=6", "--cases=832", "--known", self.folder / "hunt", out=self.folder / "again")
         known = {(c["symptom"], *c["essentials"]) for c in ledger["causes"]}
         again = self.ledger("again")["causes"]
         fresh = [c for c in again if not c["is_known"]]
         self.assertLess(len(fresh), len(found) / 2, done.stdout)
         self.assertFalse(known & {(c["symptom"], *c["essentials"]) for c in fresh}, done.stdout)
-        self.assertGreater(sum(c["count"] for c in again if c["is_known"]), 50)
+        self.assertGreater(sum(c["count"] for c in again if c["is_known"]), 25)
         # Two hunts that know a third one bring its causes once.
         self.fuzz("--cases=128", "--known", self.folder / "hunt", "--known", self.folder / "again", out=self.folder / "third")
         files = [c["file"] for c in self.ledger("third")["causes"] if c["is_known"]]
@@ -106,18 +106,18 @@ class Hunts(FuzzTest):
 
     def test_what_the_validation_layer_says_is_told(self):
         """Of what is valid it says nothing, unless it is asked for its opinion on what is good."""
-        self.fuzz("--cases=256", "--validation")
+        self.fuzz("--cases=128", "--validation")
         self.assertEqual(self.ledger()["unjudged_cases"], 0)
         os.environ["VK_LAYER_ENABLES"] = "VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT"
         self.addCleanup(os.environ.pop, "VK_LAYER_ENABLES")
-        done = self.fuzz("--cases=256", "--validation", out=self.folder / "opinion", check=7)
+        done = self.fuzz("--cases=128", "--validation", out=self.folder / "opinion", check=7)
         self.assertGreater(self.ledger("opinion")["unjudged_cases"], 0)
         self.assertIn("a case could not be judged: the validation layer says: ", done.stderr)
 
     def test_a_planted_fault(self):
         """Known defects of the driver hide none."""
-        self.fuzz("--cases=512")
-        self.fuzz("--cases=512", "--known", self.folder / "hunt", fault="flip-pixel@*", out=self.folder / "flipped", check=1)
+        self.fuzz("--cases=256")
+        self.fuzz("--cases=256", "--known", self.folder / "hunt", fault="flip-pixel@*", out=self.folder / "flipped", check=1)
         found = self.found("flipped")
         self.assertTrue(any("cover.outside" in name for name in found), found.keys())
         smallest = min(found.values(), key=len)
@@ -134,11 +134,11 @@ class Hunts(FuzzTest):
         self.assertNotEqual(self.found("a"), self.found("c"))
 
     def test_shards_share_out_the_cases(self):
-        self.fuzz("--cases=768")
+        self.fuzz("--cases=384")
         whole = self.ledger()
         parts = []
         for part in "123":
-            self.fuzz("--cases=768", f"--shard={part}/3", out=self.folder / part)
+            self.fuzz("--cases=384", f"--shard={part}/3", out=self.folder / part)
             parts.append(self.ledger(part))
         for key in ("judged_cases", "unsupported_cases", "empty_cases"):
             self.assertEqual(sum(part[key] for part in parts), whole[key], key)

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 #include "cases/format/color_format.hpp"
 #include "cases/model/blit_source.hpp"
@@ -25,6 +26,9 @@ VkImageMemoryBarrier2 change(VkImage image, VkImageLayout from, VkImageLayout to
 }
 
 constexpr VkImageSubresourceLayers kLayers = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+// Of offsets in the buffer that is copied from: a multiple of four and of every texel.
+constexpr size_t kCopyAlignment = 16;
+constexpr std::byte kPoisonByte{0x5a};
 
 }  // namespace
 
@@ -97,13 +101,21 @@ Result<BlitImages> BlitImages::create(const Device& device, const cases::Case& c
     BlitImages images;
     const std::vector<std::byte> texels =
         encode_texels(blit.source_format, cases::blit_source(blit));
+    // Behind the texels what the destination holds before it is cleared: fresh memory may hold the
+    // clear colour, and a clear that is lost would go unseen.
+    images.poison_offset_ = (texels.size() + kCopyAlignment - 1) / kCopyAlignment * kCopyAlignment;
+    const VkDeviceSize poison =
+        VkDeviceSize{c.target.width} * c.target.height * bytes_of(c.target.color->format);
     if (auto done = put(images.upload_,
-                        Buffer::create(device, texels.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                                       HostAccess::write));
+                        Buffer::create(device, images.poison_offset_ + poison,
+                                       VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HostAccess::write));
         !done) {
         return fail(done.error());
     }
-    std::copy(texels.begin(), texels.end(), images.upload_.bytes().begin());
+    const std::span<std::byte> upload = images.upload_.bytes();
+    std::copy(texels.begin(), texels.end(), upload.begin());
+    std::fill(upload.begin() + static_cast<std::ptrdiff_t>(images.poison_offset_), upload.end(),
+              kPoisonByte);
     if (auto flushed = images.upload_.flush(); !flushed) {
         return fail(flushed.error());
     }
@@ -133,6 +145,14 @@ void BlitImages::record(const Device& device, VkCommandBuffer commands, const ca
     copy.imageSubresource = kLayers;
     copy.imageExtent = {blit.source_width, blit.source_height, 1};
     vk.vkCmdCopyBufferToImage(commands, upload_.get(), source_.image.get(), kWritten, 1, &copy);
+    VkBufferImageCopy poison{};
+    poison.bufferOffset = poison_offset_;
+    poison.imageSubresource = kLayers;
+    poison.imageExtent = {c.target.width, c.target.height, 1};
+    vk.vkCmdCopyBufferToImage(commands, upload_.get(), destination_.image.get(), kWritten, 1,
+                              &poison);
+    record_barriers(device, commands,
+                    std::array{change(destination_.image.get(), kWritten, kWritten)});
     const VkImageSubresourceRange all = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
     vk.vkCmdClearColorImage(commands, destination_.image.get(), kWritten, &clear, 1, &all);
     record_barriers(device, commands,

@@ -42,6 +42,7 @@ class BlitImages {
                                          uint32_t width, uint32_t height);
 
     Buffer upload_;
+    size_t poison_offset_ = 0;  // in it
     PlainImage source_, destination_;
 };
 

@@ -251,11 +251,14 @@ TEST(Hypotheses, NoTwoAreOneThing) {
     // viewports of other numbers than their layers, in front faces that are counter-clockwise, in
     // stencil references beyond the mask, in increments that wrap, in depth bounds of the first
     // draw, in masked draws without a logical operation, in alpha to one with several samples, in
-    // masks of the first draw where a later one has none.
+    // masks of the first draw where a later one has none, in triangles that a negated cull distance
+    // culls.
     const std::set<std::pair<std::string, std::string>> other = {
         {"alpha_to_one_ignored", "alpha_to_one_multisampled"},
         {"floor_snapping", "snaps-toward-zero"},
         {"bounds_ignored", "bounds_of_first_draw"},
+        {"cull-distance-lost", "cull-distance-negated"},
+        {"cull-distance-negated", "cull_distance_ignored"},
         {"layer_ignored", "layer_of_viewport"},
         {"logic_mask_ignored", "write_mask_ignored"},
         {"stencil_faces_exchanged", "stencil_own_facing"},

@@ -182,6 +182,13 @@ const std::map<std::string_view, const char*>& hidden() {
         {"first-strip-order",
          "it shows in gl_BaryCoordEXT alone, and devices tell it: "
          "triStripVertexOrderIndependentOfProvokingVertex; a run judges by it"},
+        {"overestimation", "devices tell it: primitiveOverestimationSize; a run judges by it"},
+        {"rasterizes-degenerates",
+         "devices tell it: degenerateTrianglesRasterized; a run judges by it"},
+        {"counts-borders",
+         "no experiment draws conservatively: few devices that are tried here can"},
+        {"mitres-corners",
+         "no experiment draws conservatively: few devices that are tried here can"},
     };
     return kHidden;
 }

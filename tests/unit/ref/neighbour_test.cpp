@@ -96,5 +96,30 @@ TEST(Neighbour, WhatIsTakenFromAnotherTargetBreaksTheRuleOfLocations) {
     EXPECT_EQ(second.rule_of(binary32_codes(8, 7, 8, 8)), "blend.write-mask");
 }
 
+// Found by fuzzing on a driver that rounds to 10 bits wrongly: beside the value that was written
+// 1015 is no code, and nothing of the other target makes it one.
+TEST(Neighbour, ACodeBesideTheWrittenValueIsNoMixUp) {
+    const auto loaded = cases::load_text(
+        "format = 1\ndescription = \"d\"\nrules = [\"color.location\"]\n[target]\nsize = [1, 1]\n"
+        "color = [{ format = \"rgba16-unorm\" }, { format = \"rgb10a2-unorm\", clear = [0, 0, 0, "
+        "1] }]\n"
+        "judged = 1\n[[draw]]\nvertices = [[0.5, 0], [0, 4], [8, -2]]\n[[draw.color]]\n"
+        "value = [0, 0, 0, 0]\n[[draw.color]]\nattribute = \"c\"\n[[draw.attribute]]\n"
+        "name = \"c\"\nvalues = [1, 1, 0]\n",
+        "f", "id");
+    ASSERT_TRUE(loaded) << to_string(loaded.error().front());
+    const cases::Case& c = loaded->front();
+    const Expectation expectation = expect(c, Limits{8}, cases::Profile::direct3d);
+    ColorReference reference(c, expectation);
+    const glm::vec4 written(115.0F / 116, 0, 0, 0);
+    const auto rule_of = [&](uint32_t red) {
+        return reference.judge(0, {0, 0, 0}, {red, 0, 0, 0}, ColorWitness{1, 0, &written}).rule;
+    };
+    EXPECT_EQ(rule_of(1014), "");
+    EXPECT_NE(rule_of(1015), "");
+    EXPECT_NE(rule_of(1015), "color.location");
+    EXPECT_EQ(rule_of(0), "color.location");  // the colour of the other target
+}
+
 }  // namespace
 }  // namespace ref
