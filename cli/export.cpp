@@ -50,7 +50,7 @@ int export_reproducer(const Program& program, const ExportOptions& options) {
                             {"-o '" + cases::printable(options.output) +
                              "' is no name of a C file; write one that ends in .c"}});
     }
-    const OrStop<cases::Case> c = load_one_case(program, options.suite);
+    const OrStop<cases::Case> c = load_one_case(program, options.suite, options.judged);
     if (!c) {
         return report_stop(c.error());
     }

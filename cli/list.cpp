@@ -145,7 +145,7 @@ int explain_command(const Program& program, const ExplainOptions& options) {
     if (!options.rule.empty()) {
         return explain_rule(program, options);
     }
-    OrStop<cases::Case> c = load_one_case(program, options.suite);
+    OrStop<cases::Case> c = load_one_case(program, options.suite, options.judged);
     if (!c) {
         return report_stop(c.error());
     }

@@ -245,7 +245,7 @@ OrStop<Drawing> picture_of(const cases::Case& c, const RenderOptions& options) {
 }  // namespace
 
 int render_command(const Program& program, const RenderOptions& options) {
-    OrStop<cases::Case> c = load_one_case(program, options.suite);
+    OrStop<cases::Case> c = load_one_case(program, options.suite, options.judged);
     if (!c) {
         return report_stop(c.error());
     }

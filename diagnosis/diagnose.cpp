@@ -29,18 +29,12 @@ using report::Diagnosis;
 
 constexpr uint64_t kMaxSeedCost = 1U << 14U;  // of all seeds: some seconds of one core
 
-ref::Limits limits_of(const report::Device& device) {
-    ref::Limits limits{static_cast<int>(device.subpixel_bits)};
-    if (auto lists = cases::parse_sample_locations(device.sample_locations)) {
-        limits.sample_locations = std::move(*lists);
-    }
-    return limits;
-}
-
 class Diagnoser {
   public:
     Diagnoser(const report::Run& run, const CaseOf& case_of, const Bound& bound)
-        : bound_(bound), limits_(limits_of(run.device)), profile_(run.profile) {
+        : bound_(bound),
+          limits_(ref::limits_of(run.device.subpixel_bits, run.device.sample_locations)),
+          profile_(run.profile) {
         // A known failure that fails otherwise, too, shows two errors at once: such cases are
         // looked at where there are no others.
         const bool has_news = std::any_of(run.cases.begin(), run.cases.end(), [](const auto& r) {

@@ -37,6 +37,9 @@ std::optional<Rejection> check_locations(const Capabilities& c, const cases::Tar
         const bool is_told = std::ranges::any_of(
             c.info.sample_locations,
             [&](const cases::SampleLocations& own) { return own.size() == t.samples; });
+        if (t.samples > 1 && !is_told && !c.info.sample_locations_error.empty()) {
+            return invalid("{}", c.info.sample_locations_error);
+        }
         if (t.samples > 1 && !c.has_standard_locations && !is_told) {
             return unsupported(
                 "the device does not promise the standard sample locations, and does not tell its "

@@ -383,9 +383,7 @@ Result<Renderer> Renderer::create(const Options& options) {
     if (!body) {
         return fail(body.error());
     }
-    if (auto asked = body->ask_sample_locations(); !asked) {
-        return fail(asked.error());
-    }
+    body->ask_sample_locations();
     return Renderer(std::make_unique<Impl>(Impl{std::move(*body)}));
 }
 

@@ -77,8 +77,8 @@ class BatchRenderer {
                                  const PlaneStore& store = {});
 
     // Where the device's samples are, if it does not promise the standard locations: into its
-    // DeviceInfo. An error if it cannot draw what asks.
-    Result<void> ask_sample_locations();
+    // DeviceInfo, or why it could not be asked.
+    void ask_sample_locations();
 
     const Device& device() const { return *device_; }
 

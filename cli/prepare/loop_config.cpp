@@ -36,12 +36,7 @@ void set_limits(run::LoopConfig& config, const vk_harness::DeviceInfo& device) {
 }
 
 ref::Limits limits_of(const JudgedDevice& device) {
-    ref::Limits limits;
-    limits.subpixel_bits = static_cast<int>(device.subpixel_bits);
-    if (auto lists = cases::parse_sample_locations(device.sample_locations)) {
-        limits.sample_locations = std::move(*lists);
-    }
-    return limits;
+    return ref::limits_of(device.subpixel_bits, device.sample_locations);
 }
 
 OrStop<ReadyWorker> ready_first_worker(run::LoopConfig& config, run::SignalFd& signals) {

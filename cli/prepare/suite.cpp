@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/prepare/suite.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -18,6 +20,7 @@
 #include "cases/base/counted.hpp"
 #include "cases/load/loader.hpp"
 #include "cases/model/selector.hpp"
+#include "ref/position/limits.hpp"
 #include "report/record/run.hpp"
 #include "report/text/sentences.hpp"
 
@@ -362,6 +365,21 @@ OrStop<cases::Case> load_one_case(const Program& program, const SuiteOptions& op
                   "; give the id of one"}});
     }
     return std::move(suite->cases[suite->selected.front()]);
+}
+
+OrStop<cases::Case> load_one_case(const Program& program, const SuiteOptions& options,
+                                  const JudgedDevice& device) {
+    OrStop<cases::Case> c = load_one_case(program, options);
+    const ref::Limits limits = ref::limits_of(device.subpixel_bits, device.sample_locations);
+    if (c && c->target.samples > 1 && c->target.sample_locations.empty() &&
+        !limits.sample_locations.empty() && !ref::with_own_samples(*c, limits)) {
+        return tl::unexpected(
+            Stop{report::kExitUsage,
+                 {fmt::format("--sample-locations has no list of {} locations, and '{}' has {} "
+                              "samples a pixel; give one, or leave the option out",
+                              c->target.samples, c->id, c->target.samples)}});
+    }
+    return c;
 }
 
 namespace {

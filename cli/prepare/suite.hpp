@@ -60,5 +60,9 @@ OrStop<LoadedSuite> load_selected(const Program& program, const SuiteOptions& op
 
 // As load_selected, for commands on a single case.
 OrStop<cases::Case> load_one_case(const Program& program, const SuiteOptions& options);
+// The same for a device that is not asked; an error (2), too, if the case has several samples and
+// the locations that are given are of other sample counts.
+OrStop<cases::Case> load_one_case(const Program& program, const SuiteOptions& options,
+                                  const JudgedDevice& device);
 
 }  // namespace cli

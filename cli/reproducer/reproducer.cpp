@@ -103,7 +103,8 @@ std::string c_text(std::string_view text) {
     return out;
 }
 
-std::string target_text(const cases::Target& t) {
+// `has_own_places`: the device's, which it does not have to promise.
+std::string target_text(const cases::Target& t, bool has_own_places) {
     // A UNORM format may round the clear value either way.
     const double steps = cases::depth_steps(t.depth_format);
     const double code = static_cast<double>(t.depth_clear) * steps;
@@ -123,10 +124,11 @@ std::string target_text(const cases::Target& t) {
         "#define DEPTH_STEPS {:.1f}  // 0: floating point\n#define DEPTH_CLEAR {:a}F\n"
         "#define DEPTH_CLEAR_LOW {:a}F\n#define DEPTH_CLEAR_HIGH {:a}F\n"
         "// Of samples in their pixel, in 1/16 pixel.\n"
-        "static const uint8_t kPlaces[SAMPLES][2] = {{{}}};\n",
+        "static const uint8_t kPlaces[SAMPLES][2] = {{{}}};\n"
+        "#define HAS_STANDARD_PLACES {:d}\n",
         t.width, t.height, t.layers, t.samples, t.has_instruments, t.has_depth,
         row_of(t.depth_format).vulkan_name, steps, t.depth_clear, clear(std::floor(code)),
-        clear(std::ceil(code)), places);
+        clear(std::ceil(code)), places, !has_own_places);
 }
 
 std::string color_text(const cases::Case& c, cases::Profile profile) {
@@ -219,7 +221,7 @@ cases::Expected<std::string> reproducer(const cases::Case& filed, const ref::Lim
                             id, to_string(profile), limits.subpixel_bits))
         .append(fmt::format("#define DRAWS {}\n#define DRAWINGS {}\n#define SUBPIXEL_BITS {}\n",
                             c.draws.size(), 1 + cases::derivations(c).size(), limits.subpixel_bits))
-        .append(target_text(c.target))
+        .append(target_text(c.target, !c.target.sample_locations.empty()))
         .append(color_text(c, profile))
         .append("\n")
         .append(draw_tables(c, profile))

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "cases/model/sample.hpp"
@@ -26,6 +28,10 @@ struct Limits {
     std::vector<cases::SampleLocations> sample_locations = {};
     friend bool operator==(const Limits&, const Limits&) = default;
 };
+
+// Of a device of which only this is known; `sample_locations` as cases::parse_sample_locations
+// takes them, none if it does not.
+Limits limits_of(uint32_t subpixel_bits, std::string_view sample_locations);
 
 // The case with the device's own sample locations; nothing if it has its own, or the standard ones.
 std::optional<cases::Case> with_own_samples(const cases::Case& c, const Limits& limits);

@@ -13,11 +13,11 @@ import device_classes
 
 HEAD = """# What real devices run of the suite
 
-No GPU has run the suite yet. What a device can run follows from what it advertises, so the layer in
-[tests/device_classes](../tests/device_classes/README.md) makes lavapipe look like a device of each class: its features,
-limits, formats and extensions, as drivers' sources and reports publish them; the files beside it say of each figure
-where it is from and which are estimates. The layer ends the process when something that the class does not advertise is
-used. Nothing fails under a class that does not fail on lavapipe itself.
+Of real GPUs NVIDIA's have run the suite ([results](results)). What a device can run follows from what it advertises, so
+the layer in [tests/device_classes](../tests/device_classes/README.md) makes lavapipe look like a device of each class:
+its features, limits, formats and extensions, as drivers' sources and reports publish them; the files beside it say of
+each figure where it is from and which are estimates. The layer ends the process when something that the class does not
+advertise is used. Nothing fails under a class that does not fail on lavapipe itself.
 
 `cmake --build --preset release --target devices_page` asks `edgecase doctor` of every class and writes this page; a
 test compares it. *Unsupported* is the share of the suite's cases, *aim* what it shall be at most, *hits* in which

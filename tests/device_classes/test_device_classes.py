@@ -84,6 +84,28 @@ class Layer(ClassTest):
         self.assertEqual((results["device"]["sample_locations"], set(statuses.values())), ("", {"unsupported"}))
         self.assertIn("does not tell its own at sample count 4 by gl_SamplePosition", "".join(c["reason"] for c in results["cases"]))
 
+    def test_a_reproducer_for_samples_of_its_own(self):
+        device = device_classes.read("nvidia")
+        device["limits"]["standardSampleLocations"] = 0
+        environment = device_classes.environment(device, self.folder) | {"EDGECASE_SUITE": str(device_classes.SOURCE / "cases" / "suite")}
+        case = "multisample/interior-square-4x:winding=given"
+
+        def draw(*words):
+            source, program = self.folder / "repro.c", self.folder / "repro"
+            subprocess.run([device_classes.PROGRAM, "export", "--reproducer", case, "-o", source, *words], env=environment, check=True,
+                           capture_output=True)
+            subprocess.run(["cc", "-std=c99", source, "-lvulkan", "-lm", "-o", program], check=True)
+            done = subprocess.run([program], env=environment, capture_output=True, text=True)
+            return done.returncode, done.stdout + done.stderr
+
+        code, printed = draw()
+        self.assertEqual(code, 2, printed)
+        self.assertIn("write it with --sample-locations for its own", printed)
+        code, printed = draw("--sample-locations", "6,2;14,6;2,10;10,14")
+        self.assertEqual(code, 0, printed)
+        code, printed = draw("--sample-locations", "2,2;14,2;14,10;2,14")  # which they are not
+        self.assertEqual(code, 1, printed)
+
     def test_a_wrong_class_stops_the_run(self):
         device = device_classes.read("nvidia")
         device["name"] = ""

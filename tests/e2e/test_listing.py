@@ -330,7 +330,8 @@ class Listing(ProgramTest):
         self.assertIn("must not be covered", self.edgecase(*words, check=0).stdout)
         own = ["--sample-locations", "4,4;12,12 15,2;1,6;2,10;3,14"]
         self.assertIn("must be covered", self.edgecase(*words, *own, check=0).stdout)
-        self.assertIn("must not be covered", self.edgecase(*words, *own[:1], "4,4;15,2", check=0).stdout)  # of two samples alone
+        self.assertIn("--sample-locations has no list of 4 locations, and 'fam/samples' has 4 samples a pixel",
+                      self.edgecase(*words, *own[:1], "4,4;15,2", check=2).stderr)
         self.edgecase("render", "fam/samples", *own, "-o", "own.json", check=0)
         samples = json.loads((self.folder / "own.json").read_text())["samples"]
         self.assertTrue([s for s in samples if (s["x"], s["y"], s["sample"]) == (2, 1, 0)], samples[:3])

@@ -32,8 +32,10 @@ class Device {
     VkQueue queue() const { return queue_; }
     const VolkDeviceTable& vk() const { return *table_; }
     const Capabilities& capabilities() const { return *capabilities_; }
-    void set_sample_locations(std::vector<cases::SampleLocations> told) {
+    // What it has answered, or why it has not.
+    void set_sample_locations(std::vector<cases::SampleLocations> told, std::string error = {}) {
         capabilities_->info.sample_locations = std::move(told);
+        capabilities_->info.sample_locations_error = std::move(error);
     }
     // Nanoseconds that a wait for the device lasts at most; UINT64_MAX: without end.
     uint64_t longest_wait() const { return longest_wait_; }

@@ -39,6 +39,7 @@ struct DeviceInfo {
     // Without standardSampleLocations: where it says by gl_SamplePosition that its samples are, one
     // list a sample count. Of an opened device (Renderer::device()) alone.
     std::vector<cases::SampleLocations> sample_locations = {};
+    std::string sample_locations_error;  // why it could not be asked, though it promises to answer
     std::string hit_counting = "binary32";  // the numbers in which hits are added up, or binary16
     std::vector<std::string> missing;  // features without which no case can run, one sentence each
     static void fields(auto&& visit, auto&... d) {
@@ -68,6 +69,7 @@ struct DeviceInfo {
         visit("overestimation_step", d.overestimation_step...);
         visit("most_overestimation", d.most_overestimation...);
         visit("sample_locations", d.sample_locations...);
+        visit("sample_locations_error", d.sample_locations_error...);
         visit("hit_counting", d.hit_counting...);
         visit("missing", d.missing...);
     }

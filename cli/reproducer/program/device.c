@@ -122,7 +122,8 @@ static void check_limits(void) {
         NEED(l->maxColorAttachments >= depth_plane(&kDrawings[k]), "so many colour attachments");
     }
     NEED(l->maxFramebufferLayers >= LAYERS, "this many layers");
-    NEED(SAMPLES == 1 || l->standardSampleLocations, "the standard sample locations");
+    NEED(SAMPLES == 1 || !HAS_STANDARD_PLACES || l->standardSampleLocations,
+         "the standard sample locations; write it with --sample-locations for its own");
     if (HAS_INSTRUMENTS) {
         vkGetPhysicalDeviceFormatProperties(physical, kTwoNumbers, &can);
         NEED(can.optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT,

@@ -61,18 +61,24 @@ const std::vector<cases::Case>& small_suite() {
 }
 
 // The run of a device that does as the hypothesis says; nothing is done to other cases.
-report::Run run_of(const Hypothesis& h, cases::Profile profile = cases::Profile::direct3d) {
+// `locations`: of its samples, as cases::parse_sample_locations takes them.
+report::Run run_of(const Hypothesis& h, cases::Profile profile = cases::Profile::direct3d,
+                   const std::string& locations = "") {
+    const ref::Limits limits = ref::limits_of(kBits, locations);
     report::Run run;
     run.profile = profile;
     run.device.subpixel_bits = kBits;
+    run.device.sample_locations = locations;
     Hypothesis right;
     for (const cases::Case& c : small_suite()) {
         report::CaseRecord record = run::make_record(c);
-        std::optional<capture::Capture> drawn = diagnosis::draw(h, c);
+        const cases::Case placed = ref::with_own_samples(c, limits).value_or(c);
+        std::optional<capture::Capture> drawn = diagnosis::draw(h, placed);
         if (!drawn) {
-            drawn = diagnosis::draw(right, c);
+            drawn = diagnosis::draw(right, placed);
         }
-        run::judge(record, c, *drawn, {}, {kBits}, profile, run::KeepPictures::failed);
+        drawn->target = c.target;
+        run::judge(record, c, *drawn, {}, limits, profile, run::KeepPictures::failed);
         run.cases.push_back(std::move(record));
     }
     return run;
@@ -137,6 +143,25 @@ INSTANTIATE_TEST_SUITE_P(
         std::replace(name.begin(), name.end(), '-', '_');
         return name;
     });
+
+// Of cases with four samples alone, which a right device with the standard locations would fail.
+TEST(Diagnose, ADeviceWithSamplesOfItsOwn) {
+    report::Run run =
+        run_of(named("scissor-wider"), cases::Profile::direct3d, "1,5;9,2;13,11;4,14");
+    std::set<std::string> of_four;
+    for (const cases::Case& c : small_suite()) {
+        if (c.target.samples == 4 && c.target.sample_locations.empty()) {
+            of_four.insert(c.id);
+        }
+    }
+    std::erase_if(run.cases, [&](const report::CaseRecord& r) { return !of_four.contains(r.id); });
+    ASSERT_GE(run.cases.size(), 10U);
+    const std::vector<report::Diagnosis> list = diagnose(run);
+    ASSERT_FALSE(list.empty());
+    EXPECT_THAT(list.front().names, testing::Contains("scissor-wider"));
+    EXPECT_GT(list.front().cases, 0U);
+    EXPECT_EQ(list.front().against, 0U);
+}
 
 // A renderer elsewhere delivers no stencil: what a hypothesis leaves there does not count, and of
 // fewer planes no other plane does.

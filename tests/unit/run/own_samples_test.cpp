@@ -4,6 +4,8 @@
 // A device whose samples are not at the standard locations, and says so, is held to its own.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "cases/load/loader.hpp"
 #include "folders.hpp"
 #include "rasterizers/strength/strength.hpp"
@@ -56,6 +58,31 @@ TEST(OwnSamples, AreWhereTheDeviceSays) {
     EXPECT_GE(seen, 4);
     EXPECT_GE(wrong_without, seen / 2);
     EXPECT_GE(wrong_elsewhere, seen / 2);
+}
+
+// What `edgecase diff --sample-locations` judges: coverage that another program delivers.
+TEST(OwnSamples, OfAnotherRenderer) {
+    const std::vector<cases::Case> leaves = cases_of("multisample/large-triangle");
+    const auto found = std::ranges::find_if(
+        leaves, [](const cases::Case& leaf) { return leaf.target.samples == kOwn.size(); });
+    ASSERT_NE(found, leaves.end());
+    const cases::Case& c = *found;
+    cases::Case placed = c;
+    placed.target.sample_locations = kOwn;
+    capture::Delivered planes;
+    planes.detail = capture::HitDetail::coverage;
+    for (const glm::vec4& hits : software::captured(placed, {}).hits) {
+        planes.front.push_back(hits.x + hits.y > 0 ? 1 : 0);
+    }
+    const auto status_at = [&](const cases::SampleLocations& locations) {
+        ref::Limits limits;
+        limits.sample_locations = {locations};
+        report::CaseRecord record = make_record(c);
+        judge_delivered(record, c, planes, limits, cases::Profile::direct3d, KeepPictures::failed);
+        return record.status;
+    };
+    EXPECT_EQ(status_at(kOwn), report::Status::pass);
+    EXPECT_EQ(status_at({{6, 2}, {14, 6}, {2, 10}, {10, 14}}), report::Status::fail);
 }
 
 TEST(OwnSamples, ThoseOfACaseAreItsOwn) {
