@@ -16,13 +16,7 @@ namespace device_classes {
 
 namespace {
 
-using vulkan_layer::dispatch_key;
-using vulkan_layer::instance_of;
-
-template <typename Command>
-Command next_of(VkPhysicalDevice physical, const char* name) {
-    return instance_of(dispatch_key(physical)).get<Command>(name);
-}
+using vulkan_layer::next_of;
 
 bool lacks(VkFormat format, VkFormatFeatureFlags features) {
     const auto found = shown_class()->lacks.find(format);
@@ -175,40 +169,16 @@ VKAPI_ATTR VkResult VKAPI_CALL get_image_properties(VkPhysicalDevice physical, V
 
 VKAPI_ATTR VkResult VKAPI_CALL enumerate_extensions(VkPhysicalDevice physical, const char* layer,
                                                     uint32_t* count, VkExtensionProperties* out) {
-    const auto next = next_of<PFN_vkEnumerateDeviceExtensionProperties>(
-        physical, "vkEnumerateDeviceExtensionProperties");
-    if (layer != nullptr) {
-        return next(physical, layer, count, out);
-    }
-    uint32_t all = 0;
-    VkResult result = next(physical, nullptr, &all, nullptr);
-    std::vector<VkExtensionProperties> list(all);
-    if (result == VK_SUCCESS) {
-        result = next(physical, nullptr, &all, list.data());
-    }
-    if (result != VK_SUCCESS) {
-        return result;
-    }
     const auto& shown = shown_class()->extensions;
-    list.erase(std::remove_if(list.begin(), list.end(),
-                              [&shown](const VkExtensionProperties& e) {
-                                  return shown.count(e.extensionName) == 0;
-                              }),
-               list.end());
-    if (shown.count(kPortability) > 0) {
-        VkExtensionProperties subset{};
-        std::strcpy(subset.extensionName, kPortability);
-        subset.specVersion = 1;
-        list.push_back(subset);
-    }
-    const auto size = static_cast<uint32_t>(list.size());
-    if (out == nullptr) {
-        *count = size;
-        return VK_SUCCESS;
-    }
-    *count = std::min(*count, size);
-    std::copy_n(list.begin(), *count, out);
-    return *count < size ? VK_INCOMPLETE : VK_SUCCESS;
+    return vulkan_layer::answer_extensions(
+        physical, layer, count, out, [&shown](std::vector<VkExtensionProperties>& list) {
+            std::erase_if(list, [&shown](const VkExtensionProperties& e) {
+                return shown.count(e.extensionName) == 0;
+            });
+            if (shown.count(kPortability) > 0) {
+                list.push_back(vulkan_layer::extension(kPortability, 1));
+            }
+        });
 }
 
 const vulkan_layer::OwnCommand kCommands[] = {

@@ -21,8 +21,7 @@ namespace pretending {
 
 namespace {
 
-using vulkan_layer::dispatch_key;
-using vulkan_layer::instance_of;
+using vulkan_layer::next_of;
 using vulkan_layer::OwnCommand;
 
 constexpr const char* kExtension = VK_EXT_CONSERVATIVE_RASTERIZATION_EXTENSION_NAME;
@@ -32,11 +31,6 @@ std::atomic<bool> is_enabled = false;
 struct Driver : vulkan_layer::Device {
     PFN_vkCreateGraphicsPipelines CreateGraphicsPipelines = nullptr;
 };
-
-template <typename Command>
-Command next_of(VkPhysicalDevice physical, const char* name) {
-    return instance_of(dispatch_key(physical)).get<Command>(name);
-}
 
 [[noreturn]] void complain(const char* what) {
     std::fprintf(stderr, "pretending layer: error: %s\n", what);
@@ -62,33 +56,11 @@ VKAPI_ATTR void VKAPI_CALL get_properties2(VkPhysicalDevice physical,
 
 VKAPI_ATTR VkResult VKAPI_CALL enumerate_extensions(VkPhysicalDevice physical, const char* layer,
                                                     uint32_t* count, VkExtensionProperties* out) {
-    const auto next = next_of<PFN_vkEnumerateDeviceExtensionProperties>(
-        physical, "vkEnumerateDeviceExtensionProperties");
-    if (layer != nullptr) {
-        return next(physical, layer, count, out);
-    }
-    uint32_t all = 0;
-    VkResult result = next(physical, nullptr, &all, nullptr);
-    std::vector<VkExtensionProperties> list(all);
-    if (result == VK_SUCCESS) {
-        result = next(physical, nullptr, &all, list.data());
-    }
-    if (result != VK_SUCCESS) {
-        return result;
-    }
-    VkExtensionProperties own{};
-    std::strcpy(own.extensionName, kExtension);
-    own.specVersion = VK_EXT_CONSERVATIVE_RASTERIZATION_SPEC_VERSION;
-    list.push_back(own);
-    const auto size = static_cast<uint32_t>(list.size());
-    if (out == nullptr) {
-        *count = size;
-        return VK_SUCCESS;
-    }
-    const uint32_t fits = std::min(*count, size);
-    std::copy_n(list.begin(), fits, out);
-    *count = fits;
-    return fits < size ? VK_INCOMPLETE : VK_SUCCESS;
+    return vulkan_layer::answer_extensions(
+        physical, layer, count, out, [](std::vector<VkExtensionProperties>& list) {
+            list.push_back(vulkan_layer::extension(kExtension,
+                                                   VK_EXT_CONSERVATIVE_RASTERIZATION_SPEC_VERSION));
+        });
 }
 
 void look_at(const VkPipelineRasterizationConservativeStateCreateInfoEXT& state) {

@@ -8,6 +8,8 @@
 
 #include <vulkan/vk_layer.h>
 
+#include <algorithm>
+#include <cstring>
 #include <map>
 #include <mutex>
 #include <shared_mutex>
@@ -164,6 +166,41 @@ const Instance& instance_of(void* key) {
 const Device& device_of(void* key) {
     const std::shared_lock lock(mutex);
     return *devices.at(key);
+}
+
+VkResult answer_extensions(VkPhysicalDevice physical, const char* layer, uint32_t* count,
+                           VkExtensionProperties* out,
+                           const std::function<void(std::vector<VkExtensionProperties>&)>& alter) {
+    const auto next = next_of<PFN_vkEnumerateDeviceExtensionProperties>(
+        physical, "vkEnumerateDeviceExtensionProperties");
+    if (layer != nullptr) {
+        return next(physical, layer, count, out);
+    }
+    uint32_t all = 0;
+    VkResult result = next(physical, nullptr, &all, nullptr);
+    std::vector<VkExtensionProperties> list(all);
+    if (result == VK_SUCCESS) {
+        result = next(physical, nullptr, &all, list.data());
+    }
+    if (result != VK_SUCCESS) {
+        return result;
+    }
+    alter(list);
+    const auto size = static_cast<uint32_t>(list.size());
+    if (out == nullptr) {
+        *count = size;
+        return VK_SUCCESS;
+    }
+    *count = std::min(*count, size);
+    std::copy_n(list.begin(), *count, out);
+    return *count < size ? VK_INCOMPLETE : VK_SUCCESS;
+}
+
+VkExtensionProperties extension(const char* name, uint32_t version) {
+    VkExtensionProperties properties{};
+    std::strncpy(properties.extensionName, name, VK_MAX_EXTENSION_NAME_SIZE - 1);
+    properties.specVersion = version;
+    return properties;
 }
 
 }  // namespace vulkan_layer

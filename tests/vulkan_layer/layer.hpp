@@ -14,6 +14,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace vulkan_layer {
 
@@ -47,6 +48,11 @@ void* dispatch_key(Handle handle) {
 }
 const Instance& instance_of(void* key);
 const Device& device_of(void* key);
+// The next command of a physical device's instance.
+template <typename Command>
+Command next_of(VkPhysicalDevice physical, const char* name) {
+    return instance_of(dispatch_key(physical)).get<Command>(name);
+}
 
 // The types are those of the headers: a signature that is not the command's does not compile.
 #define VULKAN_LAYER_OWN(name, function) \
@@ -63,6 +69,14 @@ inline PFN_vkVoidFunction find_command(std::span<const OwnCommand> commands,
     }
     return nullptr;
 }
+
+// The driver's answer to vkEnumerateDeviceExtensionProperties, altered by `alter`, as that command
+// gives it.
+VkResult answer_extensions(VkPhysicalDevice physical, const char* layer, uint32_t* count,
+                           VkExtensionProperties* out,
+                           const std::function<void(std::vector<VkExtensionProperties>&)>& alter);
+// One of them, of that name.
+VkExtensionProperties extension(const char* name, uint32_t version);
 
 // Defined by each layer.
 
