@@ -5,7 +5,7 @@
 // says the stage) once a variant and writes all modules to OUTPUT as C++ arrays. Each line of
 // VARIANTS is a variant: the array's name, 1.1 or 1.2 (the Vulkan version whose SPIR-V it is: 1.3
 // or 1.5), then its definitions as NAME=VALUE. One process for all, because glslang reads its own
-// built-in declarations for 0.1 s first, ten times what a variant takes.
+// built-in declarations for 0.1 s first, fifteen times what a variant takes.
 #include <glslang/Include/glslang_c_interface.h>
 #include <glslang/Public/ResourceLimits.h>
 
