@@ -45,12 +45,25 @@ Interval hull(const Interval& a, const Interval& b) {
     return {std::min(a.low, b.low), std::max(a.high, b.high)};
 }
 
+// What the unit may hold of a value: either neighbour, and 0 for a denormal number of binary32,
+// since nothing is said of the numbers that it works with ("Floating-Point Computation"). NVIDIA's
+// takes such sources for 0.
+Interval held(const Component& component, const Interval& v) {
+    static const mpq_class kNormal(0x1p-126);
+    Interval out = component.either(v);
+    if (component.kind() == ComponentKind::binary32) {
+        out.low = out.low > 0 && out.low < kNormal ? mpq_class(0) : out.low;
+        out.high = out.high < 0 && out.high > -kNormal ? mpq_class(0) : out.high;
+    }
+    return out;
+}
+
 // A term of the sum: either neighbour of a product. Infinity times 0 is NaN, and times any other
 // factor no multiple of the number that stands for it, so that nothing is known of either.
 Interval term(const Component& component, const Interval& value, const Interval& factor) {
     return component.may_be_infinite(value) || component.may_be_infinite(factor)
                ? Component::anything()
-               : component.either(product(value, factor));
+               : held(component, product(value, factor));
 }
 
 // The difference of two infinities is NaN; one of them stays what it is, whatever is added.
@@ -152,7 +165,7 @@ Color Unit::write(const cases::ColorOutput& output, const Color& written,
     // Alpha of the source takes part even where the target has none; then it is not rounded.
     const Component first(cases::component_of(format, 0));
     Color s = source;
-    Color second, constants;
+    Color second, constants, d;
     for (uint32_t k = 0; k < 4; ++k) {
         second[k] = point(static_cast<double>(output.blend->second[static_cast<int>(k)]));
         constants[k] = point(static_cast<double>(output.blend->constants[static_cast<int>(k)]));
@@ -163,9 +176,10 @@ Color Unit::write(const cases::ColorOutput& output, const Color& written,
             second[k] = clamped(second[k]);
             constants[k] = clamped(constants[k]);
         }
-        s[k] = grid.either(s[k]);
-        second[k] = grid.either(second[k]);
-        constants[k] = grid.either(constants[k]);
+        s[k] = held(grid, s[k]);
+        second[k] = held(grid, second[k]);
+        constants[k] = held(grid, constants[k]);
+        d[k] = held(grid, before[k]);
     }
     for (uint32_t k = 0; k < 4; ++k) {
         const Component component(cases::component_of(format, k));
@@ -175,22 +189,22 @@ Color Unit::write(const cases::ColorOutput& output, const Color& written,
         const cases::BlendEquation& equation = k == 3 ? output.blend->alpha : output.blend->color;
         Interval result;
         if (equation.op == BlendOp::min) {  // factors are ignored
-            result = smaller(s[k], before[k]);
+            result = smaller(s[k], d[k]);
         } else if (equation.op == BlendOp::max) {
-            result = larger(s[k], before[k]);
+            result = larger(s[k], d[k]);
         } else {
             const auto scaled = [&](const Interval& value, BlendFactor factor) {
                 return term(component, value,
-                            component.either(factor_of(factor, k, s, second, before, constants)));
+                            held(component, factor_of(factor, k, s, second, d, constants)));
             };
             const Interval a = scaled(s[k], equation.source);
-            const Interval b = scaled(before[k], equation.destination);
+            const Interval b = scaled(d[k], equation.destination);
             result = sum(component, equation.op == BlendOp::reverse_subtract ? negated(a) : a,
                          equation.op == BlendOp::subtract ? negated(b) : b);
         }
         out[k] = Component::is_anything(before[k]) || Component::is_anything(result)
                      ? Component::anything()
-                     : component.stored(result, profile, true);
+                     : held(component, component.stored(result, profile, true));
     }
     return out;
 }

@@ -146,6 +146,27 @@ TEST(Blend, ByHand) {
               "r 0.625, g 5, b -1, a 1");
 }
 
+// A denormal number of binary32 may be taken for 0 or become it, and the smallest normal one may
+// not; a blend unit alone is free to, and halves are held to their denormals.
+TEST(Blend, DenormalsOfBinary32MayBeZero) {
+    cases::ColorOutput output;
+    output.blend = cases::Blend{{BlendFactor::one, BlendFactor::one, BlendOp::add},
+                                {BlendFactor::one, BlendFactor::one, BlendOp::max}};
+    const Unit unit{ColorFormat::rgba32_float, Profile::direct3d};
+    const Color before = color_of({0, 0x1p-127, 0x1p-126, -0x1p-149});
+    const Color out = unit.write(output, color_of({-0x1p-149, 0, 0, -0x1p-149}), before);
+    EXPECT_EQ(out[0], (Interval{mpq_class(-0x1p-149), 0}));
+    EXPECT_EQ(out[1], (Interval{0, mpq_class(0x1p-127)}));
+    EXPECT_EQ(out[2], point(0x1p-126));
+    EXPECT_EQ(out[3], (Interval{mpq_class(-0x1p-149), 0}));
+    output.blend.reset();
+    EXPECT_EQ(unit.write(output, color_of({-0x1p-149, 0, 0, 0}), before)[0], point(-0x1p-149));
+    output.blend = cases::Blend{{BlendFactor::one, BlendFactor::one, BlendOp::add}, {}};
+    const Unit halves{ColorFormat::rgba16_float, Profile::direct3d};
+    EXPECT_EQ(halves.write(output, color_of({0x1p-24, 0, 0, 0}), color_of({0, 0, 0, 0}))[0],
+              point(0x1p-24));
+}
+
 TEST(Blend, MaskedComponentsAndMissingOnes) {
     const Unit unit{ColorFormat::r5g6b5_unorm, Profile::vulkan};
     const Color before = unit.cleared({ColorFormat::r5g6b5_unorm, {0, 1, 0, 0}});
