@@ -3,6 +3,7 @@
 //
 // The part of a draw that works on vertices and whole triangles: projection, facing, culling.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "rasterizers/software/draw_command.hpp"
@@ -22,7 +23,15 @@ WindowVertex DrawCommand::project(const ClipVertex& v) const {
     out.distance = v.distance;
     out.w = p.w;
     out.inv_w = 1.0F / p.w;
-    const auto divide = [&](float a) { return device_.reciprocal_w ? a * out.inv_w : a / p.w; };
+    float inverse = out.inv_w;
+    if (device_.near_reciprocal && (std::bit_cast<uint32_t>(p.w) & 1U) != 0) {
+        inverse = std::nextafter(inverse, 0.0F);
+    }
+    const bool is_multiplied = device_.reciprocal_w || device_.near_reciprocal;
+    const auto divide = [&](float a) { return is_multiplied ? a * inverse : a / p.w; };
+    const auto place = [&](float a, float scale, float offset) {
+        return device_.scales_first ? divide(a * scale) + offset : mad(divide(a), scale, offset);
+    };
 
     float height = view.height;
     float top = view.y;
@@ -30,8 +39,8 @@ WindowVertex DrawCommand::project(const ClipVertex& v) const {
         top += height;
         height = -height;
     }
-    out.x = mad(divide(p.x), view.width * 0.5F, view.x + view.width * 0.5F);
-    out.y = mad(divide(p.y), height * 0.5F, top + height * 0.5F);
+    out.x = place(p.x, view.width * 0.5F, view.x + view.width * 0.5F);
+    out.y = place(p.y, height * 0.5F, top + height * 0.5F);
     out.z = mad(divide(p.z), view.max_depth - view.min_depth, view.min_depth);
     if (draw_.depth.negative_one_to_one && device_.fault != Fault::depth_scale_ignored) {
         out.z = mad(divide(p.z), (view.max_depth - view.min_depth) * 0.5F,

@@ -13,13 +13,14 @@ namespace {
 [[maybe_unused]] void name_all_fields(const Device& device) {
     [[maybe_unused]] const auto& [subpixel_bits, rounding, ties, planes, basis,
                                   depth_has_other_basis, clip, piece_planes, tests_distances,
-                                  tests_depth, fused, reciprocal_w, centroid, inputs_follow_samples,
-                                  corner_inputs, facing_unsnapped, odd_quads, viewport_bits,
-                                  keeps_viewport_grid, first_strip_order, enlarges, counts_borders,
-                                  mitres_corners, rasterizes_degenerates, unorm,
-                                  narrow_through_eight, blend, multiply, half_toward_zero,
-                                  resolve_truncates, srgb_resolved_encoded, blit_edge, blit_steps,
-                                  fault, place_x, place_y] = device;
+                                  tests_depth, fused, reciprocal_w, near_reciprocal, scales_first,
+                                  centroid, inputs_follow_samples, corner_inputs, facing_unsnapped,
+                                  odd_quads, viewport_bits, keeps_viewport_grid, first_strip_order,
+                                  enlarges, counts_borders, mitres_corners, covers_by_piece,
+                                  rasterizes_degenerates, unorm, narrow_through_eight, blend,
+                                  multiply, half_toward_zero, resolve_truncates,
+                                  srgb_resolved_encoded, blit_edge, blit_steps, fault, place_x,
+                                  place_y] = device;
 }
 
 template <auto Field>
@@ -62,6 +63,8 @@ const std::vector<Choice>& all_choices() {
         flag<&Device::tests_depth>("tests-depth"),
         flag<&Device::fused>("fused"),
         flag<&Device::reciprocal_w>("reciprocal-w"),
+        flag<&Device::near_reciprocal>("near-reciprocal"),
+        flag<&Device::scales_first>("scales-first"),
         {"centroid", {"first-sample", "mean"}, set_word<&Device::centroid>},
         flag<&Device::inputs_follow_samples>("inputs-follow-samples"),
         flag<&Device::corner_inputs>("corner-inputs"),
@@ -75,6 +78,7 @@ const std::vector<Choice>& all_choices() {
         {"overestimation", {"none", "unit", "half-pixel"}, set_word<&Device::overestimation>},
         flag<&Device::counts_borders>("counts-borders"),
         flag<&Device::mitres_corners>("mitres-corners"),
+        flag<&Device::covers_by_piece>("covers-by-piece"),
         flag<&Device::rasterizes_degenerates>("rasterizes-degenerates"),
         {"unorm", {"nearest", "nearest-even", "nearest-down", "down"}, set_word<&Device::unorm>},
         flag<&Device::narrow_through_eight>("narrow-through-eight"),

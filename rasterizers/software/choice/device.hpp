@@ -68,6 +68,9 @@ struct Device {
     bool tests_depth = false;
     bool fused = false;         // a * b + c rounded once
     bool reciprocal_w = false;  // x * (1/w) instead of x / w
+    bool near_reciprocal =
+        false;                  // positions: that 1/w is often a unit in the last place too small
+    bool scales_first = false;  // the viewport's scale is multiplied before the division
     Centroid centroid = Centroid::first_sample;
     bool inputs_follow_samples = true;  // with sample shading inputs are evaluated at the sample
     bool corner_inputs = false;         // with several samples undecorated ones near a corner
@@ -80,6 +83,7 @@ struct Device {
     Overestimation overestimation = Overestimation::none;
     bool counts_borders = false;  // a triangle covers pixels that its border alone touches or fills
     bool mitres_corners = false;  // edges are moved, and meet where they do, however far away
+    bool covers_by_piece = false;  // conservative draws: each piece of a clipped triangle by itself
     bool rasterizes_degenerates = true;  // degenerateTrianglesRasterized
     UnormRounding unorm = UnormRounding::nearest;
     bool narrow_through_eight = false;  // UNORM of fewer bits is the high bits of an 8-bit code

@@ -93,6 +93,14 @@ const std::map<std::string_view, Shown>& shown() {
            {{"setup.viewport", "fused multiply-add"}}}}},
         {"reciprocal-w",
          {{"grid", "transform"}, {{{"setup.divide", "x / w"}}, {{"setup.divide", "x times 1/w"}}}}},
+        {"near-reciprocal",
+         {{"grid", "transform"},
+          {{{"setup.divide", "x / w"}},
+           {{"setup.divide", "x times 1/w, which is off by a unit in the last place at most"}}}}},
+        {"scales-first",
+         {{"grid", "transform"},
+          {{{"setup.viewport", "the product is rounded, then the sum"}},
+           {{"setup.viewport", "the product before the division, then the sum, each rounded"}}}}},
         {"centroid", {{"places"}, {{{"samples.centroid", first}}, {{"samples.centroid", mean}}}}},
         {"inputs-follow-samples",
          {{"places"},
@@ -188,6 +196,8 @@ const std::map<std::string_view, const char*>& hidden() {
         {"counts-borders",
          "no experiment draws conservatively: few devices that are tried here can"},
         {"mitres-corners",
+         "no experiment draws conservatively: few devices that are tried here can"},
+        {"covers-by-piece",
          "no experiment draws conservatively: few devices that are tried here can"},
     };
     return kHidden;
