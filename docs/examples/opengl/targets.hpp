@@ -204,8 +204,18 @@ class Targets {
         return samples_ == 1 || target_["depth"]["format"] != "d24-unorm";
     }
     std::vector<float> read_depth() const {
-        std::vector<float> depth = read_as<float>(
-            depth_texture(), samples_ == 1 ? GL_DEPTH_COMPONENT : GL_RGBA, GL_FLOAT, GL_RGBA32F);
+        std::vector<float> depth;
+        if (samples_ == 1 && target_["depth"]["format"] == "d24-unorm") {
+            // The code in the high bits of 32, which no driver has to compute in binary32.
+            for (const uint32_t word : read_as<uint32_t>(depth_texture(), GL_DEPTH_COMPONENT,
+                                                         GL_UNSIGNED_INT, GL_RGBA32UI)) {
+                depth.push_back(static_cast<float>((word >> 8U) / double{0xffffff}));
+            }
+            depth.resize(static_cast<size_t>(width_ * height_ * layers_));
+            return depth;
+        }
+        depth = read_as<float>(depth_texture(), samples_ == 1 ? GL_DEPTH_COMPONENT : GL_RGBA,
+                               GL_FLOAT, GL_RGBA32F);
         if (samples_ > 1) {  // comes back as a red component
             for (size_t k = 0; k < depth.size() / 4; ++k) {
                 depth[k] = depth[4 * k];
