@@ -126,6 +126,11 @@ std::string triangle_text(const ref::TriangleExplanation& t) {
     if (t.is_clipped) {
         text += "        a vertex lies outside the view volume: the clipped polygon counts too\n";
     }
+    if (t.decision.further > 0) {
+        text += fmt::format(
+            "        drawn in {} pieces, the clipped polygon may cover the pixel by each of them\n",
+            t.decision.further + 1);
+    }
     text += report::wrapped(fmt::format("        {}\n", t.sentence), 100);
     if (!t.bounds_text.empty()) {
         text += fmt::format("        {}\n", t.bounds_text);

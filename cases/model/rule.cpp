@@ -15,12 +15,12 @@ constexpr std::array kRules = {
     Rule{rule::cover_inside, Profile::vulkan, "A sample strictly inside a triangle is covered",
          "Whatever positions the device may use for the vertices, the sample is inside: it must be "
          "hit.",
-         "primsrast-polygons-basic", "3.4.2", "ref/coverage/exact.cpp"},
+         "primsrast-polygons-basic", "3.4.2", "ref/coverage/exact/exact.cpp"},
     Rule{rule::cover_outside, Profile::vulkan,
          "A triangle covers no sample strictly outside it, and none twice",
          "It must not hit a sample outside the convex hull of the positions that the device may "
          "use for its vertices, nor any sample more than once.",
-         "primsrast-polygons-basic", "3.4.2", "ref/coverage/exact.cpp"},
+         "primsrast-polygons-basic", "3.4.2", "ref/coverage/exact/exact.cpp"},
     Rule{rule::cover_shared_edge, Profile::vulkan,
          "A sample on a shared edge belongs to exactly one triangle",
          "If two triangles lie on either side of a common edge with identical end points, a sample "
@@ -38,7 +38,7 @@ constexpr std::array kRules = {
     Rule{rule::cover_degenerate, Profile::direct3d, "A triangle without area covers nothing",
          "No sample is strictly inside. Vulkan leaves the samples on its edges free; with the "
          "top-left rule none is hit.",
-         "primsrast-polygons-basic", "3.4.2", "ref/coverage/exact.cpp"},
+         "primsrast-polygons-basic", "3.4.2", "ref/coverage/exact/exact.cpp"},
     Rule{rule::snap_nearest, Profile::direct3d, "Vertices snap to the nearest subpixel position",
          "Direct3D rounds to nearest within 0.6 of a unit; Vulkan names no rounding, practice is "
          "floor or ceil.",
@@ -47,13 +47,15 @@ constexpr std::array kRules = {
          "A sample on an edge belongs to the top or left edge's triangle",
          "A top edge is exactly horizontal and above the others, a left edge is not horizontal and "
          "on the left side. Vulkan does not demand this rule.",
-         "primsrast-polygons-basic", "3.4.2", "ref/coverage/exact.cpp"},
-    Rule{rule::conservative_overestimate, Profile::vulkan,
-         "Overestimated, a triangle covers every pixel that it touches",
-         "Where the triangle and the pixel have an area in common, all samples of the pixel are "
-         "covered, those outside the triangle and those of every other triangle along a shared "
-         "edge, too. Open where they have only their borders in common.",
-         "primsrast-conservativeraster", "", "ref/coverage/pixel_area.hpp"},
+         "primsrast-polygons-basic", "3.4.2", "ref/coverage/exact/exact.cpp"},
+    Rule{
+        rule::conservative_overestimate, Profile::vulkan,
+        "Overestimated, a triangle covers every pixel that it touches",
+        "Where the triangle and the pixel have an area in common, all samples of the pixel are "
+        "covered, those outside the triangle and those of every other triangle along a shared "
+        "edge, too. Open where they have only their borders in common. What clipping leaves may be "
+        "drawn as several triangles, each of which covers what it touches.",
+        "primsrast-conservativeraster", "", "ref/coverage/pixel_area.hpp"},
     Rule{rule::conservative_size, Profile::practice,
          "An overestimated triangle is enlarged by the sizes that device and draw name",
          "Each edge is moved outwards by primitiveOverestimationSize and "
@@ -63,7 +65,8 @@ constexpr std::array kRules = {
     Rule{rule::conservative_underestimate, Profile::vulkan,
          "Underestimated, a triangle covers the pixels that it fills, and no other",
          "All samples of a pixel are covered if its square, with edges and corners, lies in the "
-         "triangle, and else none. Open where the square reaches the triangle's border.",
+         "triangle, and else none. Open where the square reaches the triangle's border, or that of "
+         "one of the triangles that a clipped one may be drawn as.",
          "primsrast-conservativeraster", "", "ref/coverage/pixel_area.hpp"},
     Rule{rule::conservative_degenerate, Profile::practice,
          "Overestimated, a triangle without area is drawn as the device says",

@@ -280,11 +280,13 @@ constexpr Statement kStatements[] = {
     {86, "conservative overestimation", tolerance, tolerance,
      "Every pixel that the triangle has an area in common with is covered, with all samples; how far beyond it others are "
      "is asked from practice on (each edge moved by the sizes that device and draw name), the shape of that at direct3d "
-     "(a square swept along the edges). Where borders alone meet it is open.",
+     "(a square swept along the edges). Where borders alone meet it is open. A clipped triangle may be several, each of "
+     "which covers what it touches.",
      {"conservative.overestimate", "conservative.size"}, ""},
     {87, "conservative underestimation and FullyCovered", tolerance, tolerance,
      "A pixel is covered, with all samples, if it lies in the triangle with its edges and corners, and else not; open "
-     "within a unit of the grid inside the triangle's border. No shader reads FullyCoveredEXT.",
+     "within a unit of the grid inside the triangle's border, and where a clipped triangle may be divided. No shader "
+     "reads FullyCoveredEXT.",
      {"conservative.underestimate"}, ""},
     {127, "conservative triangles without area", tolerance, tolerance,
      "One that loses its area when it is snapped is a back face, or culled, as degenerateTrianglesRasterized says; one "

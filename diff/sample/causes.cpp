@@ -246,11 +246,13 @@ Cause Causes::of_extra() const {
 
 Cause Causes::of_count(uint32_t total, bool is_missing) const {
     const auto& sets = reasons_.sets;
-    uint32_t must = 0, may = 0;
+    uint32_t must = 0, may = 0, pieces = 0;
     for (const TriangleExplanation& t : reasons_.triangles) {
         must += t.decision.coverage == Coverage::must ? 1U : 0U;
         may += t.decision.coverage != Coverage::must_not ? 1U : 0U;
+        pieces += t.decision.further;
     }
+    may += pieces;
     const TriangleExplanation* const covering = first_with(Coverage::must);
     if (level_ == cases::Profile::direct3d) {
         const TriangleExplanation* t = first_tie(is_missing);
@@ -275,7 +277,10 @@ Cause Causes::of_count(uint32_t total, bool is_missing) const {
             first_that([](const auto& e) { return e.decision.coverage != Coverage::must_not; });
         return of(ReasonKind::once_alone, name_of(*t));
     }
-    return of(may == 0 ? ReasonKind::none_may : ReasonKind::once_each, "", may);
+    return of(may == 0     ? ReasonKind::none_may
+              : pieces > 0 ? ReasonKind::once_pieces
+                           : ReasonKind::once_each,
+              "", may);
 }
 
 }  // namespace diff

@@ -328,14 +328,19 @@ void DrawCommand::rasterize_polygon(const Primitive& primitive,
         size_t largest = 0;
         int64_t most = 0;
         for (size_t k = 0; k < pieces; ++k) {
-            const int64_t of_piece =
-                twice_area(std::array{polygon[0], polygon[k + 1], polygon[k + 2]});
+            const std::vector<WindowVertex> corners{polygon[0], polygon[k + 1], polygon[k + 2]};
+            const int64_t of_piece = twice_area(corners);
+            if (device_.covers_by_piece && of_piece > 0) {
+                cover_area(primitive, planes_of(k), corners, first, front);
+            }
             if (of_piece > most) {
                 most = of_piece;
                 largest = k;
             }
         }
-        cover_area(primitive, planes_of(largest), polygon, first, front);
+        if (!device_.covers_by_piece) {
+            cover_area(primitive, planes_of(largest), polygon, first, front);
+        }
         return;
     }
     const auto piece = [&](size_t k) {

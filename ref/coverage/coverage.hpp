@@ -29,6 +29,8 @@ enum class Coverage : uint8_t { must_not, either, must };
 // Says what was decided of one triangle at one sample, and why.
 struct Decision {
     Coverage coverage = Coverage::must_not;
+    // Of a conservative draw: how many times more it may cover the pixel (ref/coverage/pieces.hpp).
+    uint32_t further = 0;
     Reasons reasons;
 };
 

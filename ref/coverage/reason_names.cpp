@@ -6,7 +6,7 @@
 #include <array>
 #include <optional>
 
-#include "ref/coverage/exact.hpp"
+#include "ref/coverage/exact/exact.hpp"
 #include "ref/number/edge_function.hpp"
 
 namespace ref {
@@ -260,7 +260,11 @@ void name_pixel_reason(const TriangleSetup& setup, const Outline& o, const Fixed
             }
             return;
         case Coverage::either:
-            add_reason(out, {is_over ? ReasonKind::may_reach : ReasonKind::may_fill});
+            if (!is_over && exact::meets_inner_edge(setup.area, o, centre)) {
+                add_reason(out, {ReasonKind::between_pieces});
+            } else {
+                add_reason(out, {is_over ? ReasonKind::may_reach : ReasonKind::may_fill});
+            }
             return;
         case Coverage::must_not:
             other.keeps_degenerates = true;

@@ -103,6 +103,7 @@ struct Outline {
     std::array<EdgeTest, kMaxClippedVertices> must_test{};
     std::array<int8_t, kMaxClippedVertices> tie_side{};  // top_left: sign of E for the other boxes
     std::vector<DistanceCut> cuts;
+    bool may_fold = false;  // pieces may run against others (ref/coverage/pieces.hpp)
 
     std::span<const Box> vertices() const { return {boxes.data(), count}; }
     std::span<const Box> must_vertices() const { return {must_boxes.data(), must_count}; }

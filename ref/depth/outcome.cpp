@@ -193,6 +193,9 @@ struct DepthTest::Impl {
 
     // Of triangle `next`, drawn after `first`.
     Relation relation(uint32_t first, uint32_t next) {
+        if (first == next) {
+            return {};  // two pieces of one triangle, each with planes of its own
+        }
         const cases::Triangle& a = triangles[first];
         const cases::Triangle& b = triangles[next];
         const cases::Draw& da = c.draws[a.draw];

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ref/coverage/exact.hpp"
+#include "ref/coverage/exact/exact.hpp"
 #include "ref/exercise/tests.hpp"
 
 namespace ref {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <optional>
 
-#include "ref/coverage/exact.hpp"
+#include "ref/coverage/exact/exact.hpp"
 #include "ref/coverage/setup.hpp"
 #include "ref/coverage/triangle_setups.hpp"
 #include "ref/expectation/expectation.hpp"
@@ -39,9 +39,10 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
                         takes_away_pixel(draw, i, j)) {
                         continue;
                     }
-                    const Coverage coverage = classify(setups[t], p);
-                    if (coverage != Coverage::must_not) {
-                        hits.push_back({t, coverage});
+                    const Decision decision = decide(setups[t], p, false);
+                    if (decision.coverage != Coverage::must_not) {
+                        hits.push_back({t, decision.coverage});
+                        hits.insert(hits.end(), decision.further, {t, Coverage::either});
                     }
                 }
                 SampleExpectation sample =

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <set>
 
-#include "ref/coverage/exact.hpp"
+#include "ref/coverage/exact/exact.hpp"
 #include "ref/expectation/reason_text.hpp"
 #include "ref/position/clip.hpp"
 #include "ref/stencil/values.hpp"
@@ -255,6 +255,8 @@ SampleExplanation Explainer::explain(cases::SampleId sample, Detail detail) {
         if (decision.coverage != Coverage::must_not) {
             hits.push_back({t, decision.coverage});
             explained.push_back(is_told ? out.triangles.size() : kUntold);
+            hits.insert(hits.end(), decision.further, {t, Coverage::either});
+            explained.insert(explained.end(), decision.further, kUntold);
         }
         if (is_told) {
             TriangleExplanation e;

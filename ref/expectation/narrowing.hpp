@@ -49,6 +49,12 @@ struct Hit {
     Coverage coverage = Coverage::either;
 };
 
+// Whether a hit is that of another piece of the triangle before it (ref/coverage/pieces.hpp).
+// Nothing shares out what such a one covers.
+inline bool is_further(std::span<const Hit> hits, size_t m) {
+    return m > 0 && hits[m - 1].triangle == hits[m].triangle;
+}
+
 // Triangles that share a number of hits, and why.
 struct FixedSet {
     ReasonKind why = ReasonKind::shared_edge;

@@ -109,6 +109,9 @@ constexpr std::array kRows = {
         "vertices, or as far as the device enlarges it"},
     Row{may_fill, rule::conservative_underestimate,
         "the triangle may hold the pixel, for some positions of its vertices or with its border"},
+    Row{between_pieces, rule::conservative_underestimate,
+        "what clipping leaves may be drawn in pieces, none of which fills a pixel on an edge "
+        "between two of them"},
     Row{vertex_boxes, rule::cover_inside, "inside for some positions of the vertices only: {boxes}",
         rule::snap_nearest},
     Row{complement, rule::clip_complement,
@@ -132,6 +135,8 @@ constexpr std::array kRows = {
     Row{none_may, rule::cover_outside, "no triangle near the sample may cover it"},
     Row{once_alone, rule::cover_outside, "{triangle} alone may cover the sample, and only once"},
     Row{once_each, rule::cover_outside, "{number} triangles may cover the sample, each only once"},
+    Row{once_pieces, rule::cover_outside,
+        "{number} triangles and pieces of clipped ones may cover the sample, each only once"},
     Row{area_sign, rule::face_area_sign, "the sign of its area decides which face shows"},
     Row{writer_not_last, rule::order_primitive,
         "another triangle than the last one that may cover the sample wrote it"},

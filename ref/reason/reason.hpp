@@ -56,6 +56,7 @@ enum class ReasonKind : uint8_t {
     on_edge,          // it lies on an edge, and no rule of the profile decides; the edge's label
     may_reach,        // of a conservative draw: enlarged, it may reach the pixel
     may_fill,         // it may hold the whole pixel
+    between_pieces,   // an edge between pieces of the clipped triangle may touch the pixel
     vertex_boxes,  // it is inside for some positions of the vertices; an edge's label or kNothing
     // A triangle may cover the sample, but those of a set share a number of hits.
     complement,     // of clip distances and their negatives
@@ -69,6 +70,7 @@ enum class ReasonKind : uint8_t {
     none_may,           // none of those near it may cover it
     once_alone,         // one triangle may cover it, and once
     once_each,          // each of several may, and once
+    once_pieces,        // the same, pieces of clipped triangles of a conservative draw among them
     area_sign,          // which face shows
     // What else a finding says of the fragments of a sample, whatever a single one of them is.
     writer_not_last,     // another triangle than the last wrote it

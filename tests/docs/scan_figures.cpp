@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "ref/coverage/exact.hpp"
+#include "ref/coverage/exact/exact.hpp"
 #include "tests/docs/algorithm_figures.hpp"
 #include "tests/unit/rasterizers/float_loss.hpp"
 #include "tests/unit/rasterizers/random_triangles.hpp"

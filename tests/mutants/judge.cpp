@@ -48,6 +48,12 @@ std::vector<LegalDevice> legal_devices() {
     add("fused", "fused multiply-add", Profile::direct3d, [](Device& d) { d.fused = true; });
     add("reciprocal_w", "multiplies with 1/w instead of dividing", Profile::direct3d,
         [](Device& d) { d.reciprocal_w = true; });
+    add("scales_before_it_divides",
+        "the viewport's scale is multiplied first, with a 1/w that is not rounded correctly",
+        Profile::direct3d, [](Device& d) {
+            d.near_reciprocal = true;
+            d.scales_first = true;
+        });
     for (const PlaneBasis basis : {PlaneBasis::unsnapped, PlaneBasis::snapped}) {
         const bool is_snapped = basis == PlaneBasis::snapped;
         add(is_snapped ? "depth_unsnapped_values_snapped" : "depth_snapped_values_unsnapped",
@@ -81,6 +87,12 @@ std::vector<LegalDevice> legal_devices() {
             d.overestimation = software::Overestimation::unit;
             d.counts_borders = true;
             d.clip = ClipMethod::guard_band;
+        });
+    add("covers_piece_by_piece",
+        "conservative draws cover by each piece of a clipped triangle by itself", Profile::direct3d,
+        [](Device& d) {
+            d.overestimation = software::Overestimation::unit;
+            d.covers_by_piece = true;
         });
     add("mitres_corners", "overestimation moves edges, which meet where they do", Profile::practice,
         [](Device& d) {

@@ -8,6 +8,7 @@
 #include "ref/coverage/fast/half_plane.hpp"
 #include "ref/coverage/fast/rows.hpp"
 #include "ref/coverage/fast/snapped.hpp"
+#include "ref/coverage/pieces.hpp"
 
 namespace ref::fast {
 
@@ -119,6 +120,52 @@ void scan_sets(const CoverageSets& sets, const Grid& g, const Span& base, std::v
     }
 }
 
+// Makes what must be covered, from the span `first` on, open where `open` is; both row by row.
+void open_spans(std::vector<Span>& spans, size_t first, std::span<const Span> open) {
+    std::vector<Span> out;
+    for (const Span& s : std::span(spans).subspan(first)) {
+        Span rest = s;
+        for (const Span& o : open) {
+            const bool meets = o.y == s.y && o.x0 < rest.x1 && o.x1 > rest.x0;
+            if (s.coverage != Coverage::must || !meets) {
+                continue;
+            }
+            Span part = rest;
+            part.x1 = std::max(rest.x0, o.x0);
+            if (part.x0 < part.x1) {
+                out.push_back(part);
+            }
+            part.x0 = part.x1;
+            part.x1 = std::min(rest.x1, o.x1);
+            part.coverage = Coverage::either;
+            out.push_back(part);
+            rest.x0 = part.x1;
+        }
+        if (rest.x0 < rest.x1) {
+            out.push_back(rest);
+        }
+    }
+    spans.resize(first);
+    spans.insert(spans.end(), out.begin(), out.end());
+}
+
+template <class T>
+void scan_pieces(const CoverageSets& sets, const Grid& g, const Span& base, size_t first,
+                 std::vector<Span>& out) {
+    CoverageSets some;
+    some.has_must = false;
+    for (const std::vector<ConvexSet>& further : sets.further) {
+        some.may = further;
+        scan_sets<T>(some, g, base, out);
+    }
+    if (!sets.open.empty()) {
+        some.may = sets.open;
+        std::vector<Span> open;
+        scan_sets<T>(some, g, base, open);
+        open_spans(out, first, open);
+    }
+}
+
 bool is_narrow(const TriangleSetup& setup) {
     for (const Outline* const outline : setup.outlines()) {
         const Outline& o = *outline;
@@ -171,6 +218,7 @@ void scan_by_sets(const TriangleSetup& setup, uint32_t triangle, const cases::Ta
         constexpr int64_t kFar = int64_t{1} << kPositionBits;
         sets.has_must = false;
         sets.may.push_back({{}, {-kFar, -kFar, kFar, kFar}});
+        sets.further.assign(further_if_undefined(setup.area), sets.may);
     }
     for (uint32_t s = 0; s < target.samples; ++s) {
         if (!setup.window.may_write(s)) {
@@ -182,10 +230,13 @@ void scan_by_sets(const TriangleSetup& setup, uint32_t triangle, const cases::Ta
         Span base;
         base.sample = s;
         base.triangle = triangle;
+        const size_t first = out.size();
         if (is_wide) {
             scan_sets<Int128>(sets, g, base, out);
+            scan_pieces<Int128>(sets, g, base, first, out);
         } else {
             scan_sets<int64_t>(sets, g, base, out);
+            scan_pieces<int64_t>(sets, g, base, first, out);
         }
     }
 }
@@ -205,7 +256,9 @@ Coverage classify(const TriangleSetup& setup, const FixedPoint& sample) {
     }
     const bool is_must = sets.has_must && !setup.may_be_culled && setup.window.must_touch(p) &&
                          std::all_of(sets.must.begin(), sets.must.end(),
-                                     [&](const HalfPlane& h) { return h.at(p) >= 0; });
+                                     [&](const HalfPlane& h) { return h.at(p) >= 0; }) &&
+                         std::none_of(sets.open.begin(), sets.open.end(),
+                                      [&](const ConvexSet& s) { return contains(s, p); });
     return is_must ? Coverage::must : Coverage::either;
 }
 

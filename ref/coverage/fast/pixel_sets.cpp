@@ -14,6 +14,7 @@
 #include <optional>
 
 #include "ref/coverage/facing.hpp"
+#include "ref/coverage/pieces.hpp"
 #include "ref/number/rational.hpp"
 
 namespace ref::fast {
@@ -272,6 +273,29 @@ void add_boxes(const TriangleSetup& setup, const Outline& o, CoverageSets& out) 
     add_bounds(*bounds, least, out.must);
 }
 
+// What the pieces of an outline leave open, `may`: what it may cover.
+void add_pieces(const PixelArea& area, const Outline& o, std::span<const ConvexSet> may,
+                CoverageSets& out) {
+    std::vector<ConvexSet> sets;
+    if (meets_everywhere(area)) {
+        sets.assign(may.begin(), may.end());
+    } else {
+        for (const InnerEdge& edge : inner_edges(o)) {
+            sets.push_back(grown(hull_set(edge), reach_of_inner_edges(area)));
+        }
+    }
+    if (!area.is_over()) {
+        out.open.insert(out.open.end(), sets.begin(), sets.end());
+        return;
+    }
+    for (const DistanceCut& cut : o.cuts) {
+        for (ConvexSet& set : sets) {
+            set.planes.push_back(moved(cut.may, kHalfPixel));
+        }
+    }
+    add_further(o, sets, out);
+}
+
 }  // namespace
 
 CoverageSets pixel_sets(const TriangleSetup& setup) {
@@ -299,6 +323,9 @@ CoverageSets pixel_sets(const TriangleSetup& setup) {
                 out.may[i].planes.push_back(moved(cut.may, kHalfPixel));
             }
             out.must.push_back(moved(cut.must, -kHalfPixel));
+        }
+        if (o->mode != OutlineMode::empty && further_pieces(*o) > 0) {
+            add_pieces(setup.area, *o, std::span(out.may).subspan(first), out);
         }
     }
     return out;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ref/value/fragment/fragment_coverage.hpp"
 
-#include "ref/coverage/exact.hpp"
+#include "ref/coverage/exact/exact.hpp"
 #include "ref/coverage/fast/fast.hpp"
 #include "ref/coverage/fast/half_plane.hpp"
 #include "ref/number/fixed_point.hpp"

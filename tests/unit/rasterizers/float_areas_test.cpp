@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "ref/coverage/exact.hpp"
+#include "ref/coverage/exact/exact.hpp"
 #include "tests/unit/rasterizers/float_loss.hpp"
 #include "tests/unit/rasterizers/random_triangles.hpp"
 

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "rasterizers/algorithms/edge.hpp"
-#include "ref/coverage/exact.hpp"
+#include "ref/coverage/exact/exact.hpp"
 #include "tests/unit/rasterizers/random_triangles.hpp"
 
 namespace rasterizers {

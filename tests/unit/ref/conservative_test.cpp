@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ref/coverage/exact.hpp"
+#include "ref/coverage/exact/exact.hpp"
 #include "ref/coverage/fast/fast.hpp"
 #include "ref/coverage/setup.hpp"
 #include "tests/unit/ref/coverage_random.hpp"
@@ -325,6 +325,39 @@ TEST(Conservative, ExtraSizeReachesHalfOfItAndNoMoreThanAll) {
                 7)
             .total_max,
         0U);
+}
+
+// A triangle whose corner the near plane cuts off, from (1.25, 1.5) and (10.75, 2.25) to (5.125,
+// 10.5) in depth -1/4: a quad is left, which a device may draw as two triangles.
+cases::Case cut_by_near_plane(Conservative mode) {
+    cases::Case c = pixels(16, 16, {{1.25, 1.5}, {10.75, 2.25}, {5.125, 10.5}});
+    c.draws[0].positions[0].z = c.draws[0].positions[1].z = 0.75F;
+    c.draws[0].positions[2].z = -0.25F;
+    c.draws[0].conservative = mode;
+    return c;
+}
+
+// The cut's ends are at three quarters of the edges: (4.15625, 8.25) and (6.53125, 8.4375).
+TEST(Conservative, PiecesOfAClippedTriangleMeet) {
+    const Expectation over =
+        expect(cut_by_near_plane(Conservative::overestimate), limits_of(0), Profile::direct3d);
+    const auto bounds = [](const Expectation& e, uint32_t x, uint32_t y) {
+        const HitBounds hits = hits_at(e, x, y);
+        return std::pair(hits.total_min, hits.total_max);
+    };
+    using Bounds = std::pair<uint32_t, uint32_t>;
+    EXPECT_EQ(bounds(over, 9, 2), Bounds(1, 2));  // from the second corner to the cut
+    EXPECT_EQ(bounds(over, 7, 5), Bounds(1, 2));
+    EXPECT_EQ(bounds(over, 2, 3), Bounds(1, 2));  // from the first one
+    EXPECT_EQ(bounds(over, 5, 2), Bounds(1, 1));
+    EXPECT_EQ(bounds(over, 3, 2), Bounds(1, 1));
+    EXPECT_EQ(bounds(over, 12, 2), Bounds(0, 0));
+    const Expectation under =
+        expect(cut_by_near_plane(Conservative::underestimate), limits_of(0), Profile::direct3d);
+    EXPECT_EQ(bounds(under, 7, 4), Bounds(0, 1));
+    EXPECT_EQ(bounds(under, 5, 3), Bounds(1, 1));
+    EXPECT_EQ(bounds(under, 6, 3), Bounds(1, 1));
+    EXPECT_EQ(bounds(under, 1, 1), Bounds(0, 0));
 }
 
 // Both triangles at an edge cover the pixels on it, and neither scissor nor viewport is enlarged.

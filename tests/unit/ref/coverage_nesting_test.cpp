@@ -4,7 +4,7 @@
 // A stricter profile forbids whatever a looser one does; and edges that clipping leaves alone.
 #include <gtest/gtest.h>
 
-#include "ref/coverage/exact.hpp"
+#include "ref/coverage/exact/exact.hpp"
 #include "tests/unit/ref/coverage_random.hpp"
 
 namespace ref::test {

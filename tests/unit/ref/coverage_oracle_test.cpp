@@ -6,7 +6,7 @@
 
 #include <limits>
 
-#include "ref/coverage/exact.hpp"
+#include "ref/coverage/exact/exact.hpp"
 #include "ref/coverage/fast/fast.hpp"
 #include "ref/coverage/setup.hpp"
 #include "tests/unit/ref/coverage_random.hpp"

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ref/coverage/exact.hpp"
+#include "ref/coverage/exact/exact.hpp"
 #include "ref/coverage/facing.hpp"
 #include "ref/coverage/fast/fast.hpp"
 #include "ref/coverage/setup.hpp"

@@ -15,7 +15,7 @@
 #include "cases/load/loader.hpp"
 #include "cases/model/profile.hpp"
 #include "folders.hpp"
-#include "ref/coverage/exact.hpp"
+#include "ref/coverage/exact/exact.hpp"
 #include "ref/coverage/fast/fast.hpp"
 #include "ref/coverage/outline.hpp"
 #include "ref/expectation/expectation.hpp"
@@ -211,6 +211,7 @@ void take_away(Scene& s, Reason reason, int orientation) {
         case ReasonKind::degenerate_kept:
         case ReasonKind::may_reach:
         case ReasonKind::may_fill:
+        case ReasonKind::between_pieces:
             replace(s, true, orientation);
             return;
         case ReasonKind::masked:

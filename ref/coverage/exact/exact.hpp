@@ -22,9 +22,16 @@ Decision decide(const TriangleSetup& setup, const FixedPoint& p, bool is_told);
 // What one outline says of a sample, without its cuts and whatever the window.
 Coverage coverage_of(const TriangleSetup& setup, const Outline& outline, const FixedPoint& p);
 
-// The same of a pixel of a conservative draw, at its centre (exact_pixel.cpp).
+// The same of a pixel of a conservative draw, at its centre (pixel.cpp).
 Coverage pixel_coverage(const TriangleSetup& setup, const PixelArea& area, const Outline& outline,
                         const FixedPoint& centre);
+
+// Whether an edge between pieces of the outline may come near enough to the pixel to decide of it.
+bool meets_inner_edge(const PixelArea& area, const Outline& outline, const FixedPoint& centre);
+
+// How many more pieces of the outline than one may cover p, a sample, or the centre of a pixel if
+// the draw is conservative.
+uint32_t further_pieces_at(const TriangleSetup& setup, const Outline& outline, const FixedPoint& p);
 
 // True if p lies in the closed convex hull of the boxes: no line through p has all corners strictly
 // on one side.

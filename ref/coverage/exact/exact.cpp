@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ref/coverage/exact.hpp"
+#include "ref/coverage/exact/exact.hpp"
 
 #include <gmpxx.h>
 
@@ -8,6 +8,7 @@
 #include <array>
 #include <vector>
 
+#include "ref/coverage/pieces.hpp"
 #include "ref/coverage/reason_names.hpp"
 
 namespace ref::exact {
@@ -242,6 +243,7 @@ Decision decide(const TriangleSetup& setup, const FixedPoint& sample, bool is_to
     Decision out;
     if (setup.kind == TriangleSetup::Kind::anywhere) {
         out.coverage = Coverage::either;
+        out.further = further_if_undefined(setup.area);
     } else {
         const OutlineList outlines = setup.outlines();
         const size_t count = outlines.size();
@@ -249,6 +251,9 @@ Decision decide(const TriangleSetup& setup, const FixedPoint& sample, bool is_to
         for (size_t k = 0; k < count; ++k) {
             each[k] = after_cuts(coverage_of(setup, *outlines[k], p), *outlines[k], p,
                                  setup.area.is_on() ? kHalfPixel : 0);
+            if (each[k] != Coverage::must_not) {
+                out.further = std::max(out.further, further_pieces_at(setup, *outlines[k], p));
+            }
         }
         const auto [least, most] = std::minmax_element(each.begin(), each.begin() + count);
         out.coverage = count == 0 || *most == Coverage::must_not ? Coverage::must_not
@@ -263,6 +268,7 @@ Decision decide(const TriangleSetup& setup, const FixedPoint& sample, bool is_to
             out.reasons.clear();
         }
         out.coverage = Coverage::must_not;
+        out.further = 0;
     } else if (out.coverage == Coverage::must && (setup.may_be_culled || !window.must_touch(p))) {
         out.reasons.clear();
         out.coverage = Coverage::either;

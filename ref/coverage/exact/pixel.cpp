@@ -9,8 +9,9 @@
 #include <array>
 #include <vector>
 
-#include "ref/coverage/exact.hpp"
+#include "ref/coverage/exact/exact.hpp"
 #include "ref/coverage/facing.hpp"
+#include "ref/coverage/pieces.hpp"
 
 namespace ref::exact {
 
@@ -363,6 +364,13 @@ Coverage of_boxes(const TriangleSetup& setup, const PixelArea& area, const Outli
     return between(may || must, must);
 }
 
+// What all pieces of the outline come to.
+Coverage of_pieces(const PixelArea& area, const Outline& o, const FixedPoint& centre,
+                   Coverage whole) {
+    const bool is_open = whole == Coverage::must && !area.is_over();
+    return is_open && meets_inner_edge(area, o, centre) ? Coverage::either : whole;
+}
+
 }  // namespace
 
 Coverage pixel_coverage(const TriangleSetup& setup, const PixelArea& area, const Outline& o,
@@ -371,11 +379,29 @@ Coverage pixel_coverage(const TriangleSetup& setup, const PixelArea& area, const
         case OutlineMode::empty:
             break;
         case OutlineMode::snapped:
-            return of_snapped(setup, area, o, centre);
+            return of_pieces(area, o, centre, of_snapped(setup, area, o, centre));
         case OutlineMode::boxes:
-            return of_boxes(setup, area, o, centre);
+            return of_pieces(area, o, centre, of_boxes(setup, area, o, centre));
     }
     return Coverage::must_not;
+}
+
+bool meets_inner_edge(const PixelArea& area, const Outline& o, const FixedPoint& centre) {
+    const std::vector<InnerEdge> edges = inner_edges(o);
+    return std::any_of(edges.begin(), edges.end(), [&](const InnerEdge& edge) {
+        return touches(centre, reach_of_inner_edges(area), edge);
+    });
+}
+
+uint32_t further_pieces_at(const TriangleSetup& setup, const Outline& o, const FixedPoint& p) {
+    const PixelArea& area = setup.area;
+    if (o.mode == OutlineMode::empty || further_pieces(o) == 0) {
+        return 0;
+    }
+    const bool may_meet =
+        area.is_on() ? area.is_over() && (meets_everywhere(area) || meets_inner_edge(area, o, p))
+                     : o.may_fold;
+    return may_meet ? further_pieces(o) : 0;
 }
 
 }  // namespace ref::exact
