@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ref/coverage/pieces.hpp"
 #include "ref/number/edge_function.hpp"
 #include "ref/position/position_detail.hpp"
 
@@ -160,7 +159,6 @@ void choose_mode(Outline& o, int64_t step, cases::Profile profile) {
     }
     draw_together(o, profile == cases::Profile::direct3d);
     o.mode = OutlineMode::boxes;
-    o.may_fold = may_fold(o);
 }
 
 AreaSigns signs_of(const Outline& o, int64_t step, bool may_be_zero) {

@@ -46,7 +46,7 @@ bool is_crossing(const std::array<glm::vec4, 3>& clip, EdgeLabel in, EdgeLabel o
 }  // namespace
 
 bool outline_of(const std::vector<ClippedVertex>& polygon, const OutlineSource& s, Outline& out) {
-    out.count = 0;
+    out.count = out.cut_corners = 0;
     if (polygon.size() > kMaxClippedVertices) {
         return false;
     }
@@ -72,12 +72,14 @@ bool outline_of(const std::vector<ClippedVertex>& polygon, const OutlineSource& 
         out.boxes[out.count] = *box;
         out.edge[out.count] = v.edge;
         ++out.count;
+        const bool is_on_plane = v.edge >= kFirstClipEdge || in >= kFirstClipEdge;
+        out.cut_corners += v.original >= 0 && is_on_plane ? 1U : 0U;
     }
     return true;
 }
 
 bool outline_by(const OutlineSource& s, std::span<const ClipPlane> planes, Outline& out) {
-    out.count = 0;
+    out.count = out.cut_corners = 0;
     if (is_inside(s.input, planes)) {
         for (uint32_t i = 0; i < 3; ++i) {
             const std::optional<Box>& box = s.boxes.of(s.triangle.draw, s.triangle.vertex[i]);

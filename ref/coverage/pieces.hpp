@@ -1,21 +1,20 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a device may show of a clipped triangle that it draws in pieces. "One algorithm that achieves
-// the required behavior is to triangulate a polygon (without adding any vertices) and then treat
-// each triangle individually" (Vulkan specification, "Basic Polygon Rasterization"). NVIDIA 580 does.
+// What a conservative draw may show of a triangle that is clipped. "One algorithm that achieves the
+// required behavior is to triangulate a polygon (without adding any vertices) and then treat each
+// triangle individually" (Vulkan specification, "Basic Polygon Rasterization"). Each piece is then
+// enlarged, or filled, by itself: along an edge between two pieces an overestimated pixel is
+// covered once by each that reaches it, since "the tie-breaking rule ... does not apply" and
+// "coverage is set for all fragments generated from shared edges of polygons" ("Conservative
+// Rasterization"), and an underestimated one by none. NVIDIA 580 draws so.
 //
-// Conservative draws enlarge or fill each piece by itself: along an edge between two pieces an
-// overestimated pixel is covered once by each that reaches it, since "the tie-breaking rule ...
-// does not apply" ("Conservative Rasterization"), and an underestimated one by none. Which edges lie
-// between pieces is the device's choice: any from a vertex of the polygon to one that is not its
-// neighbour. How far a piece reaches beyond its edges is free where the size is, and where the
-// corners are (pixel_area.hpp).
+// Which edges lie between pieces is the device's choice: any from a vertex of the polygon to one
+// that is not its neighbour. How far a piece reaches beyond its edges is free where the size is,
+// and where the corners are (pixel_area.hpp).
 //
-// All other draws cover each sample of a convex polygon once, however it is divided. But a polygon
-// so thin that its rounded corners may run either way round may fold: of its pieces, one may then
-// face the front and another, over it, the back. (A fold at a corner of any other polygon is thinner
-// than a unit of the grid, and its back face is not expected.)
+// No other draw may hit a sample by two pieces: there the rule of ties gives it to one
+// (docs/findings/lavapipe-clipped-twice.md).
 #pragma once
 
 #include <array>
@@ -26,9 +25,12 @@
 
 namespace ref {
 
-// How many triangles a polygon may be drawn as, but for one.
-inline uint32_t further_pieces(const Outline& o) {
-    return o.count > 3 ? o.count - 3 : 0;
+// How many triangles a polygon may be drawn as, but for one. Where a corner of the triangle lies on
+// the plane that cuts it, a device may find a cut beside it, in the same place, and with it a piece
+// without area, which counts if overestimated draws keep those.
+inline uint32_t further_pieces(const Outline& o, const PixelArea& area) {
+    const bool keeps_flat = area.is_over() && area.keeps_degenerates;
+    return (o.count > 3 ? o.count - 3 : 0) + (keeps_flat ? o.cut_corners : 0U);
 }
 
 // The same of an overestimated triangle of which nothing is known.
@@ -36,12 +38,9 @@ inline uint32_t further_if_undefined(const PixelArea& area) {
     return area.is_over() ? kMaxClippedVertices - 3 : 0;
 }
 
-// Whether pieces of an outline in mode boxes may lie over each other.
-bool may_fold(const Outline& o);
-
-// Where the two ends lie of each edge that may lie between pieces.
+// Where the two ends lie of each edge that may lie between pieces, those without area included.
 using InnerEdge = std::array<Box, 2>;
-std::vector<InnerEdge> inner_edges(const Outline& o);
+std::vector<InnerEdge> inner_edges(const Outline& o, const PixelArea& area);
 
 // Whether pieces of an overestimated triangle may meet wherever it may cover a pixel.
 inline bool meets_everywhere(const PixelArea& area) {

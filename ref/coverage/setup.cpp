@@ -142,6 +142,7 @@ void apply_facing(TriangleSetup& t, const AreaSigns& signs, const cases::Draw& d
     t.may_be_culled = (culls_front && t.can_be_front) || (culls_back && t.can_be_back);
     t.can_be_front = t.can_be_front && !culls_front;
     t.can_be_back = t.can_be_back && !culls_back;
+    t.drawn_faces = {!culls_front, !culls_back};
     t.is_culled = !t.can_be_front && !t.can_be_back;
     if (t.is_culled) {
         t.kind = TriangleSetup::Kind::nothing;

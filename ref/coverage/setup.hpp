@@ -103,7 +103,8 @@ struct Outline {
     std::array<EdgeTest, kMaxClippedVertices> must_test{};
     std::array<int8_t, kMaxClippedVertices> tie_side{};  // top_left: sign of E for the other boxes
     std::vector<DistanceCut> cuts;
-    bool may_fold = false;  // pieces may run against others (ref/coverage/pieces.hpp)
+    // How many corners of the triangle lie on a plane that cuts it (ref/coverage/pieces.hpp).
+    uint32_t cut_corners = 0;
 
     std::span<const Box> vertices() const { return {boxes.data(), count}; }
     std::span<const Box> must_vertices() const { return {must_boxes.data(), must_count}; }
@@ -174,6 +175,16 @@ struct TriangleSetup {
     Reasons reasons;       // of `kind`, but for is_culled; only if set up to be told
 
     OutlineList outlines() const;
+
+    // The faces that a fragment may show. A further piece of an overestimated triangle may be
+    // folded or have no area, and show another one than its triangle, unless that face is culled.
+    struct Faces {
+        bool front = false, back = false;
+    };
+    Faces faces(bool is_further) const {
+        return is_further && area.is_over() ? drawn_faces : Faces{can_be_front, can_be_back};
+    }
+    Faces drawn_faces;  // those that the draw does not cull
 };
 
 // What is cut off by a plane of the clip volume.

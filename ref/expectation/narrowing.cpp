@@ -9,21 +9,21 @@ namespace ref {
 
 namespace {
 
-void add_single(HitBounds& b, const TriangleSetup& t, bool is_must) {
+void add_single(HitBounds& b, const TriangleSetup::Faces& can_be, bool is_must) {
     b.total_max += 1;
-    b.front_max += t.can_be_front ? 1 : 0;
-    b.back_max += t.can_be_back ? 1 : 0;
-    b.signed_max += t.can_be_front ? 1 : 0;
-    b.signed_min -= t.can_be_back ? 1 : 0;
+    b.front_max += can_be.front ? 1 : 0;
+    b.back_max += can_be.back ? 1 : 0;
+    b.signed_max += can_be.front ? 1 : 0;
+    b.signed_min -= can_be.back ? 1 : 0;
     if (!is_must) {
         return;
     }
     b.total_min += 1;
-    if (!t.can_be_back) {
+    if (!can_be.back) {
         b.front_min += 1;
         b.signed_min += 1;
     }
-    if (!t.can_be_front) {
+    if (!can_be.front) {
         b.back_min += 1;
         b.signed_max -= 1;
     }
@@ -232,7 +232,7 @@ SampleExpectation Narrowing::judge(const FixedPoint& p, uint32_t s, std::span<co
         uint32_t first = 0;
         for (uint32_t m = 0; m < hits.size(); ++m) {
             const bool is_must = hits[m].coverage == Coverage::must;
-            add_single(out.hits, setups_[hits[m].triangle], is_must);
+            add_single(out.hits, setups_[hits[m].triangle].faces(is_further(hits, m)), is_must);
             first = is_must ? m : first;
         }
         for (uint32_t m = first; m < hits.size(); ++m) {
@@ -275,7 +275,8 @@ SampleExpectation Narrowing::judge(const FixedPoint& p, uint32_t s, std::span<co
     }
     for (uint32_t m = 0; m < hits.size(); ++m) {
         if (!is_counted[m] && coverage[m] != Coverage::must_not) {
-            add_single(out.hits, setups_[hits[m].triangle], coverage[m] == Coverage::must);
+            add_single(out.hits, setups_[hits[m].triangle].faces(is_further(hits, m)),
+                       coverage[m] == Coverage::must);
             first = coverage[m] == Coverage::must ? std::max(first, m) : first;
         }
     }

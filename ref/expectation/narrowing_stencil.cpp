@@ -77,10 +77,10 @@ stencil::Question Narrowing::stencil_question(const FixedPoint& p, std::span<con
     for (size_t m = 0; m < hits.size(); ++m) {
         const uint32_t t = hits[m].triangle;
         const cases::Draw& draw = case_.draws[triangles_[t].draw];
-        const TriangleSetup& setup = setups_[t];
+        const TriangleSetup::Faces faces = setups_[t].faces(is_further(hits, m));
         stencil::Fragment fragment{case_.target.has_stencil ? &draw.stencil : &kKeepStencil,
-                                   hits[m].coverage == Coverage::must, setup.can_be_front,
-                                   setup.can_be_back, draw.depth.write};
+                                   hits[m].coverage == Coverage::must, faces.front, faces.back,
+                                   draw.depth.write};
         if (stores_discarded(draw)) {
             const bool is_discarded =
                 discards_pixel(draw.discard, static_cast<uint32_t>(p.x >> kFixedBits),

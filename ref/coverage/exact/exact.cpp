@@ -8,8 +8,8 @@
 #include <array>
 #include <vector>
 
+#include "ref/coverage/exact/reason_names.hpp"
 #include "ref/coverage/pieces.hpp"
-#include "ref/coverage/reason_names.hpp"
 
 namespace ref::exact {
 

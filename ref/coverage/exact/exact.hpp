@@ -29,9 +29,10 @@ Coverage pixel_coverage(const TriangleSetup& setup, const PixelArea& area, const
 // Whether an edge between pieces of the outline may come near enough to the pixel to decide of it.
 bool meets_inner_edge(const PixelArea& area, const Outline& outline, const FixedPoint& centre);
 
-// How many more pieces of the outline than one may cover p, a sample, or the centre of a pixel if
-// the draw is conservative.
-uint32_t further_pieces_at(const TriangleSetup& setup, const Outline& outline, const FixedPoint& p);
+// How many more pieces of the outline than one may cover the pixel of an overestimated draw, whose
+// centre this is.
+uint32_t further_pieces_at(const TriangleSetup& setup, const Outline& outline,
+                           const FixedPoint& centre);
 
 // True if p lies in the closed convex hull of the boxes: no line through p has all corners strictly
 // on one side.

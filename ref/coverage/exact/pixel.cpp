@@ -387,7 +387,7 @@ Coverage pixel_coverage(const TriangleSetup& setup, const PixelArea& area, const
 }
 
 bool meets_inner_edge(const PixelArea& area, const Outline& o, const FixedPoint& centre) {
-    const std::vector<InnerEdge> edges = inner_edges(o);
+    const std::vector<InnerEdge> edges = inner_edges(o, area);
     return std::any_of(edges.begin(), edges.end(), [&](const InnerEdge& edge) {
         return touches(centre, reach_of_inner_edges(area), edge);
     });
@@ -395,13 +395,12 @@ bool meets_inner_edge(const PixelArea& area, const Outline& o, const FixedPoint&
 
 uint32_t further_pieces_at(const TriangleSetup& setup, const Outline& o, const FixedPoint& p) {
     const PixelArea& area = setup.area;
-    if (o.mode == OutlineMode::empty || further_pieces(o) == 0) {
+    if (o.mode == OutlineMode::empty || further_pieces(o, area) == 0) {
         return 0;
     }
     const bool may_meet =
-        area.is_on() ? area.is_over() && (meets_everywhere(area) || meets_inner_edge(area, o, p))
-                     : o.may_fold;
-    return may_meet ? further_pieces(o) : 0;
+        area.is_over() && (meets_everywhere(area) || meets_inner_edge(area, o, p));
+    return may_meet ? further_pieces(o, area) : 0;
 }
 
 }  // namespace ref::exact

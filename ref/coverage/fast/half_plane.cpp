@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "ref/coverage/fast/pixel_sets.hpp"
-#include "ref/coverage/pieces.hpp"
 
 namespace ref::fast {
 
@@ -194,13 +193,6 @@ CoverageSets coverage_set(const Outline& outline, int64_t grid_step) {
     return out;
 }
 
-void add_further(const Outline& outline, std::span<const ConvexSet> sets, CoverageSets& out) {
-    out.further.resize(std::max<size_t>(out.further.size(), further_pieces(outline)));
-    for (uint32_t k = 0; k < further_pieces(outline); ++k) {
-        out.further[k].insert(out.further[k].end(), sets.begin(), sets.end());
-    }
-}
-
 CoverageSets coverage_sets(const TriangleSetup& setup) {
     if (setup.area.is_on()) {
         return pixel_sets(setup);
@@ -216,9 +208,6 @@ CoverageSets coverage_sets(const TriangleSetup& setup) {
                 out.may[i].planes.push_back(cut.may);
             }
             out.must.push_back(cut.must);
-        }
-        if (o->may_fold) {
-            add_further(*o, std::span(out.may).subspan(first), out);
         }
     }
     return out;

@@ -29,8 +29,8 @@ struct CoverageSets {
     bool has_must = true;
     std::vector<HalfPlane> must;
     std::vector<ConvexSet> may;
-    // ref/coverage/pieces.hpp: where the k + 2nd piece of a triangle may cover, too, and where an
-    // underestimated one need not.
+    // Of a conservative draw (ref/coverage/pieces.hpp): where the k + 2nd piece of an overestimated
+    // triangle may cover a pixel, too; where an underestimated one need not.
     std::vector<std::vector<ConvexSet>> further;
     std::vector<ConvexSet> open;
 };
@@ -52,9 +52,6 @@ void add_edge(const Box& from, const Box& to, EdgeTest test, int sign,
 
 // Makes the sets of one outline as if nothing cut it.
 CoverageSets coverage_set(const Outline& outline, int64_t grid_step);
-
-// Adds that further pieces of an outline may cover what is in these sets.
-void add_further(const Outline& outline, std::span<const ConvexSet> sets, CoverageSets& out);
 
 CoverageSets coverage_sets(const TriangleSetup& setup);
 

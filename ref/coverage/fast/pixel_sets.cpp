@@ -280,7 +280,7 @@ void add_pieces(const PixelArea& area, const Outline& o, std::span<const ConvexS
     if (meets_everywhere(area)) {
         sets.assign(may.begin(), may.end());
     } else {
-        for (const InnerEdge& edge : inner_edges(o)) {
+        for (const InnerEdge& edge : inner_edges(o, area)) {
             sets.push_back(grown(hull_set(edge), reach_of_inner_edges(area)));
         }
     }
@@ -293,7 +293,11 @@ void add_pieces(const PixelArea& area, const Outline& o, std::span<const ConvexS
             set.planes.push_back(moved(cut.may, kHalfPixel));
         }
     }
-    add_further(o, sets, out);
+    const uint32_t pieces = further_pieces(o, area);
+    out.further.resize(std::max<size_t>(out.further.size(), pieces));
+    for (uint32_t k = 0; k < pieces; ++k) {
+        out.further[k].insert(out.further[k].end(), sets.begin(), sets.end());
+    }
 }
 
 }  // namespace
@@ -324,7 +328,7 @@ CoverageSets pixel_sets(const TriangleSetup& setup) {
             }
             out.must.push_back(moved(cut.must, -kHalfPixel));
         }
-        if (o->mode != OutlineMode::empty && further_pieces(*o) > 0) {
+        if (o->mode != OutlineMode::empty && further_pieces(*o, setup.area) > 0) {
             add_pieces(setup.area, *o, std::span(out.may).subspan(first), out);
         }
     }

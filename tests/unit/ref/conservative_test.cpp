@@ -360,6 +360,25 @@ TEST(Conservative, PiecesOfAClippedTriangleMeet) {
     EXPECT_EQ(bounds(under, 1, 1), Bounds(0, 0));
 }
 
+// The second corner lies on the far plane, which cuts off the third half way to the first: (2, 4).
+// A device that finds a cut at the second corner, too, has a piece without area from there to (2,
+// 4). An H100 has it.
+TEST(Conservative, ACornerOnThePlaneMayBeAPieceWithoutArea) {
+    cases::Case c = pixels(8, 8, {{1, 1}, {6, 2}, {3, 7}});
+    c.draws[0].positions[1].z = 1;
+    c.draws[0].positions[2].z = 1.5F;
+    c.draws[0].conservative = Conservative::overestimate;
+    const auto hits = [&](bool keeps, uint32_t x, uint32_t y) {
+        return hits_at(expect(c, limits_of(0, 0, keeps), Profile::direct3d), x, y);
+    };
+    EXPECT_EQ(hits(true, 3, 3).total_max, 2U);
+    EXPECT_EQ(hits(false, 3, 3).total_max, 1U);
+    EXPECT_EQ(hits(true, 3, 5).total_max, 0U);
+    // A piece without area is a back face, whichever way the triangle faces.
+    EXPECT_TRUE(hits(true, 3, 3).allows(1, 1));
+    EXPECT_FALSE(hits(true, 3, 3).allows(2, 1));
+}
+
 // Both triangles at an edge cover the pixels on it, and neither scissor nor viewport is enlarged.
 TEST(Conservative, SharedEdgesScissorAndViewport) {
     cases::Case c = pixels(

@@ -63,26 +63,6 @@ values = [-0.25, 1, 1]
     }
 }
 
-// The corners lie on a line, and the near plane cuts off the third: what is left is thin, and
-// rounding bends it. Of its two pieces one faced the front and the other the back, and both held
-// the sample.
-TEST(GuardBand, AFoldedPolygonIsHitByBothFaces) {
-    const cases::Case c = case_of(R"(
-[target]
-size = [3, 5]
-[[draw]]
-vertices = [[-2, 5, 1], [3, 4, 0.09375], [8, 3, -0.109375]]
-)");
-    const size_t at = cases::index_of(c.target, cases::SampleId{0, 4, 0});
-    for (const Profile profile : cases::kProfiles) {
-        const HitBounds fast = expect(c, Limits{}, profile).samples[at].hits;
-        EXPECT_EQ(fast, exact::expect(c, Limits{}, profile).samples[at].hits);
-        EXPECT_TRUE(fast.allows(1, 1));
-        EXPECT_TRUE(fast.allows(0, 0));
-        EXPECT_FALSE(fast.allows(2, 1));  // it is one quad
-    }
-}
-
 // The viewport begins at y = 1/4, and the sample at (3/8, 1/8) is drawn by a device that does not
 // cut there: its depth lies beyond those of the polygon that is left below the border.
 TEST(GuardBand, BesideABorderBetweenPixelsTheHullIsThatOfTheTriangle) {

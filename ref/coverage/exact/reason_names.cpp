@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ref/coverage/reason_names.hpp"
+#include "ref/coverage/exact/reason_names.hpp"
 
 #include <algorithm>
 #include <array>
