@@ -25,6 +25,7 @@ constexpr auto kExperiments = std::to_array<Experiment>({
     {"transform", measure_transform},
     {"precision", measure_precision},
     {"clipping", measure_clipping},
+    {"conservative", measure_conservative},
     {"depth", measure_depth},
     {"colors", measure_colors},
     {"blending", measure_blending},

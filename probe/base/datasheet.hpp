@@ -71,6 +71,7 @@ inline constexpr auto kSections = std::to_array<Section>({
     {"setup", "Set-up of triangles"},
     {"precision", "Precision"},
     {"clipping", "Clipping"},
+    {"conservative", "Conservative rasterization"},
     {"depth", "Depth"},
     {"color", "Colours"},
     {"blending", "Blending"},
