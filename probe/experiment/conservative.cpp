@@ -4,8 +4,6 @@
 // Conservative draws: how far beyond an edge pixels are overestimated, how far inside it they have
 // to lie to be underestimated, where enlarged corners end, and whether what clipping leaves is one
 // polygon.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -57,20 +55,50 @@ std::string text_of(double gap, int bits) {
                       : cases::number_text(gap) + " pixel";
 }
 
-constexpr const char* kNothing = "a triangle is not drawn";
-// A pixel of every triangle, far from its edges, lies so many columns left of the border.
-constexpr uint32_t kAside = 4;
-
-// How many of the first gaps are answered as the first is; nothing if a later one is, too.
-std::optional<size_t> leading(const std::vector<bool>& answers, bool first) {
-    const auto end = std::find(answers.begin(), answers.end(), !first);
-    if (std::find(end, answers.end(), first) != answers.end()) {
+// Triangles with an upright edge near the border, one a cell of rows: which pixels of a column, in
+// one row of each cell, are covered.
+struct Ladder {
+    const char* id;
+    Conservative mode;
+    uint32_t cell;    // rows
+    uint32_t row;     // in the cell
+    uint32_t column;  // the pixel at the border
+};
+// How many of the first gaps are answered as the nearest is expected to be. Adds the property
+// itself and returns nothing if that cannot be told.
+template <class Triangle>
+std::optional<size_t> climb(const Bench& bench, Property& property, const Ladder& ladder,
+                            const std::vector<double>& all, bool first, const Triangle& add) {
+    constexpr uint32_t kAside = 4;  // columns left of the border, far from all edges
+    Scene scene = make_scene(ladder.id, 512, ladder.mode);
+    for (size_t k = 0; k < all.size(); ++k) {
+        add(scene, all[k], static_cast<double>(ladder.cell * k));
+    }
+    const auto picture = bench.picture_of(scene.take(), property);
+    if (!picture) {
         return std::nullopt;
     }
-    return static_cast<size_t>(end - answers.begin());
+    size_t count = 0;
+    bool is_drawn = true;
+    bool is_monotonic = true;
+    for (size_t k = 0; k < all.size(); ++k) {
+        const auto row = static_cast<uint32_t>(ladder.cell * k + ladder.row);
+        const bool is_first = (hits_of(*picture, ladder.column, row) > 0) == first;
+        is_monotonic = is_monotonic && (!is_first || count == k);
+        count += is_first ? 1U : 0U;
+        is_drawn = is_drawn && hits_of(*picture, kBorder - kAside, row) > 0;
+    }
+    if (!is_drawn || !is_monotonic) {
+        bench.add_unknown(std::move(property),
+                          is_drawn ? "nearer and farther pixels are covered in turns"
+                                   : "a triangle is not drawn");
+        return std::nullopt;
+    }
+    property.agree = all.size();
+    return count;
 }
 
-// Each triangle has an upright edge this far left of a pixel, in a cell of four rows.
+// Each edge lies this far left of a pixel.
 void measure_reach(const Bench& bench) {
     Property property;
     property.id = "conservative.reach";
@@ -79,39 +107,23 @@ void measure_reach(const Bench& bench) {
         "triangles with an upright edge 0 to 1 pixel left of a pixel, which is covered or not";
     const int bits = bench.promises.limits.subpixel_bits;
     const std::vector<double> all = gaps(bits, 64);
-    Scene scene = make_scene("conservative-reach", 512, Conservative::overestimate);
-    for (size_t k = 0; k < all.size(); ++k) {
-        const double x = kBorder - all[k];
-        const double y = 4.0 * static_cast<double>(k);
-        scene.add({x, y + 0.25}, {x, y + 2.75}, {8, y + 1.5});
-    }
-    const auto picture = bench.picture_of(scene.take(), property);
-    if (!picture) {
+    const auto count =
+        climb(bench, property, {"conservative-reach", Conservative::overestimate, 4, 1, kBorder},
+              all, true, [](Scene& scene, double gap, double y) {
+                  const double x = kBorder - gap;
+                  scene.add({x, y + 0.25}, {x, y + 2.75}, {8, y + 1.5});
+              });
+    if (!count) {
         return;
     }
-    std::vector<bool> covered;
-    bool is_drawn = true;
-    for (size_t k = 0; k < all.size(); ++k) {
-        const auto row = static_cast<uint32_t>(4 * k + 1);
-        covered.push_back(hits_of(*picture, kBorder, row) > 0);
-        is_drawn = is_drawn && hits_of(*picture, kBorder - kAside, row) > 0;
-    }
-    const std::optional<size_t> count = leading(covered, true);
-    if (!is_drawn) {
-        property.why = kNothing;
-    } else if (!count) {
-        property.why = "pixels farther from an edge are covered, and nearer ones are not";
-    } else {
-        property.agree = all.size();
-        property.answer = *count == 0           ? "not at all, and not where borders alone meet"
-                          : *count == 1         ? "not at all, but where borders meet"
-                          : *count < all.size() ? "by " + text_of(all[*count - 1], bits)
-                                                : "by a pixel or more";
-    }
+    property.answer = *count == 0           ? "not at all, and not where borders alone meet"
+                      : *count == 1         ? "not at all, but where borders meet"
+                      : *count < all.size() ? "by " + text_of(all[*count - 1], bits)
+                                            : "by a pixel or more";
     bench.add(std::move(property));
 }
 
-// Each triangle has an upright edge this far right of a pixel, in a cell of sixteen rows.
+// Each edge lies this far right of a pixel.
 void measure_inner(const Bench& bench) {
     Property property;
     property.id = "conservative.inner";
@@ -120,34 +132,18 @@ void measure_inner(const Bench& bench) {
         "triangles with an upright edge 0 to 1/4 pixel right of a pixel that they hold";
     const int bits = bench.promises.limits.subpixel_bits;
     const std::vector<double> all = gaps(bits, 16);
-    Scene scene = make_scene("conservative-inner", 512, Conservative::underestimate);
-    for (size_t k = 0; k < all.size(); ++k) {
-        const double x = kBorder + all[k];
-        const double y = 16.0 * static_cast<double>(k);
-        scene.add({x, y + 1}, {x, y + 15}, {x - 14, y + 8});
-    }
-    const auto picture = bench.picture_of(scene.take(), property);
-    if (!picture) {
+    const auto count = climb(
+        bench, property, {"conservative-inner", Conservative::underestimate, 16, 7, kBorder - 1},
+        all, false, [](Scene& scene, double gap, double y) {
+            const double x = kBorder + gap;
+            scene.add({x, y + 1}, {x, y + 15}, {x - 14, y + 8});
+        });
+    if (!count) {
         return;
     }
-    std::vector<bool> covered;
-    bool is_drawn = true;
-    for (size_t k = 0; k < all.size(); ++k) {
-        const auto row = static_cast<uint32_t>(16 * k + 7);
-        covered.push_back(hits_of(*picture, kBorder - 1, row) > 0);
-        is_drawn = is_drawn && hits_of(*picture, kBorder - kAside, row) > 0;
-    }
-    const std::optional<size_t> count = leading(covered, false);
-    if (!is_drawn) {
-        property.why = kNothing;
-    } else if (!count) {
-        property.why = "pixels nearer to an edge are covered, and farther ones are not";
-    } else {
-        property.agree = all.size();
-        property.answer = *count == 0           ? "up to the edge"
-                          : *count < all.size() ? text_of(all[*count], bits) + " from it"
-                                                : "more than 1/4 pixel from it";
-    }
+    property.answer = *count == 0           ? "up to the edge"
+                      : *count < all.size() ? text_of(all[*count], bits) + " from it"
+                                            : "more than 1/4 pixel from it";
     bench.add(std::move(property));
 }
 
@@ -157,7 +153,8 @@ void measure_corners(const Bench& bench) {
     Property property;
     property.id = "conservative.corners";
     property.question = "Where enlarged corners end";
-    property.experiment = "a needle that is enlarged by 1/4 pixel, or more if the device adds to it";
+    property.experiment =
+        "a needle that is enlarged by 1/4 pixel, or more if the device adds to it";
     constexpr double kTip = 32.5;
     constexpr uint32_t kRow = 16;
     Scene scene = make_scene("conservative-corners", 32, Conservative::overestimate);

@@ -50,7 +50,6 @@ struct Hit {
 };
 
 // Whether a hit is that of another piece of the triangle before it (ref/coverage/pieces.hpp).
-// Nothing shares out what such a one covers.
 inline bool is_further(std::span<const Hit> hits, size_t m) {
     return m > 0 && hits[m - 1].triangle == hits[m].triangle;
 }

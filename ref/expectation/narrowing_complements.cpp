@@ -47,7 +47,7 @@ std::vector<Narrowing::Fixed> Narrowing::complementary_pairs(const FixedPoint& p
     for (uint32_t m = 0; m < hits.size(); ++m) {
         const Complement& c = complements_[hits[m].triangle];
         for (uint32_t n = m + 1; n < hits.size() && c.partner != kNoPartner; ++n) {
-            if (hits[n].triangle != c.partner || is_further(hits, m) || is_further(hits, n)) {
+            if (hits[n].triangle != c.partner) {
                 continue;
             }
             const auto is_must = [&](uint32_t k) { return hits[k].coverage == Coverage::must; };

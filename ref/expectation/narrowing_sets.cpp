@@ -56,7 +56,7 @@ std::vector<Narrowing::Fixed> Narrowing::fixed_sets(const FixedPoint& p,
     join_pairs(p, hits, out);
     std::vector<bool> is_open(hits.size());
     for (size_t m = 0; m < hits.size(); ++m) {
-        is_open[m] = hits[m].coverage == Coverage::either && !is_paired[m] && !is_further(hits, m);
+        is_open[m] = hits[m].coverage == Coverage::either && !is_paired[m];
     }
     if (depth_ != nullptr || follows_courses_) {
         // Sets of one draw alone: meshes drawn one over the other are told apart by depth, or by
@@ -90,10 +90,7 @@ std::vector<Narrowing::Fixed> Narrowing::fixed_sets(const FixedPoint& p,
 
 void Narrowing::add_decided_sets(const FixedPoint& p, std::span<const Hit> hits,
                                  std::vector<Fixed>& sets) {
-    std::vector<bool> takes_part(hits.size());
-    for (size_t m = 0; m < hits.size(); ++m) {
-        takes_part[m] = !is_further(hits, m);
-    }
+    std::vector<bool> takes_part(hits.size(), true);
     for (const Fixed& set : sets) {
         for (const uint32_t m : set.members) {
             takes_part[m] = false;

@@ -120,14 +120,22 @@ void scan_sets(const CoverageSets& sets, const Grid& g, const Span& base, std::v
     }
 }
 
-// Makes what must be covered, from the span `first` on, open where `open` is; both row by row.
+// Makes what must be covered, from the span `first` on, open where `open` is. The rows of both
+// ascend.
 void open_spans(std::vector<Span>& spans, size_t first, std::span<const Span> open) {
     std::vector<Span> out;
+    size_t row = 0;  // where the row of the span begins in `open`
     for (const Span& s : std::span(spans).subspan(first)) {
+        while (row < open.size() && open[row].y < s.y) {
+            ++row;
+        }
         Span rest = s;
-        for (const Span& o : open) {
-            const bool meets = o.y == s.y && o.x0 < rest.x1 && o.x1 > rest.x0;
-            if (s.coverage != Coverage::must || !meets) {
+        for (size_t k = row; s.coverage == Coverage::must && k < open.size(); ++k) {
+            const Span& o = open[k];
+            if (o.y != s.y) {
+                break;
+            }
+            if (o.x0 >= rest.x1 || o.x1 <= rest.x0) {
                 continue;
             }
             Span part = rest;
