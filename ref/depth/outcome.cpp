@@ -10,6 +10,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "cases/model/float_bits.hpp"
 #include "cases/model/sample.hpp"
 #include "ref/depth/compare.hpp"
 #include "ref/value/accept/judge_candidates.hpp"
@@ -19,6 +20,7 @@ namespace ref {
 namespace {
 
 using cases::CompareOp;
+using cases::same_bits;
 using value::Answer;
 using value::Ball;
 using value::both;
@@ -205,12 +207,14 @@ struct DepthTest::Impl {
                 return {};
             }
         }
-        const bool is_same_state = da.topology == db.topology && da.viewport == db.viewport &&
-                                   da.cull == db.cull && da.front_face == db.front_face &&
-                                   da.scissor == db.scissor && da.distances == db.distances &&
-                                   da.multisample == db.multisample && da.stencil == db.stencil &&
-                                   da.discard == db.discard && da.early_tests == db.early_tests &&
-                                   da.frag_depth == db.frag_depth && has_equal_modes(da, db);
+        const bool is_same_state =
+            da.topology == db.topology && da.viewport == db.viewport && da.cull == db.cull &&
+            da.front_face == db.front_face && da.scissor == db.scissor &&
+            da.distances == db.distances && da.multisample == db.multisample &&
+            da.stencil == db.stencil && da.discard == db.discard &&
+            da.early_tests == db.early_tests && da.frag_depth == db.frag_depth &&
+            da.conservative == db.conservative &&
+            same_bits(da.conservative_extra, db.conservative_extra) && has_equal_modes(da, db);
         if (!is_same_state || !load(first).primitive.is_finite) {
             return {};
         }

@@ -45,7 +45,10 @@ bool same_attributes(const cases::Draw& a, const cases::Draw& b) {
 bool are_complementary(const cases::Draw& a, const cases::Draw& b) {
     const cases::ClipDistances& da = a.distances;
     const cases::ClipDistances& db = b.distances;
-    return !a.rasterizer_discard && !b.rasterizer_discard && da.clip_count > 0 &&
+    // Conservative draws share out nothing: along the cut both cover the pixels that they touch.
+    const bool is_by_samples =
+        a.conservative == cases::Conservative::none && b.conservative == cases::Conservative::none;
+    return is_by_samples && !a.rasterizer_discard && !b.rasterizer_discard && da.clip_count > 0 &&
            da.clip_count == db.clip_count && da.cull_count == db.cull_count &&
            a.topology == b.topology && a.indices == b.indices &&
            a.primitive_restart == b.primitive_restart && a.viewport == b.viewport &&

@@ -379,6 +379,45 @@ TEST(Conservative, ACornerOnThePlaneMayBeAPieceWithoutArea) {
     EXPECT_FALSE(hits(true, 3, 3).allows(2, 1));
 }
 
+// Two pieces have planes of their own, so that their depths need not be equal; nor need those of a
+// draw by samples and a conservative one, which are no two of the same state.
+TEST(Conservative, DepthsOfPiecesAndOfOtherModesMayDiffer) {
+    cases::Case pieces = cut_by_near_plane(Conservative::overestimate);
+    pieces.draws[0].depth.write = false;
+    pieces.target.has_stencil = true;  // its courses of events follow each piece
+    pieces.draws[0].stencil.front.pass = cases::StencilOp::increment_and_clamp;
+    const HitBounds hits = hits_at(expect(pieces, limits_of(0), Profile::direct3d), 9, 2);
+    EXPECT_TRUE(hits.allows(0, 1));
+    EXPECT_TRUE(hits.allows(0, 2));
+
+    cases::Case twice = pixels(8, 8, {{1.25, 1.25}, {7, 1.5}, {1.5, 7}});
+    twice.draws[0].positions[1].z = 0.25F;
+    twice.draws[0].conservative = Conservative::overestimate;
+    twice.draws[0].depth.compare = cases::CompareOp::greater;
+    twice.draws.push_back(twice.draws[0]);
+    EXPECT_EQ(hits_at(expect(twice, limits_of(0), Profile::direct3d), 3, 3).total_max, 1U);
+    twice.draws[1].conservative = Conservative::none;
+    EXPECT_EQ(hits_at(expect(twice, limits_of(0), Profile::direct3d), 3, 3).total_max, 2U);
+}
+
+// A clip distance and its negative share out the samples along the cut, x = 4.5 here, but of
+// conservative draws both cover the pixels there.
+TEST(Conservative, ComplementsShareOutNothing) {
+    cases::Case c = pixels(8, 8, {{1, 1}, {7, 1}, {1, 7}});
+    cases::Draw& draw = c.draws[0];
+    draw.distances.clip_count = 1;
+    draw.distances.clip = {{3.5F, 0, 0, 0}, {-2.5F, 0, 0, 0}, {3.5F, 0, 0, 0}};
+    c.draws.push_back(draw);
+    for (glm::vec4& d : c.draws[1].distances.clip) {
+        d.x = -d.x;
+    }
+    EXPECT_EQ(hits_at(expect(c, limits_of(0), Profile::direct3d), 4, 2).total_max, 1U);
+    for (cases::Draw& d : c.draws) {
+        d.conservative = Conservative::overestimate;
+    }
+    EXPECT_EQ(hits_at(expect(c, limits_of(0), Profile::direct3d), 4, 2).total_max, 2U);
+}
+
 // Both triangles at an edge cover the pixels on it, and neither scissor nor viewport is enlarged.
 TEST(Conservative, SharedEdgesScissorAndViewport) {
     cases::Case c = pixels(
