@@ -43,16 +43,18 @@ std::optional<Document> applied(const Step& step, const Document& document, cons
     return after;
 }
 
-// A step, the text that it leads to and whether that loads. The document is made again when it is
-// wanted: those of large cases are many times as large as their texts.
+// A step, the text that it leads to and whether that is taken. The document is made again when it
+// is wanted: those of large cases are many times as large as their texts.
 struct Candidate {
     const Step* step = nullptr;
     std::string text;
-    bool is_valid = false;
+    bool is_taken = false;
 };
 
-// The candidates of some steps, in their order.
-std::vector<Candidate> candidates(const Document& document, std::span<const Step> steps) {
+// The candidates of some steps whose texts are taken, in their order.
+template <class IsTaken>
+std::vector<Candidate> candidates(const Document& document, std::span<const Step> steps,
+                                  const IsTaken& is_taken) {
     const Measure before = measure(document);
     std::vector<Candidate> all(steps.size());
     cases::for_each_index(all.size(), [&](size_t k) {
@@ -60,10 +62,10 @@ std::vector<Candidate> candidates(const Document& document, std::span<const Step
         candidate.step = &steps[k];
         if (const std::optional<Document> after = applied(steps[k], document, before)) {
             candidate.text = to_text(*after);
-            candidate.is_valid = loads(candidate.text);
+            candidate.is_taken = is_taken(candidate.text);
         }
     });
-    std::erase_if(all, [](const Candidate& c) { return !c.is_valid; });
+    std::erase_if(all, [](const Candidate& c) { return !c.is_taken; });
     return all;
 }
 
@@ -127,6 +129,12 @@ class Reducer {
   private:
     bool is_spent() const { return out_.rounds >= options_.most_rounds; }
 
+    // Whether it has been asked about, and does not show the finding.
+    bool is_refused(const std::string& text) const {
+        const auto answer = answers_.find(key_of(text));
+        return answer != answers_.end() && !answer->second;
+    }
+
     // Asks about all of the texts that have no answer yet, in one call.
     void ask(const std::vector<std::string>& texts) {
         std::vector<std::string> open;
@@ -161,11 +169,9 @@ class Reducer {
             const std::span<const Step> steps = kept.emplace_back(steps_of(out_.document, stage));
             for (size_t at = 0; at < steps.size() && !is_spent(); at += options_.batch) {
                 const size_t count = std::min(options_.batch, steps.size() - at);
-                for (Candidate& c : candidates(out_.document, steps.subspan(at, count))) {
-                    const auto known = answers_.find(key_of(c.text));
-                    if (known != answers_.end() && !known->second) {
-                        continue;
-                    }
+                for (Candidate& c : candidates(
+                         out_.document, steps.subspan(at, count),
+                         [&](const auto& text) { return !is_refused(text) && loads(text); })) {
                     if (batch.size() == options_.batch) {
                         if (const std::optional<Stage> found = settle(batch)) {
                             return found;
@@ -245,9 +251,9 @@ class Reducer {
         for (const Stage stage : kStages) {
             std::vector<Step> steps = steps_of(out_.document, stage);
             std::erase_if(steps, [](const Step& step) { return step.need.empty(); });
-            for (Candidate& c : candidates(out_.document, steps)) {
-                const auto answer = answers_.find(key_of(c.text));
-                if (answer != answers_.end() && !answer->second && told.insert(c.text).second) {
+            for (Candidate& c : candidates(out_.document, steps,
+                                           [&](const auto& text) { return is_refused(text); })) {
+                if (told.insert(c.text).second) {
                     out_.needs.push_back(c.step->need);
                     out_.need_texts.push_back(std::move(c.text));
                 }
@@ -269,7 +275,7 @@ std::vector<Simpler> simpler(const Document& document) {
     std::unordered_set<std::string> seen = {to_text(document)};
     for (const Stage stage : kStages) {
         const std::vector<Step> steps = steps_of(document, stage);
-        for (Candidate& c : candidates(document, steps)) {
+        for (Candidate& c : candidates(document, steps, loads)) {
             if (seen.insert(std::move(c.text)).second) {
                 out.push_back({*applied(*c.step, document, before), c.step->words, c.step->need});
             }

@@ -60,11 +60,21 @@ inline Ball operator/(const Ball& a, const Ball& b) {
 inline Ball magnitude(const Ball& a) {
     return {std::fabs(a.v), a.e};
 }
-// The larger of the midpoints is off the larger exact value by at most the larger bound.
+// The one that is larger for sure, with its own bound: what is clamped to an exact number is that
+// number. Of two that may be equal, the larger of the midpoints is off the larger exact value by at
+// most the larger bound.
 inline Ball larger(const Ball& a, const Ball& b) {
+    const Ball d = b - a;
+    if (d.v > d.e || d.v < -d.e) {
+        return d.v > 0 ? b : a;
+    }
     return {a.v < b.v ? b.v : a.v, a.e < b.e ? b.e : a.e};
 }
 inline Ball smaller(const Ball& a, const Ball& b) {
+    const Ball d = b - a;
+    if (d.v > d.e || d.v < -d.e) {
+        return d.v > 0 ? a : b;
+    }
     return {a.v < b.v ? a.v : b.v, a.e < b.e ? b.e : a.e};
 }
 
@@ -97,6 +107,9 @@ inline Answer is_at_most(const mpq_class& a, const mpq_class& b) {
     return a <= b ? Answer::yes : Answer::no;
 }
 inline Answer is_at_most(const Ball& a, const Ball& b) {
+    if (a.e <= 0 && b.e <= 0) {
+        return a.v <= b.v ? Answer::yes : Answer::no;  // both are exact
+    }
     const Ball d = b - a;
     return d.v >= d.e ? Answer::yes : d.v < -d.e ? Answer::no : Answer::unknown;
 }

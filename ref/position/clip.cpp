@@ -24,13 +24,18 @@
 // the triangle's vertices and cut like a coordinate. Then x/w: (e_x + |x/w| e_w) / (w - e_w), times
 // |p/2|, plus the rounding of divide and transform (position.cpp). Bounds are symmetric in the two
 // end points, so that two triangles which share the edge get the same box for the same point.
+//
+// A cut point is kept as whole numbers: its weights of the triangle's three vertices, which have no
+// common factor. A distance from a plane is then a whole number, too, whose sign is exact, and the
+// new weights are |d2| m1 + |d1| m2, where d1 and d2 are such whole numbers. Rationals are made of
+// what is left in the end. The bounds above are reckoned in Balls and rounded up.
 #include "ref/position/clip.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "ref/number/ball.hpp"
 #include "ref/number/rational.hpp"
 #include "ref/position/position_detail.hpp"
 
@@ -38,30 +43,17 @@ namespace ref {
 
 namespace {
 
+using value::Answer;
+using value::Ball;
+
 constexpr size_t kX = 0, kY = 1, kZ = 2, kW = 3;
+constexpr size_t kCoordinates = 4;
 
-// Rounded up to a binary64, so that bounds stay short numbers.
-mpq_class round_up(const mpq_class& q) {
-    if (q == 0) {
-        return q;
-    }
-    // get_d truncates.
-    const double d = std::nextafter(q.get_d(), std::numeric_limits<double>::infinity());
-    return std::isfinite(d) ? mpq_class(d) : q;
-}
+// What is clipped: the clip coordinates, then up to four clip distances.
+constexpr size_t kComponents = kCoordinates + kMaxUserPlanes;
 
-struct Work {
-    ClippedVertex v;
-    std::array<mpq_class, 4> error;  // of the clip coordinates
-    // Clip distances are clipped like a fifth coordinate.
-    std::vector<mpq_class> distance, distance_error;
-};
-
-bool is_user(ClipPlane plane) {
-    return plane >= ClipPlane::user_0;
-}
-size_t user_index(ClipPlane plane) {
-    return static_cast<size_t>(plane) - static_cast<size_t>(ClipPlane::user_0);
+size_t user_component(ClipPlane plane) {
+    return kCoordinates + user_index(plane);
 }
 
 // The component that a plane of the view volume bounds; the distance is w + c (low), w - c (high),
@@ -70,76 +62,202 @@ size_t component_of(ClipPlane plane) {
     return plane == ClipPlane::z_low_symmetric ? kZ : static_cast<size_t>(plane) / 2;
 }
 
-mpq_class distance(const Work& p, ClipPlane plane) {
-    if (is_user(plane)) {
-        return p.distance[user_index(plane)];
+// The components of the triangle's vertices as whole numbers: each is n 2^exponent.
+struct WholeTriangle {
+    std::array<std::array<mpz_class, 3>, kComponents> n;  // by component and vertex
+    long exponent = 0;
+    size_t components = kCoordinates;
+};
+
+float component(const ClipInput& triangle, size_t vertex, size_t k) {
+    return k < kCoordinates
+               ? triangle.clip[vertex][static_cast<glm::vec4::length_type>(k)]
+               : triangle.distance[vertex][static_cast<glm::vec4::length_type>(k - kCoordinates)];
+}
+
+WholeTriangle whole_numbers(const ClipInput& triangle) {
+    constexpr int kMantissaBits = 24;
+    WholeTriangle out;
+    out.components += triangle.distance_count;
+    int least = 0;
+    for (size_t k = 0; k < out.components; ++k) {
+        for (size_t i = 0; i < 3; ++i) {
+            int exponent = 0;
+            if (std::fabs(std::frexp(component(triangle, i, k), &exponent)) > 0) {
+                least = std::min(least, exponent - kMantissaBits);
+            }
+        }
     }
-    const std::array<mpq_class, 4>& clip = p.v.clip;
+    out.exponent = least;
+    for (size_t k = 0; k < out.components; ++k) {
+        for (size_t i = 0; i < 3; ++i) {
+            int exponent = 0;
+            const float mantissa = std::frexp(component(triangle, i, k), &exponent);
+            mpz_class& n = out.n[k][i];
+            n = static_cast<double>(std::ldexp(mantissa, kMantissaBits));
+            if (n != 0) {
+                mpz_mul_2exp(n.get_mpz_t(), n.get_mpz_t(),
+                             static_cast<mp_bitcnt_t>(exponent - kMantissaBits - least));
+            }
+        }
+    }
+    return out;
+}
+
+using Weights = std::array<mpz_class, 3>;
+
+mpz_class weighted(const Weights& weight, const std::array<mpz_class, 3>& n) {
+    mpz_class sum;
+    for (size_t i = 0; i < 3; ++i) {
+        mpz_addmul(sum.get_mpz_t(), weight[i].get_mpz_t(), n[i].get_mpz_t());
+    }
+    return sum;
+}
+
+mpz_class whole_of(const Weights& weight) {
+    return weight[0] + weight[1] + weight[2];
+}
+
+// a / b 2^exponent, b > 0. Both are truncated to 53 bits, which is less than 2^-52 of each, and the
+// quotient is rounded.
+Ball quotient(const mpz_class& a, const mpz_class& b, long exponent) {
+    long of_a = 0, of_b = 0;
+    const double high = mpz_get_d_2exp(&of_a, a.get_mpz_t());
+    const double low = mpz_get_d_2exp(&of_b, b.get_mpz_t());
+    constexpr long kFar = 1 << 20;  // overflows or vanishes as well
+    const double v =
+        std::ldexp(high / low, static_cast<int>(std::clamp(of_a - of_b + exponent, -kFar, kFar)));
+    return {v, sgn(a) == 0 ? 0.0 : std::fabs(v) * 0x1p-50 + value::ball::kTiny};
+}
+
+// Not less than the ball's number, which is no less than 0. Bounds next to nothing become short
+// numbers that are larger.
+double at_most(const Ball& b) {
+    constexpr double kLeast = 0x1p-400;
+    if (b.v <= 0 && b.e <= 0) {
+        return 0;
+    }
+    return std::max((b.v + b.e) * value::ball::kInflate, kLeast);
+}
+
+struct Work {
+    Weights weight;
+    std::array<Ball, kComponents> value;
+    std::array<double, kComponents> error{};  // of the clip coordinates and distances
+    bool is_bounded = true;
+    int original = -1;
+    EdgeLabel edge = 0;
+};
+
+// Cuts polygons of one triangle by planes.
+class Clipper {
+  public:
+    Clipper(const ClipInput& input, cases::Profile profile)
+        : triangle_(whole_numbers(input)),
+          u_(profile == cases::Profile::vulkan ? mpq_class(1, 100000)
+                                               : mpq_class(1, int64_t{1} << 24)),
+          unit_(value::from_exact<Ball>(u_)) {
+        for (size_t i = 0; i < start_.size(); ++i) {
+            Work& vertex = start_[i];
+            vertex.weight[i] = 1;
+            vertex.original = static_cast<int>(i);
+            vertex.edge = static_cast<EdgeLabel>(i);
+            for (size_t k = 0; k < triangle_.components; ++k) {
+                vertex.value[k] = Ball(static_cast<double>(component(input, i, k)));
+            }
+        }
+    }
+
+    std::vector<Work> clip(std::span<const ClipPlane> order) const;
+    ClippedVertex finished(const Work& p, const cases::Viewport& viewport) const;
+
+  private:
+    // n of a component of a point whose weights have the sum 1.
+    mpz_class distance(const Work& p, ClipPlane plane) const;
+    Ball distance_error(const Work& p, const Ball& d, ClipPlane plane) const;
+    Work cut(const Work& p1, const Work& p2, const mpz_class& n1, const mpz_class& n2,
+             ClipPlane plane) const;
+    std::vector<Work> clip_by(const std::vector<Work>& polygon, const std::vector<mpz_class>& d,
+                              ClipPlane plane) const;
+    mpq_class axis_error(const Work& p, size_t c, float extent, float origin) const;
+
+    WholeTriangle triangle_;
+    mpq_class u_;
+    Ball unit_;  // roundoff
+    std::vector<Work> start_ = std::vector<Work>(3);
+};
+
+// The distance of the point times the sum of its weights, in units of 2^exponent.
+mpz_class Clipper::distance(const Work& p, ClipPlane plane) const {
+    if (is_user(plane)) {
+        return weighted(p.weight, triangle_.n[user_component(plane)]);
+    }
+    const size_t c = component_of(plane);
     switch (plane) {
         case ClipPlane::x_low:
         case ClipPlane::y_low:
         case ClipPlane::z_low_symmetric:
-            return clip[kW] + clip[component_of(plane)];
+            return weighted(p.weight, triangle_.n[kW]) + weighted(p.weight, triangle_.n[c]);
         case ClipPlane::z_low:
-            return clip[kZ];
+            return weighted(p.weight, triangle_.n[kZ]);
         default:
-            return clip[kW] - clip[component_of(plane)];
+            return weighted(p.weight, triangle_.n[kW]) - weighted(p.weight, triangle_.n[c]);
     }
 }
 
-mpq_class distance_error(const Work& p, const mpq_class& d, ClipPlane plane, const mpq_class& u) {
+Ball Clipper::distance_error(const Work& p, const Ball& d, ClipPlane plane) const {
     if (is_user(plane)) {
-        return p.distance_error[user_index(plane)];
+        return p.error[user_component(plane)];
     }
     if (plane == ClipPlane::z_low) {
         return p.error[kZ];
     }
-    return (p.error[kW] + p.error[component_of(plane)] + u * abs(d)) * (1 + u);
+    return (Ball(p.error[kW]) + Ball(p.error[component_of(plane)]) + unit_ * magnitude(d)) *
+           (Ball(1) + unit_);
 }
 
-Work cut(const Work& p1, const Work& p2, const mpq_class& d1, const mpq_class& d2, ClipPlane plane,
-         const mpq_class& u) {
+Work Clipper::cut(const Work& p1, const Work& p2, const mpz_class& n1, const mpz_class& n2,
+                  ClipPlane plane) const {
     Work out;
-    const mpq_class span = abs(d1) + abs(d2);
-    const mpq_class t = abs(d1) / span;
-    const mpq_class rest = 1 - t;
-    const mpq_class larger = std::max(t, rest);
+    const mpz_class far1 = abs(n1), far2 = abs(n2);
+    mpz_class common;
     for (size_t i = 0; i < 3; ++i) {
-        out.v.weights[i] = rest * p1.v.weights[i] + t * p2.v.weights[i];
+        out.weight[i] = far2 * p1.weight[i] + far1 * p2.weight[i];
+        common = gcd(common, out.weight[i]);
     }
-    const mpq_class eta1 = distance_error(p1, d1, plane, u);
-    const mpq_class eta2 = distance_error(p2, d2, plane, u);
-    const mpq_class sure = span - eta1 - eta2;
-    out.v.is_bounded = p1.v.is_bounded && p2.v.is_bounded && sure > 0;
-    mpq_class dt = 1;  // t stays in [0,1]
-    if (out.v.is_bounded) {
-        dt = std::min<mpq_class>(dt, (rest * eta1 + t * eta2) / sure + 4 * u * larger);
+    for (mpz_class& weight : out.weight) {
+        mpz_divexact(weight.get_mpz_t(), weight.get_mpz_t(), common.get_mpz_t());
     }
-    const auto interpolate = [&](const mpq_class& a, const mpq_class& b, const mpq_class& ea,
-                                 const mpq_class& eb, mpq_class& value, mpq_class& error) {
-        value = rest * a + t * b;
-        const mpq_class difference = abs(b - a);
-        const mpq_class rounding =
-            2 * u * std::max<mpq_class>(larger * difference, rest * abs(a) + t * abs(b));
-        const mpq_class own = dt * (difference + ea + eb) + rounding + u * abs(value);
-        error = round_up(std::max(ea, eb) + own * (1 + 16 * u));
-    };
-    for (size_t c = 0; c < 4; ++c) {
-        interpolate(p1.v.clip[c], p2.v.clip[c], p1.error[c], p2.error[c], out.v.clip[c],
-                    out.error[c]);
+    const mpz_class whole1 = whole_of(p1.weight), whole2 = whole_of(p2.weight);
+    const Ball d1 = quotient(far1, whole1, triangle_.exponent);
+    const Ball d2 = quotient(far2, whole2, triangle_.exponent);
+    const mpz_class share1 = far2 * whole1, share2 = far1 * whole2, shares = share1 + share2;
+    const Ball rest = quotient(share1, shares, 0), t = quotient(share2, shares, 0);
+    const Ball more = larger(t, rest);
+    const Ball eta1 = distance_error(p1, d1, plane), eta2 = distance_error(p2, d2, plane);
+    const Ball sure = d1 + d2 - eta1 - eta2;
+    out.is_bounded = p1.is_bounded && p2.is_bounded && is_positive(sure) == Answer::yes;
+    Ball dt = 1;  // t stays in [0,1]
+    if (out.is_bounded) {
+        dt = smaller(dt, (rest * eta1 + t * eta2) / sure + Ball(4) * unit_ * more);
     }
-    out.distance.resize(p1.distance.size());
-    out.distance_error.resize(p1.distance.size());
-    for (size_t k = 0; k < p1.distance.size(); ++k) {
-        interpolate(p1.distance[k], p2.distance[k], p1.distance_error[k], p2.distance_error[k],
-                    out.distance[k], out.distance_error[k]);
+    for (size_t k = 0; k < triangle_.components; ++k) {
+        const Ball &a = p1.value[k], &b = p2.value[k];
+        out.value[k] = rest * a + t * b;
+        const Ball difference = magnitude(b - a);
+        const Ball rounding =
+            Ball(2) * unit_ * larger(more * difference, rest * magnitude(a) + t * magnitude(b));
+        const Ball ends = Ball(p1.error[k]) + Ball(p2.error[k]);
+        const Ball own = dt * (difference + ends) + rounding + unit_ * magnitude(out.value[k]);
+        out.error[k] =
+            at_most(Ball(std::max(p1.error[k], p2.error[k])) + own * (Ball(1) + Ball(16) * unit_));
     }
     return out;
 }
 
 // `d`: the vertices' distances from the plane.
-std::vector<Work> clip_by(const std::vector<Work>& polygon, const std::vector<mpq_class>& d,
-                          ClipPlane plane, const mpq_class& u) {
+std::vector<Work> Clipper::clip_by(const std::vector<Work>& polygon,
+                                   const std::vector<mpz_class>& d, ClipPlane plane) const {
     std::vector<Work> out;
     const size_t n = polygon.size();
     out.reserve(n + 1);
@@ -151,35 +269,34 @@ std::vector<Work> clip_by(const std::vector<Work>& polygon, const std::vector<mp
             out.push_back(a);
             if (d[next] < 0) {
                 if (d[i] == 0) {
-                    out.back().v.edge = label;  // leaves at a itself
+                    out.back().edge = label;  // leaves at a itself
                 } else {
-                    out.push_back(cut(a, polygon[next], d[i], d[next], plane, u));
-                    out.back().v.edge = label;
+                    out.push_back(cut(a, polygon[next], d[i], d[next], plane));
+                    out.back().edge = label;
                 }
             }
         } else if (d[next] > 0) {
-            out.push_back(cut(a, polygon[next], d[i], d[next], plane, u));
-            out.back().v.edge = a.v.edge;
+            out.push_back(cut(a, polygon[next], d[i], d[next], plane));
+            out.back().edge = a.edge;
         }
     }
     return out;
 }
 
-std::vector<Work> clip_in_order(const std::vector<Work>& triangle, std::span<const ClipPlane> order,
-                                const mpq_class& u) {
-    std::vector<Work> polygon = triangle;
+std::vector<Work> Clipper::clip(std::span<const ClipPlane> order) const {
+    std::vector<Work> polygon = start_;
     for (const ClipPlane plane : order) {
         if (polygon.empty()) {
             break;
         }
         // An earlier plane may have cut off all that is outside of this one.
-        std::vector<mpq_class> d;
+        std::vector<mpz_class> d;
         d.reserve(polygon.size());
         for (const Work& p : polygon) {
             d.push_back(distance(p, plane));
         }
-        if (std::any_of(d.begin(), d.end(), [](const mpq_class& each) { return each < 0; })) {
-            polygon = clip_by(polygon, d, plane, u);
+        if (std::any_of(d.begin(), d.end(), [](const mpz_class& each) { return each < 0; })) {
+            polygon = clip_by(polygon, d, plane);
         }
     }
     return polygon;
@@ -198,197 +315,115 @@ std::vector<ClipPlane> cutting_planes(const ClipInput& triangle,
     return out;
 }
 
-void raise(mpq_class& bound, const mpq_class& other) {
-    if (bound < other) {
-        bound = other;
-    }
-}
-
 // Takes the larger bound of the vertex of `other` between the same two edges.
 void widen_by(std::vector<Work>& polygon, const std::vector<Work>& other) {
     const size_t n = polygon.size();
     const size_t m = other.size();
     for (size_t i = 0; i < n; ++i) {
         Work& p = polygon[i];
-        const EdgeLabel in = polygon[(i + n - 1) % n].v.edge;
+        const EdgeLabel in = polygon[(i + n - 1) % n].edge;
         for (size_t k = 0; k < m; ++k) {
-            if (other[k].v.edge != p.v.edge || other[(k + m - 1) % m].v.edge != in) {
+            if (other[k].edge != p.edge || other[(k + m - 1) % m].edge != in) {
                 continue;
             }
-            p.v.is_bounded = p.v.is_bounded && other[k].v.is_bounded;
-            for (size_t c = 0; c < 4; ++c) {
-                raise(p.error[c], other[k].error[c]);
-            }
-            for (size_t c = 0; c < p.distance_error.size(); ++c) {
-                raise(p.distance_error[c], other[k].distance_error[c]);
+            p.is_bounded = p.is_bounded && other[k].is_bounded;
+            for (size_t c = 0; c < p.error.size(); ++c) {
+                p.error[c] = std::max(p.error[c], other[k].error[c]);
             }
         }
     }
 }
 
-mpq_class axis_error(const Work& p, size_t c, float extent, float origin, const mpq_class& u) {
-    const mpq_class half = rational(extent) / 2;
-    const mpq_class offset = rational(origin) + half;
-    const mpq_class normalized = p.v.clip[c] / p.v.clip[kW];
-    const mpq_class divided =
-        (p.error[c] + abs(normalized) * p.error[kW]) / (p.v.clip[kW] - p.error[kW]);
-    const mpq_class t = (abs(normalized) + divided) * abs(half);
-    return round_up(divided * abs(half) + rounding_bound(t, offset, t + abs(offset), u));
+mpq_class Clipper::axis_error(const Work& p, size_t c, float extent, float origin) const {
+    const Ball half = Ball(static_cast<double>(extent)) * Ball(0.5);
+    const Ball offset = Ball(static_cast<double>(origin)) + half;
+    const Ball normalized = magnitude(p.value[c] / p.value[kW]);
+    const Ball divided =
+        (Ball(p.error[c]) + normalized * Ball(p.error[kW])) / (p.value[kW] - Ball(p.error[kW]));
+    const Ball t = (normalized + divided) * magnitude(half);
+    return at_most(divided * magnitude(half) +
+                   rounding_bound(t, offset, t + magnitude(offset), unit_));
 }
 
-void project(Work& p, const cases::Viewport& viewport, const mpq_class& u) {
-    ClippedVertex& v = p.v;
-    if (v.clip[kW] <= 0) {
+ClippedVertex Clipper::finished(const Work& p, const cases::Viewport& viewport) const {
+    ClippedVertex v;
+    v.is_bounded = p.is_bounded;
+    v.original = p.original;
+    v.edge = p.edge;
+    const mpz_class whole = whole_of(p.weight);
+    const auto fraction = [](const mpz_class& a, const mpz_class& b) {
+        mpq_class out(a, b);
+        out.canonicalize();
+        return out;
+    };
+    const mpq_class unit = power_of_two(triangle_.exponent);
+    std::array<mpz_class, kCoordinates> n;
+    for (size_t i = 0; i < 3; ++i) {
+        v.weights[i] = fraction(p.weight[i], whole);
+    }
+    for (size_t c = 0; c < kCoordinates; ++c) {
+        n[c] = weighted(p.weight, triangle_.n[c]);
+        v.clip[c] = fraction(n[c], whole) * unit;
+    }
+    if (sgn(n[kW]) <= 0) {
         v.is_bounded = false;
-        return;
+        return v;
     }
     IdealPosition& out = v.position;
     out.inv_w = 1 / v.clip[kW];
     const mpq_class half_x = rational(viewport.width) / 2;
     const mpq_class half_y = rational(viewport.height) / 2;
-    out.x = half_x * v.clip[kX] * out.inv_w + rational(viewport.x) + half_x;
-    out.y = half_y * v.clip[kY] * out.inv_w + rational(viewport.y) + half_y;
     const mpq_class range = rational(viewport.max_depth) - rational(viewport.min_depth);
-    out.z = range * v.clip[kZ] * out.inv_w + rational(viewport.min_depth);
-    v.ratio_error.resize(p.distance.size());
-    for (const mpq_class& d : p.distance) {
-        v.ratio.emplace_back(d * out.inv_w);
+    out.x = half_x * fraction(n[kX], n[kW]) + rational(viewport.x) + half_x;
+    out.y = half_y * fraction(n[kY], n[kW]) + rational(viewport.y) + half_y;
+    out.z = range * fraction(n[kZ], n[kW]) + rational(viewport.min_depth);
+    const size_t distances = triangle_.components - kCoordinates;
+    v.ratio_error.resize(distances);
+    for (size_t k = 0; k < distances; ++k) {
+        v.ratio.push_back(fraction(weighted(p.weight, triangle_.n[kCoordinates + k]), n[kW]));
     }
     if (v.original >= 0) {
-        return;
+        return v;
     }
-    if (p.error[kW] >= v.clip[kW]) {
+    const Ball sure = p.value[kW] - Ball(p.error[kW]);
+    if (is_positive(sure) != Answer::yes) {
         v.is_bounded = false;
-        return;
+        return v;
     }
-    v.error.x = axis_error(p, kX, viewport.width, viewport.x, u);
-    v.error.y = axis_error(p, kY, viewport.height, viewport.y, u);
-    for (size_t k = 0; k < p.distance.size(); ++k) {
-        v.ratio_error[k] = round_up((p.distance_error[k] + abs(v.ratio[k]) * p.error[kW]) /
-                                    (v.clip[kW] - p.error[kW]));
-    }
-}
-
-}  // namespace
-
-ClipVolume clip_volume_of(const cases::Draw& draw) {
-    ClipVolume v;
-    const auto add = [&v](ClipPlane plane) { v.planes[v.count++] = plane; };
-    add(ClipPlane::x_low);
-    add(ClipPlane::x_high);
-    add(ClipPlane::y_low);
-    add(ClipPlane::y_high);
-    // "depthClipEnable ... otherwise the inverse of depthClampEnable".
-    if (draw.depth.clip.value_or(!draw.depth.clamp)) {
-        add(draw.depth.negative_one_to_one ? ClipPlane::z_low_symmetric : ClipPlane::z_low);
-        add(ClipPlane::z_high);
-    }
-    v.view_count = v.count;
-    for (uint32_t k = 0; k < draw.distances.clip_count; ++k) {
-        add(static_cast<ClipPlane>(static_cast<uint32_t>(ClipPlane::user_0) + k));
+    v.error.x = axis_error(p, kX, viewport.width, viewport.x);
+    v.error.y = axis_error(p, kY, viewport.height, viewport.y);
+    for (size_t k = 0; k < distances; ++k) {
+        const Ball ratio = magnitude(p.value[kCoordinates + k] / p.value[kW]);
+        v.ratio_error[k] =
+            at_most((Ball(p.error[kCoordinates + k]) + ratio * Ball(p.error[kW])) / sure);
     }
     return v;
 }
 
-ClipInput::ClipInput(const cases::Draw& draw, const std::array<uint32_t, 3>& vertex)
-    : distance_count(draw.distances.clip_count) {
-    for (size_t i = 0; i < 3; ++i) {
-        clip[i] = draw.positions[vertex[i]];
-        if (distance_count > 0) {
-            distance[i] = draw.distances.clip[vertex[i]];
-        }
-    }
-}
-
-bool is_inside(const glm::vec4& clip, std::span<const ClipPlane> planes) {
-    ClipInput input;
-    input.clip[0] = clip;
-    return is_inside(input, 0, planes);
-}
-
-bool is_inside(const ClipInput& triangle, size_t i, std::span<const ClipPlane> planes) {
-    const glm::vec4& clip = triangle.clip[i];
-    if (!std::isfinite(clip.x) || !std::isfinite(clip.y) || !std::isfinite(clip.z) ||
-        !std::isfinite(clip.w)) {
-        return false;
-    }
-    // Comparisons, not sums: exact in binary32.
-    return std::all_of(planes.begin(), planes.end(), [&](ClipPlane plane) {
-        switch (plane) {
-            case ClipPlane::x_low:
-                return clip.x >= -clip.w;
-            case ClipPlane::x_high:
-                return clip.x <= clip.w;
-            case ClipPlane::y_low:
-                return clip.y >= -clip.w;
-            case ClipPlane::y_high:
-                return clip.y <= clip.w;
-            case ClipPlane::z_low:
-                return clip.z >= 0;
-            case ClipPlane::z_high:
-                return clip.z <= clip.w;
-            case ClipPlane::z_low_symmetric:
-                return clip.z >= -clip.w;
-            default:
-                return triangle
-                           .distance[i][static_cast<glm::vec4::length_type>(user_index(plane))] >=
-                       0;
-        }
-    });
-}
-
-bool is_inside(const ClipInput& triangle, std::span<const ClipPlane> planes) {
-    return is_inside(triangle, 0, planes) && is_inside(triangle, 1, planes) &&
-           is_inside(triangle, 2, planes);
-}
-
-bool is_trivially_outside(const std::array<glm::vec4, 3>& triangle,
-                          std::span<const ClipPlane> planes) {
-    return std::any_of(planes.begin(), planes.end(), [&](ClipPlane plane) {
-        return !is_user(plane) &&
-               std::none_of(triangle.begin(), triangle.end(), [&](const glm::vec4& v) {
-                   return is_inside(v, {&plane, 1});
-               });
-    });
-}
+}  // namespace
 
 std::vector<ClippedVertex> clip_triangle(const ClipInput& triangle, const cases::Viewport& viewport,
                                          cases::Profile profile,
                                          std::span<const ClipPlane> planes) {
-    const mpq_class u =
-        profile == cases::Profile::vulkan ? mpq_class(1, 100000) : mpq_class(1, int64_t{1} << 24);
-    std::vector<Work> start(3);
-    for (size_t i = 0; i < 3; ++i) {
-        const glm::vec4& p = triangle.clip[i];
-        start[i].v.clip = {rational(p.x), rational(p.y), rational(p.z), rational(p.w)};
-        start[i].v.weights[i] = 1;
-        start[i].v.original = static_cast<int>(i);
-        start[i].v.edge = static_cast<EdgeLabel>(i);
-        for (uint32_t k = 0; k < triangle.distance_count; ++k) {
-            start[i].distance.push_back(
-                rational(triangle.distance[i][static_cast<glm::vec4::length_type>(k)]));
-        }
-        start[i].distance_error.resize(triangle.distance_count);
-    }
+    const Clipper clipper(triangle, profile);
     // An order that has been cut in before gives the same polygon again.
     const std::vector<ClipPlane> order = cutting_planes(triangle, planes);
-    std::vector<Work> polygon = clip_in_order(start, order, u);
+    std::vector<Work> polygon = clipper.clip(order);
     std::vector<ClipPlane> other_order = order;
     std::stable_partition(other_order.begin(), other_order.end(),
                           [](ClipPlane p) { return !is_user(p) && component_of(p) == kZ; });
     if (other_order != order) {
-        widen_by(polygon, clip_in_order(start, other_order, u));
+        widen_by(polygon, clipper.clip(other_order));
     }
     std::vector<ClipPlane> user_first = other_order;
     std::stable_partition(user_first.begin(), user_first.end(), is_user);
     if (user_first != other_order && user_first != order) {
-        widen_by(polygon, clip_in_order(start, user_first, u));
+        widen_by(polygon, clipper.clip(user_first));
     }
     std::vector<ClippedVertex> out;
     out.reserve(polygon.size());
-    for (Work& p : polygon) {
-        project(p, viewport, u);
-        out.push_back(std::move(p.v));
+    for (const Work& p : polygon) {
+        out.push_back(clipper.finished(p, viewport));
     }
     return out;
 }

@@ -36,6 +36,13 @@ enum class ClipPlane : uint8_t {
 inline constexpr ClipPlane kViewVolume[] = {ClipPlane::x_low, ClipPlane::x_high,
                                             ClipPlane::y_low, ClipPlane::y_high,
                                             ClipPlane::z_low, ClipPlane::z_high};
+inline bool is_user(ClipPlane plane) {
+    return plane >= ClipPlane::user_0;
+}
+// The number of a clip distance's plane.
+inline size_t user_index(ClipPlane plane) {
+    return static_cast<size_t>(plane) - static_cast<size_t>(ClipPlane::user_0);
+}
 inline constexpr size_t kMaxUserPlanes = 4;
 inline constexpr size_t kMaxPlanes = 6 + kMaxUserPlanes;
 inline constexpr size_t kMaxClippedVertices = 3 + kMaxPlanes;  // each plane adds at most one

@@ -67,7 +67,7 @@ bool add_exactly(double a, double b, double& sum) {
 // Of a coordinate whose transform is not exact.
 mpq_class axis_error(float c, float w, const Axis& axis) {
     const mpq_class t = rational(c) / rational(w) * axis.half;
-    mpq_class error = rounding_bound(t, axis.offset, t + axis.offset, power_of_two(-24));
+    mpq_class error = rounding_bound<mpq_class>(t, axis.offset, t + axis.offset, power_of_two(-24));
     error += power_of_two(-120) * (1 + abs(axis.half)) * (1 + abs(rational(c)));
     if (std::abs(w) > 0x1p125F) {
         error += abs(t);  // 1/w is subnormal and may be flushed to zero
@@ -83,7 +83,7 @@ mpq_class vulkan_slack(const mpq_class& ideal, const Axis& axis, const Limits& l
         return 0;
     }
     const mpq_class slack =
-        rounding_bound(ideal - axis.offset, axis.offset, ideal, mpq_class(1, 100000));
+        rounding_bound<mpq_class>(ideal - axis.offset, axis.offset, ideal, mpq_class(1, 100000));
     // The viewport may move by less than a step of its grid (ref/position/viewport_grid.hpp).
     return is_on_viewport_grid(axis.origin, axis.extent, limits.viewport_bits)
                ? slack
@@ -157,11 +157,6 @@ bool is_transform_exact(float c, float w, float origin, float extent) {
            add_exactly(offset, -0.5, offset_rest) && add_exactly(x_f, -0.5, x_rest) &&
            is_normal_binary32(t) && is_normal_binary32(offset) && is_normal_binary32(x_f) &&
            is_normal_binary32(offset_rest) && is_normal_binary32(x_rest);
-}
-
-mpq_class rounding_bound(const mpq_class& t, const mpq_class& o, const mpq_class& x_f,
-                         const mpq_class& u) {
-    return u * (4 * abs(t) + abs(o) + 2 * abs(x_f) + 1) * (1 + 8 * u);
 }
 
 IdealPosition ideal_position(const glm::vec4& clip, const cases::Viewport& viewport) {

@@ -11,6 +11,7 @@
 
 #include "cases/model/case.hpp"
 #include "cases/model/profile.hpp"
+#include "ref/number/ball.hpp"
 #include "ref/position/limits.hpp"
 #include "ref/position/position.hpp"
 
@@ -23,8 +24,12 @@ inline bool is_integer(float f) {
 
 // Bound on the rounding errors from x_d to x_f = t + o with unit roundoff u; position.cpp derives
 // it.
-mpq_class rounding_bound(const mpq_class& t, const mpq_class& o, const mpq_class& x_f,
-                         const mpq_class& u);
+template <class T>
+T rounding_bound(const T& t, const T& o, const T& x_f, const T& u) {
+    using value::magnitude;
+    return u * T(T(4) * magnitude(t) + magnitude(o) + T(2) * magnitude(x_f) + T(1)) *
+           T(T(1) + T(8) * u);
+}
 
 // The box of a position whose ideal is (x,y) pixels and whose computed value is off by at most
 // `error` before it is snapped (position_box, ref/position/position.hpp). There is none beyond

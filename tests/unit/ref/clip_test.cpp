@@ -6,9 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 
+#include "ref/number/rational.hpp"
 #include "tests/unit/ref/clip_float.hpp"
 #include "tests/unit/ref/coverage_random.hpp"
+#include "tests/unit/ref/rational_clip.hpp"
 
 namespace ref::test {
 namespace {
@@ -151,6 +154,66 @@ TEST(Clip, ErrorBoundsBinary32) {
     }
     EXPECT_GT(compared, 500);
     EXPECT_GT(worst, 0.1);
+}
+
+// Weights, positions and edges are those of the rationals, and bounds theirs, rounded up.
+TEST(Clip, AgreesWithRationals) {
+    RandomCases random(13);
+    int cut = 0, bounds = 0;
+    const auto is_bound = [&](const mpq_class& bound, const mpq_class& exact) {
+        ++bounds;
+        return bound >= exact && bound <= exact * mpq_class(1 + 0x1p-30) + power_of_two(-390);
+    };
+    for (int k = 0; k < 3000; ++k) {
+        const double reach = std::pow(10.0, random.real(-1, 5));
+        ClipInput input;
+        input.distance_count = static_cast<uint32_t>(random.integer(0, 2));
+        // Some lie far apart in size, and some on the planes.
+        const float scale =
+            k % 5 == 0 ? std::ldexp(1.0F, static_cast<int>(random.integer(-100, 60))) : 1.0F;
+        for (size_t i = 0; i < 3; ++i) {
+            input.clip[i] = random_vertex(random, reach);
+            if (k % 4 == 0) {
+                input.clip[i] = glm::round(input.clip[i]);
+            }
+            input.distance[i] = {random.real(-1, 2), random.real(-2, 1), 0, 0};
+        }
+        input.clip[0] *= scale;
+        const cases::Viewport viewport{3, -2.5F, 64, k % 2 == 0 ? 33.25F : -64.0F, 0.25F, 1};
+        for (const Profile profile : {Profile::vulkan, Profile::practice}) {
+            std::vector<ClipPlane> planes(std::begin(kViewVolume), std::end(kViewVolume));
+            planes.push_back(ClipPlane::user_0);
+            planes.push_back(ClipPlane::user_1);
+            planes.resize(std::size(kViewVolume) + input.distance_count);
+            const auto ours = clip_triangle(input, viewport, profile, planes);
+            const auto exact = rational_clip(input, viewport, profile, planes);
+            ASSERT_EQ(ours.size(), exact.size()) << k;
+            for (size_t i = 0; i < ours.size(); ++i) {
+                const ClippedVertex &a = ours[i], &b = exact[i];
+                ASSERT_EQ(a.weights, b.weights) << k;
+                ASSERT_EQ(a.clip, b.clip) << k;
+                ASSERT_EQ(a.edge, b.edge) << k;
+                ASSERT_EQ(a.original, b.original) << k;
+                ASSERT_EQ(a.is_bounded, b.is_bounded) << k;
+                ASSERT_EQ(a.position.x, b.position.x) << k;
+                ASSERT_EQ(a.position.y, b.position.y) << k;
+                ASSERT_EQ(a.position.z, b.position.z) << k;
+                ASSERT_EQ(a.position.inv_w, b.position.inv_w) << k;
+                ASSERT_EQ(a.ratio, b.ratio) << k;
+                if (a.is_bounded) {
+                    ASSERT_TRUE(is_bound(a.error.x, b.error.x)) << k;
+                    ASSERT_TRUE(is_bound(a.error.y, b.error.y)) << k;
+                    ASSERT_EQ(a.ratio_error.size(), b.ratio_error.size()) << k;
+                    for (size_t d = 0; d < a.ratio_error.size(); ++d) {
+                        ASSERT_TRUE(is_bound(a.ratio_error[d], b.ratio_error[d])) << k;
+                    }
+                }
+                cut += a.original < 0 ? 1 : 0;
+            }
+        }
+    }
+    EXPECT_GT(cut, 3000);
+    EXPECT_GT(bounds, 6000);
 }
 
 // Each of the roundings counts once, with the weight it has: a triangle ten thousand times larger
