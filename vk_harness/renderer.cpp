@@ -150,7 +150,8 @@ Result<void> BatchRenderer::draw_chunk(std::span<CasePlan> plans, bool read_back
     }
     for (const CasePlan& plan : plans) {
         write_vertices(plan, (*vertices)->bytes());
-        if (auto made = make_door_buffers(*device_, plan, (*vertices)->bytes()); !made) {
+        if (auto made = make_door_buffers(*device_, pipelines_, plan, (*vertices)->bytes());
+            !made) {
             return made;
         }
     }

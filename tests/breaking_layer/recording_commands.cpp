@@ -24,6 +24,9 @@ VKAPI_ATTR void VKAPI_CALL execute_commands(VkCommandBuffer commands, uint32_t c
                                             const VkCommandBuffer* given) {
     std::vector<VkCommandBuffer> own(given, given + count);
     alter(hooks().secondaries, own);
+    std::erase_if(own, [](VkCommandBuffer c) {
+        return ++recording_of(c).executions > 1 && alter(hooks().drop_again);
+    });
     if (!own.empty()) {
         driver_of_handle(commands).CmdExecuteCommands(commands, static_cast<uint32_t>(own.size()),
                                                       own.data());

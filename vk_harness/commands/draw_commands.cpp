@@ -157,6 +157,9 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
             vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
                                        pipelines.layout(), 0, 1, &plan.texture, 0, nullptr);
         }
+        if (plan.feed) {
+            plan.feed->bind_pulled(device, commands, pipelines.pulled_layout());
+        }
     };
     DrawState state =
         draw_state(test, draw, plan.feed ? plan.feed->has_restart() : draw.primitive_restart);

@@ -33,6 +33,14 @@ struct DrawPlan {
     std::optional<OutputState> outputs = {};  // of the door state_output: set before the draw
 };
 
+// A draw that clears one colour, or depth and stencil.
+struct ClearDraw {
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    std::array<uint32_t, 4> bits{};  // that it writes; of depth: the first
+    bool has_stencil = false;
+    uint32_t stencil = 0;
+};
+
 struct CasePlan {
     const cases::Case* test = nullptr;
     size_t slot = 0;           // among the cases of the batch
@@ -43,6 +51,7 @@ struct CasePlan {
     std::shared_ptr<BlitImages> blit;          // instead of images and draws
     std::shared_ptr<Queries> queries;          // if draws ask for them
     std::vector<VkCommandBuffer> secondaries;  // secondaries_of() many; empty: none
+    std::vector<ClearDraw> clears;             // of the door clear_draw
     // Of a door that renders by an object.
     VkRenderPass pass = VK_NULL_HANDLE;
     std::shared_ptr<Handle<VkFramebuffer>> framebuffer;
@@ -58,8 +67,8 @@ VkDeviceSize place_vertices(CasePlan& plan, VkDeviceSize begin);
 void write_vertices(const CasePlan& plan, std::span<std::byte> memory);
 
 // Gives the doors that need them buffers of their own; `memory` is what was written.
-Result<void> make_door_buffers(const Device& device, const CasePlan& plan,
-                               std::span<const std::byte> memory);
+Result<void> make_door_buffers(const Device& device, const PipelineCache& pipelines,
+                               const CasePlan& plan, std::span<const std::byte> memory);
 
 // How many secondary command buffers the case is recorded in, beside the primary one.
 size_t secondaries_of(const CasePlan& plan);

@@ -14,15 +14,6 @@ namespace vk_harness {
 
 namespace {
 
-VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage, VkShaderModule module) {
-    VkPipelineShaderStageCreateInfo info =
-        Typed{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
-    info.stage = stage;
-    info.module = module;
-    info.pName = "main";
-    return info;
-}
-
 shaders::Ending ending_of(const PipelineKey& key) {
     switch (key.discard_by) {
         case cases::DiscardBy::kill:
@@ -36,11 +27,12 @@ shaders::Ending ending_of(const PipelineKey& key) {
 }
 
 Result<Handle<VkPipelineLayout>> make_layout(const Device& device, VkShaderStageFlags stage,
-                                             uint32_t bytes, VkDescriptorSetLayout set) {
+                                             uint32_t bytes,
+                                             std::span<const VkDescriptorSetLayout> sets) {
     const VkPushConstantRange range{stage, 0, bytes};
     VkPipelineLayoutCreateInfo info = Typed{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
-    info.setLayoutCount = 1;
-    info.pSetLayouts = &set;
+    info.setLayoutCount = static_cast<uint32_t>(sets.size());
+    info.pSetLayouts = sets.data();
     info.pushConstantRangeCount = 1;
     info.pPushConstantRanges = &range;
     return make(device, Stage::pipeline, "vkCreatePipelineLayout",
@@ -81,17 +73,24 @@ Result<PipelineCache> PipelineCache::create(const Device& device) {
     const std::array<VkDescriptorSetLayoutBinding, 1> texture = {
         {{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr}}};
     then(cache.texture_set_layout_, [&] { return make_set_layout(device, texture); });
-    then(cache.layout_, [&] {
-        return make_layout(device, draw_stages(device), sizeof(shaders::DrawConstants),
-                           cache.texture_set_layout_.get());
+    const auto draw_layout = [&](std::initializer_list<VkDescriptorSetLayout> sets) {
+        return make_layout(device, draw_stages(device), sizeof(shaders::DrawConstants), sets);
+    };
+    then(cache.layout_, [&] { return draw_layout({cache.texture_set_layout_.get()}); });
+    const std::array<VkDescriptorSetLayoutBinding, 1> inputs = {
+        {{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_VERTEX_BIT, nullptr}}};
+    then(cache.pulled_set_layout_, [&] { return make_set_layout(device, inputs); });
+    then(cache.pulled_layout_, [&] {
+        return draw_layout({cache.texture_set_layout_.get(), cache.pulled_set_layout_.get()});
     });
     const std::array<VkDescriptorSetLayoutBinding, 2> copies = {
         {{0, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr},
          {1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr}}};
     then(cache.copy_set_layout_, [&] { return make_set_layout(device, copies); });
     then(cache.copy_layout_, [&] {
+        const VkDescriptorSetLayout set = cache.copy_set_layout_.get();
         return make_layout(device, VK_SHADER_STAGE_COMPUTE_BIT, kCopyConstants * sizeof(uint32_t),
-                           cache.copy_set_layout_.get());
+                           {&set, 1});
     });
     if (!made) {
         return fail(made.error());
@@ -267,7 +266,7 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
     info.pDepthStencilState = &depth;
     info.pColorBlendState = &color.info;
     info.pDynamicState = &dynamic;
-    info.layout = layout_.get();
+    info.layout = key.way.pulled ? pulled_layout_.get() : layout_.get();
     switch (key.made) {
         case PipelineWay::usual:
             break;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "shaders/spirv_variant.hpp"
+#include "vk_harness/pipeline/clear_pipeline.hpp"
 #include "vk_harness/pipeline/pipeline_key.hpp"
 #include "vk_harness/target/attachments.hpp"
 
@@ -23,12 +24,18 @@ class PipelineCache {
     Result<VkPipeline> get(const PipelineKey& key);
     // The render pass of that key, made at the first call.
     Result<VkRenderPass> get_pass(const PassKey& key);
+    // The pipeline that clears by a draw, made at the first call.
+    Result<VkPipeline> get_clear(const ClearKey& key);
     // The compute pipeline that copies the samples of an attachment to a buffer.
     Result<VkPipeline> get_copy(const Attachment& attachment);
 
     VkPipelineLayout layout() const { return layout_.get(); }
     // Set 0 of a draw: binding 0, the texture whose level of detail is asked for.
     VkDescriptorSetLayout texture_set_layout() const { return texture_set_layout_.get(); }
+    // Of a vertex shader that reads its inputs from set shaders::kPulledSet; what is bound or
+    // pushed with layout() stays in force.
+    VkPipelineLayout pulled_layout() const { return pulled_layout_.get(); }
+    VkDescriptorSetLayout pulled_set_layout() const { return pulled_set_layout_.get(); }
     VkPipelineLayout copy_layout() const { return copy_layout_.get(); }
     VkDescriptorSetLayout copy_set_layout() const { return copy_set_layout_.get(); }
 
@@ -48,6 +55,7 @@ class PipelineCache {
     Result<Handle<VkPipeline>> make_derived(const PipelineKey& key,
                                             VkGraphicsPipelineCreateInfo info);
     Result<Handle<VkPipeline>> make_cached(const VkGraphicsPipelineCreateInfo& info);
+    Result<Handle<VkPipeline>> make_clear(const ClearKey& key);
     Result<Handle<VkPipeline>> create(const VkGraphicsPipelineCreateInfo& info,
                                       VkPipelineCache cache);
 
@@ -55,6 +63,8 @@ class PipelineCache {
     Handle<VkPipelineCache> cache_;
     Handle<VkDescriptorSetLayout> texture_set_layout_;
     Handle<VkPipelineLayout> layout_;
+    Handle<VkDescriptorSetLayout> pulled_set_layout_;
+    Handle<VkPipelineLayout> pulled_layout_;
     Handle<VkDescriptorSetLayout> copy_set_layout_;
     Handle<VkPipelineLayout> copy_layout_;
     // By the embedded code's address, the changes, the execution modes, the instruction and the
@@ -64,6 +74,7 @@ class PipelineCache {
              Handle<VkShaderModule>>
         modules_;
     std::map<PassKey, Handle<VkRenderPass>> passes_;
+    std::map<ClearKey, Handle<VkPipeline>> clears_;
     std::map<PipelineKey, Handle<VkPipeline>> pipelines_;
     std::vector<Handle<VkPipeline>> libraries_;             // of those that are linked
     std::map<const uint32_t*, Handle<VkPipeline>> copies_;  // by the embedded code's address

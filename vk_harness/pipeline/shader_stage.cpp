@@ -44,6 +44,15 @@ void tie(Specialization& to) {
 
 }  // namespace
 
+VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage, VkShaderModule module) {
+    VkPipelineShaderStageCreateInfo info =
+        Typed{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
+    info.stage = stage;
+    info.module = module;
+    info.pName = "main";
+    return info;
+}
+
 std::vector<shaders::InputChange> input_changes(const PipelineKey& key, bool has_primitive_id) {
     std::vector<shaders::InputChange> changes;
     if (has_primitive_id && key.instruments) {

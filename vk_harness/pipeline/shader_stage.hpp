@@ -15,6 +15,9 @@
 
 namespace vk_harness {
 
+// A stage of a pipeline, without specialization.
+VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage, VkShaderModule module);
+
 // Interpolation and auxiliary qualifiers of the inputs; the primitive's number if the device has
 // it.
 std::vector<shaders::InputChange> input_changes(const PipelineKey& key, bool has_primitive_id);

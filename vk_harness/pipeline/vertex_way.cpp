@@ -52,6 +52,9 @@ VertexWay vertex_way(const cases::Case& c, const cases::Draw& draw) {
         case cases::Door::interleaved:
             way.interleaved = true;
             break;
+        case cases::Door::vertices_pulled:
+            way.pulled = true;
+            break;
         case cases::Door::three_components:
             way.three_components =
                 std::all_of(draw.positions.begin(), draw.positions.end(),

@@ -18,6 +18,7 @@ struct VertexWay {
     bool interleaved = false;       // all inputs lie in binding 0
     bool three_components = false;  // positions are three numbers
     bool halves = false;            // positions are of binary16
+    bool pulled = false;            // the shader reads them from a storage buffer
     uint32_t instance_rate = 0;     // bit b: binding b is read once an instance
     friend auto operator<=>(const VertexWay&, const VertexWay&) = default;
 };
