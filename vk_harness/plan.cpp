@@ -49,13 +49,11 @@ bool BatchRenderer::plan(CasePlan& plan, Rendered& result) {
             item.outputs = output_state(own);
             own = without_outputs(own);
         }
-        auto pipeline = pipelines_.get(own);
-        if (!pipeline) {
-            reject(result, pipeline.error());
+        item.draw = &draw;
+        if (auto made = plan_shaders(item, own, test.variation.door); !made) {
+            reject(result, made.error());
             return false;
         }
-        item.draw = &draw;
-        item.pipeline = *pipeline;
         if (test.variation.door == cases::Door::state_after_static) {
             PipelineKey key = pipeline_key(test, draw, layout);
             key.fixed =
@@ -120,6 +118,14 @@ bool BatchRenderer::plan(CasePlan& plan, Rendered& result) {
         }
     }
     return true;
+}
+
+Result<void> BatchRenderer::plan_shaders(DrawPlan& item, const PipelineKey& key, cases::Door door) {
+    if (door == cases::Door::shader_objects) {
+        item.object_key = std::make_shared<PipelineKey>(key);
+        return put(item.objects, pipelines_.get_objects(key));
+    }
+    return put(item.pipeline, pipelines_.get(key));
 }
 
 Result<void> BatchRenderer::plan_clears(CasePlan& plan) {

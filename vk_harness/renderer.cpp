@@ -354,6 +354,11 @@ Result<BatchRenderer> BatchRenderer::create(const Options& options) {
     if (!capabilities) {
         return fail(capabilities.error());
     }
+    // An older layer takes shader objects for draws without a pipeline, and hands on its own
+    // handles.
+    if (instance->validation_version().value_or(kShaderObjectHeaders) < kShaderObjectHeaders) {
+        capabilities->doors.shader_objects = false;
+    }
     auto made = Device::create(*capabilities);
     if (!made) {
         return fail(made.error());

@@ -92,6 +92,12 @@ bool has_one_kind_of_distances(const Case& c) {
     });
 }
 
+// No dynamic state says how many samples are shaded at least.
+bool has_no_sample_fraction(const Case& c) {
+    return all_draws(
+        c, [](const Draw& draw) { return !draw.multisample.min_sample_shading.has_value(); });
+}
+
 // Whether a shader that writes the number leaves what clearing to it leaves: neither is rounded.
 // Denormal numbers a shader may flush.
 bool is_written_as_cleared(const ComponentFormat& component, float value) {
@@ -331,7 +337,8 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
      kAny, is_any},
     {Door::shader_objects, "shader-objects", kState, kRight, rule::door_state,
      "There are no pipelines: shaders are objects of their own, and all state is dynamic.",
-     "shaderObject (VK_EXT_shader_object)", kAny, is_any},
+     "shaderObject (VK_EXT_shader_object)",
+     "no draw that asks for a part of its samples to be shaded", has_no_sample_fraction},
     {Door::secondary, "secondary", kRecording, kSame, rule::door_recording,
      "All draws are recorded in a secondary command buffer.", "", kAny, is_any},
     {Door::secondary_each, "secondary-each", kRecording, kSame, rule::door_recording,

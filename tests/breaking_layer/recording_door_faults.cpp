@@ -153,6 +153,12 @@ constexpr std::array kFaults = {
                    }
                    return altered;
                }}},
+    Fault{"door-objects-last-triangle-lost",
+          "A draw without a pipeline loses its last three vertices.",
+          {.draw =
+               [](DrawCall& d) {
+                   return d.stages == 0 && change(d.count, d.count - std::min(d.count, 3U));
+               }}},
     Fault{"door-secondary-last-triangle-lost",
           "In a secondary command buffer lists lose their last triangle.",
           {.draw =

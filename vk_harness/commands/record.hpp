@@ -4,6 +4,7 @@
 // One case as commands: upload, draw, copy.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <span>
@@ -31,6 +32,9 @@ struct DrawPlan {
     bool is_split = false;                    // TargetLayout::split
     std::shared_ptr<Feed> feed;               // of a door that feeds vertices in another way
     std::optional<OutputState> outputs = {};  // of the door state_output: set before the draw
+    // Of the door shader_objects, instead of a pipeline; the state is that of the key.
+    std::shared_ptr<const PipelineKey> object_key;
+    ShaderPair objects{};
 };
 
 // A draw that clears one colour, or depth and stencil.

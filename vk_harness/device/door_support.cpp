@@ -69,6 +69,11 @@ DoorSupport query_door_support(VkPhysicalDevice physical, HasExtension has_exten
         chain(features, optional.library);
     }
     chain(features, optional.multiview);
+    const bool has_objects = properties.apiVersion >= VK_API_VERSION_1_3 &&
+                             has_extension(physical, kShaderObjectExtension);
+    if (has_objects) {
+        chain(features, optional.shader_objects);
+    }
     // Before 1.3 the first of these structures is chained for what every case needs.
     const bool has_dynamic_outputs =
         properties.apiVersion >= VK_API_VERSION_1_3 &&
@@ -95,6 +100,7 @@ DoorSupport query_door_support(VkPhysicalDevice physical, HasExtension has_exten
                           three.extendedDynamicState3LogicOpEnable == VK_TRUE &&
                           three.extendedDynamicState3AlphaToOneEnable == VK_TRUE &&
                           three.extendedDynamicState3SampleMask == VK_TRUE;
+    out.shader_objects = optional.shader_objects.shader_object == VK_TRUE;
     out.library = has_library && optional.library.graphicsPipelineLibrary == VK_TRUE;
     // maxMultiviewViewCount is at least 6.
     out.multiview = optional.multiview.multiview == VK_TRUE;
@@ -144,6 +150,11 @@ void enable_door_features(const DoorSupport& support, VkPhysicalDeviceFeatures2&
         chain(features, enabled.multiview);
     }
     features.features.tessellationShader = support.tessellation ? VK_TRUE : VK_FALSE;
+    if (support.shader_objects) {
+        enabled.shader_objects.shader_object = VK_TRUE;
+        chain(features, enabled.shader_objects);
+        extensions.push_back(kShaderObjectExtension);
+    }
     if (support.host_import) {
         extensions.push_back(VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME);
     }

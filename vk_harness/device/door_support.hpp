@@ -10,6 +10,7 @@
 
 #include "cases/model/door.hpp"
 #include "vk_harness/device/clip_support.hpp"
+#include "vk_harness/device/shader_object.hpp"
 
 namespace vk_harness {
 
@@ -43,6 +44,7 @@ struct DoorFeatures {
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_EXTENDED_DYNAMIC_STATE_3_FEATURES_EXT};
     VkPhysicalDeviceGraphicsPipelineLibraryFeaturesEXT library =
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_GRAPHICS_PIPELINE_LIBRARY_FEATURES_EXT};
+    ShaderObjectFeatures shader_objects;
     VkPhysicalDeviceMultiviewFeatures multiview =
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MULTIVIEW_FEATURES};
 };

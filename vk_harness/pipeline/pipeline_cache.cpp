@@ -14,18 +14,6 @@ namespace vk_harness {
 
 namespace {
 
-shaders::Ending ending_of(const PipelineKey& key) {
-    switch (key.discard_by) {
-        case cases::DiscardBy::kill:
-            break;
-        case cases::DiscardBy::demote:
-            return shaders::Ending::demote;
-        case cases::DiscardBy::terminate:
-            return shaders::Ending::terminate;
-    }
-    return shaders::Ending::kill;
-}
-
 Result<Handle<VkPipelineLayout>> make_layout(const Device& device, VkShaderStageFlags stage,
                                              uint32_t bytes,
                                              std::span<const VkDescriptorSetLayout> sets) {
@@ -99,27 +87,15 @@ Result<PipelineCache> PipelineCache::create(const Device& device) {
 }
 
 Result<VkShaderModule> PipelineCache::shader_module(std::span<const uint32_t> code,
-                                                    std::vector<shaders::InputChange> changes,
-                                                    std::vector<uint32_t> modes,
-                                                    shaders::Ending ending,
-                                                    shaders::OutputChange outputs) {
-    std::tuple key(code.data(), std::move(changes), std::move(modes), ending, std::move(outputs));
+                                                    ShaderChanges changes) {
+    std::tuple key(code.data(), std::move(changes));
     const auto found = modules_.find(key);
     if (found != modules_.end()) {
         return found->second.get();
     }
-    auto changed = shaders::change_inputs(code, std::get<1>(key));
-    if (changed && !std::get<2>(key).empty()) {
-        changed = shaders::with_modes(*changed, std::get<2>(key));
-    }
-    if (changed && ending != shaders::Ending::kill) {
-        changed = shaders::with_ending(*changed, ending);
-    }
-    if (changed) {
-        changed = shaders::with_outputs(*changed, std::get<4>(key));
-    }
+    auto changed = changed_code(code, std::get<1>(key));
     if (!changed) {
-        return fail(Stage::shader, changed.error());
+        return fail(changed.error());
     }
     VkShaderModuleCreateInfo info = Typed{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
     info.codeSize = changed->size() * sizeof(uint32_t);
@@ -185,9 +161,9 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
     if (!vertex) {
         return fail(vertex.error());
     }
-    auto fragment = shader_module(shaders::capture_fragment(fragment_variant(key)),
-                                  input_changes(key, device_->capabilities().info.has_primitive_id),
-                                  execution_modes(key), ending_of(key), output_change(key));
+    auto fragment =
+        shader_module(shaders::capture_fragment(fragment_variant(key)),
+                      fragment_changes(key, device_->capabilities().info.has_primitive_id));
     if (!fragment) {
         return fail(fragment.error());
     }

@@ -4,6 +4,7 @@
 // Graphics pipelines by the state that cannot be dynamic; pipelines that read single samples.
 #pragma once
 
+#include <array>
 #include <map>
 #include <span>
 #include <tuple>
@@ -12,9 +13,12 @@
 #include "shaders/spirv_variant.hpp"
 #include "vk_harness/pipeline/clear_pipeline.hpp"
 #include "vk_harness/pipeline/pipeline_key.hpp"
+#include "vk_harness/pipeline/shader_stage.hpp"
 #include "vk_harness/target/attachments.hpp"
 
 namespace vk_harness {
+
+using ShaderPair = std::array<ShaderObject, 2>;
 
 class PipelineCache {
   public:
@@ -24,6 +28,8 @@ class PipelineCache {
     Result<VkPipeline> get(const PipelineKey& key);
     // The render pass of that key, made at the first call.
     Result<VkRenderPass> get_pass(const PassKey& key);
+    // The shaders of that key as objects, made at the first call: vertex, fragment.
+    Result<ShaderPair> get_objects(const PipelineKey& key);
     // The pipeline that clears by a draw, made at the first call.
     Result<VkPipeline> get_clear(const ClearKey& key);
     // The compute pipeline that copies the samples of an attachment to a buffer.
@@ -41,13 +47,9 @@ class PipelineCache {
 
   private:
     explicit PipelineCache(const Device& device) : device_(&device) {}
-    // The module `code`, embedded in the program, with changes to its inputs and outputs, with more
-    // execution modes, and with another instruction that discards.
+    // The module `code`, embedded in the program, with changes.
     Result<VkShaderModule> shader_module(std::span<const uint32_t> code,
-                                         std::vector<shaders::InputChange> changes = {},
-                                         std::vector<uint32_t> modes = {},
-                                         shaders::Ending ending = shaders::Ending::kill,
-                                         shaders::OutputChange outputs = {});
+                                         ShaderChanges changes = {});
     Result<Handle<VkPipeline>> make_graphics(const PipelineKey& key);
     // As PipelineKey::made asks for, of what describes a usual pipeline; the first of one for
     // dynamic rendering, which is all that its pNext names.
@@ -55,6 +57,9 @@ class PipelineCache {
     Result<Handle<VkPipeline>> make_derived(const PipelineKey& key,
                                             VkGraphicsPipelineCreateInfo info);
     Result<Handle<VkPipeline>> make_cached(const VkGraphicsPipelineCreateInfo& info);
+    Result<Handle<ShaderObject>> make_object(VkShaderStageFlagBits stage,
+                                             std::span<const uint32_t> code,
+                                             const VkSpecializationInfo* specialization);
     Result<Handle<VkPipeline>> make_clear(const ClearKey& key);
     Result<Handle<VkPipeline>> create(const VkGraphicsPipelineCreateInfo& info,
                                       VkPipelineCache cache);
@@ -67,14 +72,11 @@ class PipelineCache {
     Handle<VkPipelineLayout> pulled_layout_;
     Handle<VkDescriptorSetLayout> copy_set_layout_;
     Handle<VkPipelineLayout> copy_layout_;
-    // By the embedded code's address, the changes, the execution modes, the instruction and the
-    // outputs.
-    std::map<std::tuple<const uint32_t*, std::vector<shaders::InputChange>, std::vector<uint32_t>,
-                        shaders::Ending, shaders::OutputChange>,
-             Handle<VkShaderModule>>
-        modules_;
+    // By the embedded code's address and the changes.
+    std::map<std::tuple<const uint32_t*, ShaderChanges>, Handle<VkShaderModule>> modules_;
     std::map<PassKey, Handle<VkRenderPass>> passes_;
     std::map<ClearKey, Handle<VkPipeline>> clears_;
+    std::map<PipelineKey, std::array<Handle<ShaderObject>, 2>> objects_;
     std::map<PipelineKey, Handle<VkPipeline>> pipelines_;
     std::vector<Handle<VkPipeline>> libraries_;             // of those that are linked
     std::map<const uint32_t*, Handle<VkPipeline>> copies_;  // by the embedded code's address

@@ -106,6 +106,22 @@ TEST(Door, OnlyExactClearsAreDrawn) {
     EXPECT_FALSE(can_take(Door::image_linear, c));
 }
 
+TEST(Door, NoDynamicStateAsksForSamplesToBeShaded) {
+    Case c = case_of(door_file("", kDoorTriangle));
+    EXPECT_TRUE(can_take(Door::shader_objects, c));
+    c.draws.front().multisample.min_sample_shading = 0.5F;
+    EXPECT_FALSE(can_take(Door::shader_objects, c));
+}
+
+// The module that pulls vertices is built with distances of one kind.
+TEST(Door, PulledVerticesHaveOneKindOfDistances) {
+    Case c = case_of(door_file("", kDoorTriangle));
+    c.draws.front().distances.clip_count = 1;
+    EXPECT_TRUE(can_take(Door::vertices_pulled, c));
+    c.draws.front().distances.cull_count = 1;
+    EXPECT_FALSE(can_take(Door::vertices_pulled, c));
+}
+
 TEST(Door, OnlyNumbersOfBinary16GoThroughHalves) {
     using Positions = std::vector<glm::vec4>;
     EXPECT_TRUE(are_half_floats(Positions{{-0.0F, 0.5F, -65504.0F, 0x1p-14F}, {1, 2, 3, 4}}));
