@@ -5,7 +5,6 @@
 // that door shows it.
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <limits>
 
 #include "fault.hpp"
@@ -133,12 +132,6 @@ constexpr std::array kFaults = {
     Fault{"door-restart-without-indices-ends",
           "Nothing is drawn where restart is on and a draw has no indices.",
           {.draw = [](DrawCall& d) { return !d.indexed && d.has_restart && change(d.times, 0); }}},
-    Fault{"door-bias-of-zero-counts",
-          "A constant bias of 0 counts as one of 65536.",
-          {.depth_bias =
-               [](DepthBias& b) {
-                   return std::equal_to<float>()(b.constant, 0) && change(b.constant, 65536);
-               }}},
     Fault{"door-unoptimized-writes-no-green",
           "Pipelines that are not optimized do not write the second component.",
           {.pipeline =

@@ -86,9 +86,8 @@ Result<Handle<ShaderObject>> PipelineCache::make_object(
     const VkPushConstantRange range{draw_stages(*device_), 0, sizeof(shaders::DrawConstants)};
     ShaderObjectInfo info;
     info.stage = stage;
-    info.next_stages = stage == VK_SHADER_STAGE_VERTEX_BIT
-                           ? VkShaderStageFlags{VK_SHADER_STAGE_FRAGMENT_BIT}
-                           : 0;
+    info.next_stages =
+        stage == VK_SHADER_STAGE_VERTEX_BIT ? VkShaderStageFlags{VK_SHADER_STAGE_FRAGMENT_BIT} : 0;
     info.code_size = code.size_bytes();
     info.code = code.data();
     info.set_count = 1;
@@ -108,9 +107,9 @@ Result<Handle<ShaderObject>> PipelineCache::make_object(
 Result<ShaderPair> PipelineCache::get_objects(const PipelineKey& key) {
     auto found = objects_.find(key);
     if (found == objects_.end()) {
-        auto code = changed_code(
-            shaders::capture_fragment(fragment_variant(key)),
-            fragment_changes(key, device_->capabilities().info.has_primitive_id));
+        auto code =
+            changed_code(shaders::capture_fragment(fragment_variant(key)),
+                         fragment_changes(key, device_->capabilities().info.has_primitive_id));
         if (!code) {
             return fail(code.error());
         }
