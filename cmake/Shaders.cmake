@@ -96,9 +96,12 @@ foreach(count RANGE 4)
     edgecase_compile_shader(capture.geom geometry_${count} "${variants}")
     edgecase_compile_shader(capture.tesc control_${count} "control_${count} 1.1 ATTRIBUTES=${count}")
     edgecase_compile_shader(capture.tese evaluation_${count} "evaluation_${count} 1.1 ATTRIBUTES=${count}")
+    edgecase_compile_shader(feedback.vert feedback_${count} "feedback_${count} 1.1 ATTRIBUTES=${count}")
+    list(APPEND feedback_names feedback_${count})
     list(APPEND control_names control_${count})
     list(APPEND evaluation_names evaluation_${count})
 endforeach()
+list(JOIN feedback_names ", " feedback_names)
 list(JOIN control_names ", " control_names)
 list(JOIN evaluation_names ", " evaluation_names)
 
@@ -184,6 +187,7 @@ constexpr Module<VertexVariant> kGeometry[] = {
 ${geometry_table}};
 constexpr std::span<const uint32_t> kControl[] = {${control_names}};
 constexpr std::span<const uint32_t> kEvaluation[] = {${evaluation_names}};
+constexpr std::span<const uint32_t> kFeedback[] = {${feedback_names}};
 constexpr std::span<const uint32_t> kClearVertex = over_target, kClearDepth = write_depth;
 constexpr std::span<const uint32_t> kClearNumbers[] = {${clear_numbers}};
 constexpr std::span<const uint32_t> kClearIntegers[] = {${clear_integers}};

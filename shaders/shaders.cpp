@@ -48,6 +48,10 @@ std::span<const uint32_t> capture_fragment(const FragmentVariant& variant) {
     return find(kFragment, variant);
 }
 
+std::span<const uint32_t> feedback_vertex(uint32_t attributes) {
+    return kFeedback[attributes];
+}
+
 std::span<const uint32_t> clear_vertex() {
     return kClearVertex;
 }
@@ -91,6 +95,10 @@ std::span<const uint32_t> any_module(size_t i) {
         return kEvaluation[i];
     }
     i -= std::size(kEvaluation);
+    if (i < std::size(kFeedback)) {
+        return kFeedback[i];
+    }
+    i -= std::size(kFeedback);
     if (i < 2) {
         return i == 0 ? clear_vertex() : clear_depth();
     }

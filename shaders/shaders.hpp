@@ -115,6 +115,10 @@ std::span<const uint32_t> capture_evaluation(uint32_t attributes);
 inline constexpr uint32_t kProvokingConstant = 0, kFlatConstant = 1;
 std::span<const uint32_t> capture_fragment(const FragmentVariant& variant);
 
+// feedback.vert of 0..4 attributes: positions and attributes lie one behind the other in what it
+// writes.
+std::span<const uint32_t> feedback_vertex(uint32_t attributes);
+
 // clear.vert: a triangle over every target. clear.frag: writes the push constant to one of the
 // colours, number or integer, or to the depth.
 inline constexpr uint32_t kClearLocations = 16;

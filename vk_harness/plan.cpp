@@ -19,7 +19,8 @@ namespace vk_harness {
 namespace {
 
 bool is_feeding(cases::Door door) {
-    return door != cases::Door::none && cases::row_of(door).group == cases::DoorGroup::vertices;
+    return door == cases::Door::transform_feedback ||
+           (door != cases::Door::none && cases::row_of(door).group == cases::DoorGroup::vertices);
 }
 
 }  // namespace
@@ -124,6 +125,11 @@ Result<void> BatchRenderer::plan_shaders(DrawPlan& item, const PipelineKey& key,
     if (door == cases::Door::shader_objects) {
         item.object_key = std::make_shared<PipelineKey>(key);
         return put(item.objects, pipelines_.get_objects(key));
+    }
+    if (door == cases::Door::transform_feedback) {
+        if (auto made = put(item.feedback, pipelines_.get_feedback(key.attribute_count)); !made) {
+            return made;
+        }
     }
     return put(item.pipeline, pipelines_.get(key));
 }

@@ -55,10 +55,12 @@ std::vector<capture::StrayWrite> stray_writes(const CasePlan& plan,
 }
 
 // Whether a rendering gets a submission of its own: a driver that never leaves a pipeline's
-// rasterizer discard (docs/findings), or loses one of several submissions, would spoil other cases,
-// too, and whose fault that is could not be told.
+// rasterizer discard or blends no more behind a pipeline without colours (docs/findings), or loses
+// one of several submissions, would spoil other cases, too, and whose fault that is could not be
+// told.
 bool is_drawn_alone(const cases::Case& c) {
-    if (c.variation.door == cases::Door::submissions) {
+    if (c.variation.door == cases::Door::submissions ||
+        c.variation.door == cases::Door::transform_feedback) {
         return true;
     }
     return c.variation.door == cases::Door::state_static &&

@@ -150,6 +150,14 @@ bool can_be_tessellated(const Case& c) {
            });
 }
 
+// What is written of them has the order of the draw, so that its vertices keep their numbers.
+bool are_plain_lists(const Case& c) {
+    return all_draws(c, [](const Draw& draw) {
+        return draw.topology == Topology::triangle_list && !draw.indices &&
+               draw.distances.clip_count == 0 && draw.distances.cull_count == 0;
+    });
+}
+
 bool is_constant(const std::vector<glm::vec4>& values) {
     return !values.empty() &&
            std::all_of(values.begin(), values.end(), [&values](const glm::vec4& value) {
@@ -406,6 +414,12 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
      "Each triangle is a patch, which is tessellated into itself.", "tessellationShader",
      "lists without restart, without distances, layers, viewport indices and barycentrics",
      can_be_tessellated},
+    {Door::transform_feedback, "transform-feedback", kStages, kRight, rule::door_layout,
+     "Vertices are written to a buffer by transform feedback, in a rendering without attachments, "
+     "and "
+     "drawn from there.",
+     "transformFeedback (VK_EXT_transform_feedback)", "lists without indices, without distances",
+     are_plain_lists},
 }};
 
 constexpr bool is_in_order() {

@@ -81,8 +81,9 @@ enum class Door : uint8_t {
     multiview,
     geometry,
     tessellation,
+    transform_feedback,
 };
-inline constexpr Door kLastDoor = Door::tessellation;
+inline constexpr Door kLastDoor = Door::transform_feedback;
 inline constexpr size_t kDoors = static_cast<size_t>(kLastDoor) + 1;  // `none` among them
 template <>
 inline constexpr size_t kValueCount<Door> = kDoors;

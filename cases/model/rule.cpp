@@ -324,7 +324,8 @@ constexpr std::array kRules = {
     Rule{rule::door_layout, Profile::vulkan, "How vertices lie in memory changes nothing",
          "Strides with room between vertices, strides given with the buffers, all inputs in one "
          "binding, positions of three numbers whose fourth is 1; a shader may read it from a "
-         "storage buffer instead. The pipeline is another one, so "
+         "storage buffer instead, or transform feedback have written it. The pipeline is another "
+         "one, so "
          "Rule 4 does not promise the bits: at vulkan the picture has to be right by the rules of "
          "every picture, from practice on it has the same bits.",
          "fxvertex-input", "", "diff/consistency.cpp"},

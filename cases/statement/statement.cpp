@@ -343,7 +343,7 @@ constexpr Statement kStatements[] = {
     {95, "firstVertex, firstIndex, vertexOffset, and where buffers are bound", exact, not_spoken,
      "The picture has the bits of the plain one; gl_VertexIndex counts firstVertex and vertexOffset.",
      {"door.first", "door.buffer"}, ""},
-    {96, "strides, interleaved inputs, formats of fewer components, inputs of an instance, vertices from a storage buffer", exact, not_spoken,
+    {96, "strides, interleaved inputs, formats of fewer components, inputs of an instance, vertices from a storage buffer or of transform feedback", exact, not_spoken,
      "The picture is right at vulkan and has the bits of the plain one from practice on: the pipeline is another one.",
      {"door.layout", "door.instance"}, ""},
     {97, "indirect draws, several draws in a command", exact, not_spoken,

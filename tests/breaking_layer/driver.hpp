@@ -70,6 +70,8 @@ namespace breaking {
     X(CmdBeginRendering) \
     X(CmdEndRendering) \
     X(CmdBeginRenderPass) \
+    X(CmdBeginTransformFeedbackEXT) \
+    X(CmdEndTransformFeedbackEXT) \
     X(CmdNextSubpass) \
     X(CmdPipelineBarrier2) \
     X(CmdClearColorImage) \

@@ -211,6 +211,7 @@ struct Hooks {
     bool (*secondaries)(std::vector<VkCommandBuffer>&) = nullptr;  // of vkCmdExecuteCommands
     // Whether a secondary command buffer is not executed that has been executed before.
     bool (*drop_again)() = nullptr;
+    bool (*drop_feedback)() = nullptr;  // whether transform feedback is not begun
     bool (*clear_attachments)(Clears&) = nullptr;
     bool (*pipeline)(PipelineCopy&) = nullptr;
     bool (*shader)(ShaderWords&) = nullptr;

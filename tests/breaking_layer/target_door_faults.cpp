@@ -134,6 +134,9 @@ constexpr std::array kFaults = {
           "Of several views the first is drawn instead of the second.",
           {.rendering =
                [](Rendering& r) { return r.info.viewMask != 0 && change(r.info.viewMask, 1); }}},
+    Fault{"door-feedback-writes-nothing",
+          "Transform feedback writes nothing.",
+          {.drop_feedback = [] { return true; }}},
     Fault{
         "door-geometry-last-triangle-lost",
         "A geometry shader never gets a draw's last three vertices.",

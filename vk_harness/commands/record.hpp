@@ -25,6 +25,7 @@ struct DrawPlan {
     const cases::Draw* draw = nullptr;
     VkPipeline pipeline = VK_NULL_HANDLE;
     VkPipeline other_pipeline = VK_NULL_HANDLE;  // of the door state_after_static: all is static
+    VkPipeline feedback = VK_NULL_HANDLE;        // of the door transform_feedback: writes vertices
     VkDescriptorSet texture = VK_NULL_HANDLE;    // if an attribute asks for a level of detail
     std::array<VkDeviceSize, 1 + cases::kMaxAttributes> vertices{};  // positions, attributes
     DistancePlaces distances{};

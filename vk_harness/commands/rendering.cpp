@@ -121,6 +121,27 @@ void spoil_aliases(const Device& device, VkCommandBuffer commands, const CasePla
                    {kAnyUse.stage, kAnyUse.access});
 }
 
+// Has the vertices written that are drawn, in a rendering of its own: within one no barrier could
+// stand between writing and reading them.
+void record_feedback(const Device& device, VkCommandBuffer commands, const CasePlan& plan,
+                     VkBuffer vertices) {
+    VkRenderingInfo rendering = Typed{VK_STRUCTURE_TYPE_RENDERING_INFO};
+    rendering.renderArea = {{0, 0}, {1, 1}};
+    rendering.layerCount = 1;
+    device.vk().vkCmdBeginRendering(commands, &rendering);
+    for (const DrawPlan& item : plan.draws) {
+        if (item.feedback != VK_NULL_HANDLE && !item.draw->positions.empty()) {
+            item.feed->record_feedback(device, commands, item.feedback, vertices);
+        }
+    }
+    device.vk().vkCmdEndRendering(commands);
+    memory_barrier(
+        device, commands,
+        {VK_PIPELINE_STAGE_2_TRANSFORM_FEEDBACK_BIT_EXT,
+         VK_ACCESS_2_TRANSFORM_FEEDBACK_WRITE_BIT_EXT},
+        {VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT, VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT});
+}
+
 // Clears what is resolved into, by a rendering without draws, and waits for it.
 void clear_resolved(const Device& device, VkCommandBuffer commands, const CasePlan& plan) {
     const VolkDeviceTable& vk = device.vk();
@@ -405,6 +426,9 @@ size_t secondaries_of(const CasePlan& plan) {
 Result<void> record_draws(const Device& device, const PipelineCache& pipelines,
                           VkCommandBuffer& commands, const CasePlan& plan, VkBuffer vertices,
                           bool for_copies, const NextCommands& next) {
+    if (plan.test->variation.door == Door::transform_feedback) {
+        record_feedback(device, commands, plan, vertices);
+    }
     spoil_aliases(device, commands, plan);
     barrier(device, commands, plan, kReused, kColorDrawn, kReused, kDepthDrawn);
     clear_resolved(device, commands, plan);

@@ -69,6 +69,9 @@ DoorSupport query_door_support(VkPhysicalDevice physical, HasExtension has_exten
         chain(features, optional.library);
     }
     chain(features, optional.multiview);
+    if (has_extension(physical, VK_EXT_TRANSFORM_FEEDBACK_EXTENSION_NAME)) {
+        chain(features, optional.feedback);
+    }
     const bool has_objects = properties.apiVersion >= VK_API_VERSION_1_3 &&
                              has_extension(physical, kShaderObjectExtension);
     if (has_objects) {
@@ -100,6 +103,7 @@ DoorSupport query_door_support(VkPhysicalDevice physical, HasExtension has_exten
                           three.extendedDynamicState3LogicOpEnable == VK_TRUE &&
                           three.extendedDynamicState3AlphaToOneEnable == VK_TRUE &&
                           three.extendedDynamicState3SampleMask == VK_TRUE;
+    out.feedback = optional.feedback.transformFeedback == VK_TRUE;
     out.shader_objects = optional.shader_objects.shader_object == VK_TRUE;
     out.library = has_library && optional.library.graphicsPipelineLibrary == VK_TRUE;
     // maxMultiviewViewCount is at least 6.
@@ -150,6 +154,11 @@ void enable_door_features(const DoorSupport& support, VkPhysicalDeviceFeatures2&
         chain(features, enabled.multiview);
     }
     features.features.tessellationShader = support.tessellation ? VK_TRUE : VK_FALSE;
+    if (support.feedback) {
+        enabled.feedback.transformFeedback = VK_TRUE;
+        chain(features, enabled.feedback);
+        extensions.push_back(VK_EXT_TRANSFORM_FEEDBACK_EXTENSION_NAME);
+    }
     if (support.shader_objects) {
         enabled.shader_objects.shader_object = VK_TRUE;
         chain(features, enabled.shader_objects);
@@ -178,6 +187,7 @@ std::optional<std::string> missing_door_support(const DoorSupport& support, case
         (door == Door::multiview && !support.multiview) ||
         (door == Door::geometry && !support.geometry) ||
         (door == Door::tessellation && !support.tessellation) ||
+        (door == Door::transform_feedback && !support.feedback) ||
         (door == Door::shader_objects && !support.shader_objects) ||
         (door == Door::image_linear && !support.linear) ||
         (door == Door::memory_imported && !support.host_import) ||

@@ -24,6 +24,7 @@ struct DoorSupport {
     bool multiview = false;           // of two views at least
     bool geometry = false;            // geometryShader
     bool tessellation = false;        // tessellationShader
+    bool feedback = false;            // transformFeedback
     bool shader_objects = false;      // shaderObject
     bool linear = false;              // linear attachments of some format that cases are drawn to
     bool host_import = false;         // of memory that vertices and indices are read from
@@ -45,6 +46,8 @@ struct DoorFeatures {
     VkPhysicalDeviceGraphicsPipelineLibraryFeaturesEXT library =
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_GRAPHICS_PIPELINE_LIBRARY_FEATURES_EXT};
     ShaderObjectFeatures shader_objects;
+    VkPhysicalDeviceTransformFeedbackFeaturesEXT feedback =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TRANSFORM_FEEDBACK_FEATURES_EXT};
     VkPhysicalDeviceMultiviewFeatures multiview =
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MULTIVIEW_FEATURES};
 };

@@ -340,6 +340,19 @@ Result<void> Feed::make_pulled(const Device& device, std::span<const std::byte> 
     return {};
 }
 
+void Feed::record_feedback(const Device& device, VkCommandBuffer commands, VkPipeline pipeline,
+                           VkBuffer vertices) const {
+    const VolkDeviceTable& vk = device.vk();
+    const VkBuffer target = buffers_.front().get();
+    const VkDeviceSize begin = 0, size = VK_WHOLE_SIZE;
+    vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+    vk.vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &arrays_.front().offset);
+    vk.vkCmdBindTransformFeedbackBuffersEXT(commands, 0, 1, &target, &begin, &size);
+    vk.vkCmdBeginTransformFeedbackEXT(commands, 0, 0, nullptr, nullptr);
+    vk.vkCmdDraw(commands, count_, 1, 0, 0);
+    vk.vkCmdEndTransformFeedbackEXT(commands, 0, 0, nullptr, nullptr);
+}
+
 void Feed::bind_pulled(const Device& device, VkCommandBuffer commands,
                        VkPipelineLayout layout) const {
     if (way_.pulled) {
@@ -354,6 +367,22 @@ Result<void> Feed::make_buffers(const Device& device, std::span<const std::byte>
     buffers_.clear();
     if (way_.pulled) {
         return make_pulled(device, memory, pulled);
+    }
+    if (door_ == Door::transform_feedback) {
+        const VkDeviceSize size = arrays_.front().end - arrays_.front().begin;
+        auto made = Buffer::create(
+            device, std::max<VkDeviceSize>(size, 16),
+            VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFORM_FEEDBACK_BUFFER_BIT_EXT,
+            HostAccess::write);
+        if (!made) {
+            return fail(made.error());
+        }
+        for (size_t at = 0; at + sizeof kForeign <= made->bytes().size(); at += sizeof kForeign) {
+            std::memcpy(made->bytes().data() + at, &kForeign, sizeof kForeign);
+        }
+        auto flushed = made->flush();
+        buffers_.push_back(std::move(*made));
+        return flushed;
     }
     if (!has_own_buffers(door_)) {
         return {};

@@ -32,6 +32,10 @@ class Feed {
     void bind(const Device& device, VkCommandBuffer commands, VkBuffer vertices) const;
     // Binds what a shader reads vertices from, if it does; `layout` is the pipeline's.
     void bind_pulled(const Device& device, VkCommandBuffer commands, VkPipelineLayout layout) const;
+    // Writes the vertices to the buffer that they are drawn from, by transform feedback; `pipeline`
+    // is PipelineCache::get_feedback()'s, `vertices` the buffer that was written.
+    void record_feedback(const Device& device, VkCommandBuffer commands, VkPipeline pipeline,
+                         VkBuffer vertices) const;
     // Draws once. Called after bind(), once for every scissor.
     void draw(const Device& device, VkCommandBuffer commands, VkBuffer vertices) const;
 

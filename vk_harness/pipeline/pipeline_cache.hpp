@@ -30,6 +30,9 @@ class PipelineCache {
     Result<VkRenderPass> get_pass(const PassKey& key);
     // The shaders of that key as objects, made at the first call: vertex, fragment.
     Result<ShaderPair> get_objects(const PipelineKey& key);
+    // The pipeline that writes positions and attributes by transform feedback, interleaved as they
+    // are read.
+    Result<VkPipeline> get_feedback(uint32_t attribute_count);
     // The pipeline that clears by a draw, made at the first call.
     Result<VkPipeline> get_clear(const ClearKey& key);
     // The compute pipeline that copies the samples of an attachment to a buffer.
@@ -60,6 +63,7 @@ class PipelineCache {
     Result<Handle<ShaderObject>> make_object(VkShaderStageFlagBits stage,
                                              std::span<const uint32_t> code,
                                              const VkSpecializationInfo* specialization);
+    Result<Handle<VkPipeline>> make_feedback(uint32_t attribute_count);
     Result<Handle<VkPipeline>> make_clear(const ClearKey& key);
     Result<Handle<VkPipeline>> create(const VkGraphicsPipelineCreateInfo& info,
                                       VkPipelineCache cache);
@@ -76,6 +80,7 @@ class PipelineCache {
     std::map<std::tuple<const uint32_t*, ShaderChanges>, Handle<VkShaderModule>> modules_;
     std::map<PassKey, Handle<VkRenderPass>> passes_;
     std::map<ClearKey, Handle<VkPipeline>> clears_;
+    std::map<uint32_t, Handle<VkPipeline>> feedbacks_;  // by attributes
     std::map<PipelineKey, std::array<Handle<ShaderObject>, 2>> objects_;
     std::map<PipelineKey, Handle<VkPipeline>> pipelines_;
     std::vector<Handle<VkPipeline>> libraries_;             // of those that are linked

@@ -113,6 +113,14 @@ TEST(Door, NoDynamicStateAsksForSamplesToBeShaded) {
     EXPECT_FALSE(can_take(Door::shader_objects, c));
 }
 
+TEST(Door, WhatIsWrittenByFeedbackKeepsItsNumbers) {
+    Case c = case_of(door_file("", kDoorTriangle));
+    EXPECT_TRUE(can_take(Door::transform_feedback, c));
+    c.draws.front().indices = {{0, 1, 2}};
+    EXPECT_FALSE(can_take(Door::transform_feedback, c));
+    EXPECT_FALSE(can_take(Door::transform_feedback, case_of(door_file("", kStrip))));
+}
+
 // The module that pulls vertices is built with distances of one kind.
 TEST(Door, PulledVerticesHaveOneKindOfDistances) {
     Case c = case_of(door_file("", kDoorTriangle));
