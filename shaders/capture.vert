@@ -3,8 +3,8 @@
 //
 // Passes clip-space positions through, bits unchanged. Defined by the build: ATTRIBUTES (0..4), CLIP and
 // CULL (0..4: sizes of gl_ClipDistance and gl_CullDistance), LAYER and VIEWPORT (0 or 1: gl_Layer,
-// gl_ViewportIndex), PULLED (1: no inputs, but a storage buffer). Interpolation is decided by the fragment stage's qualifiers alone (Vulkan,
-// "Interface Matching").
+// gl_ViewportIndex), PULLED (1: no inputs, but a storage buffer). Interpolation is decided by the fragment stage's
+// qualifiers alone (Vulkan, "Interface Matching").
 #version 450
 #if LAYER || VIEWPORT
 #extension GL_ARB_shader_viewport_layer_array : require
@@ -66,6 +66,7 @@ layout(location = 5) in vec4 in_clip;
 layout(location = 6) in vec4 in_cull;
 #endif
 #endif
+
 layout(location = 0) flat out uint out_vertex;
 // Takes the place of gl_PrimitiveID on devices that have none.
 layout(location = 7) flat out uint out_no_primitive;
@@ -82,6 +83,7 @@ layout(location = 3) out vec4 out_attribute2;
 #if ATTRIBUTES > 3
 layout(location = 4) out vec4 out_attribute3;
 #endif
+
 void main() {
     gl_Position = in_position;
     out_vertex = uint(gl_VertexIndex);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Writes a push constant to one attachment. Defined by the build: KIND (0: to the depth, 1: to a colour of numbers, 2: to
-// one of integers) and LOCATION of the colour.
+// Writes a push constant to one attachment. Defined by the build: KIND (0: to the depth, 1: to a colour of numbers,
+// 2: to one of integers) and LOCATION of the colour.
 #version 450
 
 layout(push_constant) uniform Clear {

@@ -19,13 +19,9 @@ struct VertexVariant {
     uint32_t clip_count = 0, cull_count = 0;  // 0..4, sizes of gl_ClipDistance and gl_CullDistance
     bool layer = false;                       // writes gl_Layer
     bool viewport_index = false;              // writes gl_ViewportIndex
-    bool pulled = false;                      // no inputs: a storage buffer, kPulledSet
+    bool pulled = false;                      // no inputs: a storage buffer, set 1, binding 0
     friend auto operator<=>(const VertexVariant&, const VertexVariant&) = default;
 };
-
-// The descriptor set of a vertex shader without inputs, whose binding 0 is a storage buffer: eight
-// words, by location the number of the first vec4 of the input that would be there; then the vec4.
-inline constexpr uint32_t kPulledSet = 1, kPulledWords = 8;
 
 // Components of the colour output. two_numbers: a second one for dual-source blending; several: an
 // output of numbers and one of integers for each of four colour targets, of which with_outputs()

@@ -7,7 +7,6 @@
 
 #include "capture/capture.hpp"
 #include "cases/model/float_bits.hpp"
-#include "shaders/shaders.hpp"
 #include "vk_harness/device/clip_support.hpp"
 #include "vk_harness/target/shader_interface.hpp"
 
@@ -308,7 +307,7 @@ void Feed::write(std::span<std::byte> memory) const {
 
 Result<void> Feed::make_pulled(const Device& device, std::span<const std::byte> memory,
                                VkDescriptorSetLayout layout) {
-    constexpr VkDeviceSize kHead = shaders::kPulledWords * sizeof(uint32_t);
+    constexpr VkDeviceSize kHead = kPulledWords * sizeof(uint32_t);
     const VkDeviceSize first = arrays_.front().begin;
     const auto bytes = memory.subspan(first, arrays_.back().end - first);
     auto made = Buffer::create(device, kHead + std::max<VkDeviceSize>(bytes.size(), 16),
@@ -316,7 +315,7 @@ Result<void> Feed::make_pulled(const Device& device, std::span<const std::byte> 
     if (!made) {
         return fail(made.error());
     }
-    std::array<uint32_t, shaders::kPulledWords> head{};
+    std::array<uint32_t, kPulledWords> head{};
     for (const Array& array : arrays_) {
         head.at(array.binding) = static_cast<uint32_t>((array.offset - first) / sizeof(glm::vec4));
     }
@@ -357,8 +356,7 @@ void Feed::bind_pulled(const Device& device, VkCommandBuffer commands,
                        VkPipelineLayout layout) const {
     if (way_.pulled) {
         device.vk().vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout,
-                                            shaders::kPulledSet, 1, pulled_set_.sets.data(), 0,
-                                            nullptr);
+                                            kPulledSet, 1, pulled_set_.sets.data(), 0, nullptr);
     }
 }
 

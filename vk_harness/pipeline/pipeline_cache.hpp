@@ -41,7 +41,7 @@ class PipelineCache {
     VkPipelineLayout layout() const { return layout_.get(); }
     // Set 0 of a draw: binding 0, the texture whose level of detail is asked for.
     VkDescriptorSetLayout texture_set_layout() const { return texture_set_layout_.get(); }
-    // Of a vertex shader that reads its inputs from set shaders::kPulledSet; what is bound or
+    // Of a vertex shader that reads its inputs from set kPulledSet; what is bound or
     // pushed with layout() stays in force.
     VkPipelineLayout pulled_layout() const { return pulled_layout_.get(); }
     VkDescriptorSetLayout pulled_set_layout() const { return pulled_set_layout_.get(); }

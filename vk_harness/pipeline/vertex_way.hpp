@@ -23,6 +23,11 @@ struct VertexWay {
     friend auto operator<=>(const VertexWay&, const VertexWay&) = default;
 };
 
+// The descriptor set of a vertex shader that reads its inputs, whose binding 0 is a storage buffer:
+// eight words, by binding the number of the first vec4 that would be bound there; then the vec4
+// (capture.vert).
+inline constexpr uint32_t kPulledSet = 1, kPulledWords = 8;
+
 VertexWay vertex_way(const cases::Case& c, const cases::Draw& draw);
 
 // Bytes of one vertex of a binding, and from one vertex to the next.
