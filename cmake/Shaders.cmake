@@ -29,6 +29,19 @@ endfunction()
 edgecase_compile_shader(copy_samples.comp copy
     "copy_depth 1.1 DEPTH=1;copy_1 1.1 DEPTH=0 WORDS=1;copy_2 1.1 DEPTH=0 WORDS=2;copy_4 1.1 DEPTH=0 WORDS=4")
 
+# A triangle that clears, one shader for each place that it clears: KIND 0 depth, 1 a colour of numbers, 2 one of integers.
+edgecase_compile_shader(clear.vert clear_vertex "over_target 1.1")
+set(clear_variants "write_depth 1.1 KIND=0 LOCATION=0")
+foreach(location RANGE 15)
+    list(APPEND clear_variants "clear_number_${location} 1.1 KIND=1 LOCATION=${location}"
+                               "clear_integer_${location} 1.1 KIND=2 LOCATION=${location}")
+    list(APPEND clear_numbers clear_number_${location})
+    list(APPEND clear_integers clear_integer_${location})
+endforeach()
+edgecase_compile_shader(clear.frag clear_fragment "${clear_variants}")
+list(JOIN clear_numbers ", " clear_numbers)
+list(JOIN clear_integers ", " clear_integers)
+
 # Vertex shaders: attributes x (clip x cull distances without routing, and routing without distances).
 # Each row of a table is a variant: what it was compiled for, then its words.
 set(vertex_table "")
@@ -37,8 +50,12 @@ foreach(count RANGE 4)
     foreach(clip RANGE 4)
         foreach(cull RANGE 4)
             set(name vertex_${count}_${clip}_${cull}_0_0)
-            list(APPEND variants "${name} 1.1 ATTRIBUTES=${count} CLIP=${clip} CULL=${cull} LAYER=0 VIEWPORT=0")
-            string(APPEND vertex_table "    {{${count}, ${clip}, ${cull}, false, false}, ${name}},\n")
+            list(APPEND variants "${name} 1.1 ATTRIBUTES=${count} CLIP=${clip} CULL=${cull} LAYER=0 VIEWPORT=0 PULLED=0")
+            string(APPEND vertex_table "    {{${count}, ${clip}, ${cull}, false, false, false}, ${name}},\n")
+            if(clip EQUAL 0 OR cull EQUAL 0)
+                list(APPEND variants "${name}_pulled 1.1 ATTRIBUTES=${count} CLIP=${clip} CULL=${cull} LAYER=0 VIEWPORT=0 PULLED=1")
+                string(APPEND vertex_table "    {{${count}, ${clip}, ${cull}, false, false, true}, ${name}_pulled},\n")
+            endif()
         endforeach()
     endforeach()
     edgecase_compile_shader(capture.vert vertex_${count} "${variants}")
@@ -48,8 +65,10 @@ foreach(count RANGE 4)
         list(GET routing 1 viewport)
         set(name vertex_${count}_0_0_${layer}_${viewport})
         # gl_Layer and gl_ViewportIndex as in Vulkan 1.2: capabilities of SPIR-V 1.5, no extension.
-        list(APPEND variants "${name} 1.2 ATTRIBUTES=${count} CLIP=0 CULL=0 LAYER=${layer} VIEWPORT=${viewport}")
-        string(APPEND vertex_table "    {{${count}, 0, 0, ${layer} != 0, ${viewport} != 0}, ${name}},\n")
+        set(routed "1.2 ATTRIBUTES=${count} CLIP=0 CULL=0 LAYER=${layer} VIEWPORT=${viewport}")
+        list(APPEND variants "${name} ${routed} PULLED=0" "${name}_pulled ${routed} PULLED=1")
+        string(APPEND vertex_table "    {{${count}, 0, 0, ${layer} != 0, ${viewport} != 0, false}, ${name}},\n"
+                                   "    {{${count}, 0, 0, ${layer} != 0, ${viewport} != 0, true}, ${name}_pulled},\n")
     endforeach()
     edgecase_compile_shader(capture.vert vertex_routed_${count} "${variants}")
 endforeach()
@@ -65,21 +84,24 @@ foreach(count RANGE 4)
         list(GET distances 1 cull)
         set(name geometry_${count}_${clip}_${cull}_0_0)
         list(APPEND variants "${name} 1.1 ATTRIBUTES=${count} CLIP=${clip} CULL=${cull} LAYER=0 VIEWPORT=0")
-        string(APPEND geometry_table "    {{${count}, ${clip}, ${cull}, false, false}, ${name}},\n")
+        string(APPEND geometry_table "    {{${count}, ${clip}, ${cull}, false, false, false}, ${name}},\n")
     endforeach()
     foreach(routing "1;0" "0;1" "1;1")
         list(GET routing 0 layer)
         list(GET routing 1 viewport)
         set(name geometry_${count}_0_0_${layer}_${viewport})
         list(APPEND variants "${name} 1.1 ATTRIBUTES=${count} CLIP=0 CULL=0 LAYER=${layer} VIEWPORT=${viewport}")
-        string(APPEND geometry_table "    {{${count}, 0, 0, ${layer} != 0, ${viewport} != 0}, ${name}},\n")
+        string(APPEND geometry_table "    {{${count}, 0, 0, ${layer} != 0, ${viewport} != 0, false}, ${name}},\n")
     endforeach()
     edgecase_compile_shader(capture.geom geometry_${count} "${variants}")
     edgecase_compile_shader(capture.tesc control_${count} "control_${count} 1.1 ATTRIBUTES=${count}")
     edgecase_compile_shader(capture.tese evaluation_${count} "evaluation_${count} 1.1 ATTRIBUTES=${count}")
+    edgecase_compile_shader(feedback.vert feedback_${count} "feedback_${count} 1.1 ATTRIBUTES=${count}")
+    list(APPEND feedback_names feedback_${count})
     list(APPEND control_names control_${count})
     list(APPEND evaluation_names evaluation_${count})
 endforeach()
+list(JOIN feedback_names ", " feedback_names)
 list(JOIN control_names ", " control_names)
 list(JOIN evaluation_names ", " evaluation_names)
 
@@ -165,6 +187,10 @@ constexpr Module<VertexVariant> kGeometry[] = {
 ${geometry_table}};
 constexpr std::span<const uint32_t> kControl[] = {${control_names}};
 constexpr std::span<const uint32_t> kEvaluation[] = {${evaluation_names}};
+constexpr std::span<const uint32_t> kFeedback[] = {${feedback_names}};
+constexpr std::span<const uint32_t> kClearVertex = over_target, kClearDepth = write_depth;
+constexpr std::span<const uint32_t> kClearNumbers[] = {${clear_numbers}};
+constexpr std::span<const uint32_t> kClearIntegers[] = {${clear_integers}};
 constexpr std::span<const uint32_t> kCopy[] = {copy_depth, copy_1, copy_2, copy_4};
 constexpr Module<FragmentVariant> kFragment[] = {
 ${fragment_table}};

@@ -3,8 +3,8 @@
 //
 // Passes clip-space positions through, bits unchanged. Defined by the build: ATTRIBUTES (0..4), CLIP and
 // CULL (0..4: sizes of gl_ClipDistance and gl_CullDistance), LAYER and VIEWPORT (0 or 1: gl_Layer,
-// gl_ViewportIndex). Interpolation is decided by the fragment stage's qualifiers alone (Vulkan,
-// "Interface Matching").
+// gl_ViewportIndex), PULLED (1: no inputs, but a storage buffer). Interpolation is decided by the fragment stage's
+// qualifiers alone (Vulkan, "Interface Matching").
 #version 450
 #if LAYER || VIEWPORT
 #extension GL_ARB_shader_viewport_layer_array : require
@@ -29,32 +29,59 @@ layout(push_constant) uniform Draw {
 draw;
 #endif
 
+#if PULLED
+layout(set = 1, binding = 0, std430) readonly buffer Vertices {
+    uint begin[8];  // by location, in vec4
+    vec4 values[];
+}
+vertices;
+vec4 pulled(uint location) {
+    return vertices.values[vertices.begin[location] + uint(gl_VertexIndex)];
+}
+#define in_position pulled(0U)
+#define in_attribute0 pulled(1U)
+#define in_attribute1 pulled(2U)
+#define in_attribute2 pulled(3U)
+#define in_attribute3 pulled(4U)
+#define in_clip pulled(5U)
+#define in_cull pulled(6U)
+#else
 layout(location = 0) in vec4 in_position;
-layout(location = 0) flat out uint out_vertex;
-// Takes the place of gl_PrimitiveID on devices that have none.
-layout(location = 7) flat out uint out_no_primitive;
-
 #if ATTRIBUTES > 0
 layout(location = 1) in vec4 in_attribute0;
-layout(location = 1) out vec4 out_attribute0;
 #endif
 #if ATTRIBUTES > 1
 layout(location = 2) in vec4 in_attribute1;
-layout(location = 2) out vec4 out_attribute1;
 #endif
 #if ATTRIBUTES > 2
 layout(location = 3) in vec4 in_attribute2;
-layout(location = 3) out vec4 out_attribute2;
 #endif
 #if ATTRIBUTES > 3
 layout(location = 4) in vec4 in_attribute3;
-layout(location = 4) out vec4 out_attribute3;
 #endif
 #if CLIP
 layout(location = 5) in vec4 in_clip;
 #endif
 #if CULL
 layout(location = 6) in vec4 in_cull;
+#endif
+#endif
+
+layout(location = 0) flat out uint out_vertex;
+// Takes the place of gl_PrimitiveID on devices that have none.
+layout(location = 7) flat out uint out_no_primitive;
+
+#if ATTRIBUTES > 0
+layout(location = 1) out vec4 out_attribute0;
+#endif
+#if ATTRIBUTES > 1
+layout(location = 2) out vec4 out_attribute1;
+#endif
+#if ATTRIBUTES > 2
+layout(location = 3) out vec4 out_attribute2;
+#endif
+#if ATTRIBUTES > 3
+layout(location = 4) out vec4 out_attribute3;
 #endif
 
 void main() {

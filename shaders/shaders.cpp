@@ -48,6 +48,24 @@ std::span<const uint32_t> capture_fragment(const FragmentVariant& variant) {
     return find(kFragment, variant);
 }
 
+std::span<const uint32_t> feedback_vertex(uint32_t attributes) {
+    return kFeedback[attributes];
+}
+
+std::span<const uint32_t> clear_vertex() {
+    return kClearVertex;
+}
+
+std::span<const uint32_t> clear_color(uint32_t location, bool is_integer) {
+    return location >= kClearLocations ? std::span<const uint32_t>()
+           : is_integer                ? kClearIntegers[location]
+                                       : kClearNumbers[location];
+}
+
+std::span<const uint32_t> clear_depth() {
+    return kClearDepth;
+}
+
 std::span<const uint32_t> copy_samples(bool depth, uint32_t words) {
     return kCopy[depth ? 0U : words == 4 ? 3U : words];
 }
@@ -73,7 +91,20 @@ std::span<const uint32_t> any_module(size_t i) {
         return kControl[i];
     }
     i -= std::size(kControl);
-    return i < std::size(kEvaluation) ? kEvaluation[i] : std::span<const uint32_t>();
+    if (i < std::size(kEvaluation)) {
+        return kEvaluation[i];
+    }
+    i -= std::size(kEvaluation);
+    if (i < std::size(kFeedback)) {
+        return kFeedback[i];
+    }
+    i -= std::size(kFeedback);
+    if (i < 2) {
+        return i == 0 ? clear_vertex() : clear_depth();
+    }
+    i -= 2;
+    return i < size_t{2} * kClearLocations ? clear_color(static_cast<uint32_t>(i / 2), i % 2 == 1)
+                                           : std::span<const uint32_t>();
 }
 
 }  // namespace shaders

@@ -19,6 +19,7 @@ struct VertexVariant {
     uint32_t clip_count = 0, cull_count = 0;  // 0..4, sizes of gl_ClipDistance and gl_CullDistance
     bool layer = false;                       // writes gl_Layer
     bool viewport_index = false;              // writes gl_ViewportIndex
+    bool pulled = false;                      // no inputs: a storage buffer, set 1, binding 0
     friend auto operator<=>(const VertexVariant&, const VertexVariant&) = default;
 };
 
@@ -98,6 +99,7 @@ struct DrawConstants {
 static_assert(sizeof(DrawConstants) == 128);
 
 // The module of a variant; empty if the build made none of that combination.
+// None of those that are pulled has both clip and cull distances.
 std::span<const uint32_t> capture_vertex(const VertexVariant& variant);
 // The same of capture.geom, which has no variant with both clip and cull distances.
 std::span<const uint32_t> capture_geometry(const VertexVariant& variant);
@@ -108,6 +110,17 @@ std::span<const uint32_t> capture_evaluation(uint32_t attributes);
 // 2; the attributes that are flat, a bit each.
 inline constexpr uint32_t kProvokingConstant = 0, kFlatConstant = 1;
 std::span<const uint32_t> capture_fragment(const FragmentVariant& variant);
+
+// feedback.vert of 0..4 attributes: positions and attributes lie one behind the other in what it
+// writes.
+std::span<const uint32_t> feedback_vertex(uint32_t attributes);
+
+// clear.vert: a triangle over every target. clear.frag: writes the push constant to one of the
+// colours, number or integer, or to the depth.
+inline constexpr uint32_t kClearLocations = 16;
+std::span<const uint32_t> clear_vertex();
+std::span<const uint32_t> clear_color(uint32_t location, bool is_integer);
+std::span<const uint32_t> clear_depth();
 
 // copy_samples.comp for depth attachments, or colour attachments with `words` (1, 2 or 4) a sample.
 std::span<const uint32_t> copy_samples(bool depth, uint32_t words);

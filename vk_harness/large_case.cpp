@@ -121,7 +121,7 @@ Result<void> BatchRenderer::draw_large(CasePlan& plan, Rendered& result,
         return fail(vertices.error());
     }
     write_vertices(plan, (*vertices)->bytes());
-    if (auto made = make_door_buffers(*device_, plan, (*vertices)->bytes()); !made) {
+    if (auto made = make_door_buffers(*device_, pipelines_, plan, (*vertices)->bytes()); !made) {
         return made;
     }
     if (auto flushed = (*vertices)->flush(); !flushed) {

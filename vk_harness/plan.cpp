@@ -3,6 +3,9 @@
 //
 // What drawing one case takes: pipelines, attachments, queries, a render pass if its door asks for
 // one.
+#include <array>
+#include <bit>
+
 #include "cases/format/color_format.hpp"
 #include "cases/model/sample.hpp"
 #include "vk_harness/case_check.hpp"
@@ -16,7 +19,8 @@ namespace vk_harness {
 namespace {
 
 bool is_feeding(cases::Door door) {
-    return door != cases::Door::none && cases::row_of(door).group == cases::DoorGroup::vertices;
+    return door == cases::Door::transform_feedback ||
+           (door != cases::Door::none && cases::row_of(door).group == cases::DoorGroup::vertices);
 }
 
 }  // namespace
@@ -46,13 +50,11 @@ bool BatchRenderer::plan(CasePlan& plan, Rendered& result) {
             item.outputs = output_state(own);
             own = without_outputs(own);
         }
-        auto pipeline = pipelines_.get(own);
-        if (!pipeline) {
-            reject(result, pipeline.error());
+        item.draw = &draw;
+        if (auto made = plan_shaders(item, own, test.variation.door); !made) {
+            reject(result, made.error());
             return false;
         }
-        item.draw = &draw;
-        item.pipeline = *pipeline;
         if (test.variation.door == cases::Door::state_after_static) {
             PipelineKey key = pipeline_key(test, draw, layout);
             key.fixed =
@@ -104,6 +106,12 @@ bool BatchRenderer::plan(CasePlan& plan, Rendered& result) {
         return false;
     }
     plan.images = std::move(*images);
+    if (test.variation.door == cases::Door::clear_draw) {
+        if (auto made = plan_clears(plan); !made) {
+            reject(result, made.error());
+            return false;
+        }
+    }
     if (has_pass(test)) {
         if (auto made = plan_pass(plan); !made) {
             reject(result, made.error());
@@ -111,6 +119,48 @@ bool BatchRenderer::plan(CasePlan& plan, Rendered& result) {
         }
     }
     return true;
+}
+
+Result<void> BatchRenderer::plan_shaders(DrawPlan& item, const PipelineKey& key, cases::Door door) {
+    if (door == cases::Door::shader_objects) {
+        item.object_key = std::make_shared<PipelineKey>(key);
+        return put(item.objects, pipelines_.get_objects(key));
+    }
+    if (door == cases::Door::transform_feedback) {
+        if (auto made = put(item.feedback, pipelines_.get_feedback(key.attribute_count)); !made) {
+            return made;
+        }
+    }
+    return put(item.pipeline, pipelines_.get(key));
+}
+
+Result<void> BatchRenderer::plan_clears(CasePlan& plan) {
+    const std::vector<ClearKey> keys = clear_keys(plan.test->target, plan.attachments);
+    for (const ClearKey& key : keys) {
+        auto pipeline = pipelines_.get_clear(key);
+        if (!pipeline) {
+            return fail(pipeline.error());
+        }
+        ClearDraw draw;
+        draw.pipeline = *pipeline;
+        draw.has_stencil = !key.location && key.has_stencil;
+        uint32_t location = 0;
+        for (const Attachment& a : plan.attachments) {
+            if (a.is_resolved()) {
+                continue;
+            }
+            if (a.is_depth_stencil()) {
+                if (!key.location && a.is_depth()) {
+                    draw.bits[0] = std::bit_cast<uint32_t>(a.clear.depthStencil.depth);
+                }
+                draw.stencil = a.clear.depthStencil.stencil;
+            } else if (key.location == location++) {
+                draw.bits = std::to_array(a.clear.color.uint32);
+            }
+        }
+        plan.clears.push_back(draw);
+    }
+    return {};
 }
 
 Result<void> BatchRenderer::plan_pass(CasePlan& plan) {

@@ -55,10 +55,12 @@ std::vector<capture::StrayWrite> stray_writes(const CasePlan& plan,
 }
 
 // Whether a rendering gets a submission of its own: a driver that never leaves a pipeline's
-// rasterizer discard (docs/findings), or loses one of several submissions, would spoil other cases,
-// too, and whose fault that is could not be told.
+// rasterizer discard or blends no more behind a pipeline without colours (docs/findings), or loses
+// one of several submissions, would spoil other cases, too, and whose fault that is could not be
+// told.
 bool is_drawn_alone(const cases::Case& c) {
-    if (c.variation.door == cases::Door::submissions) {
+    if (c.variation.door == cases::Door::submissions ||
+        c.variation.door == cases::Door::transform_feedback) {
         return true;
     }
     return c.variation.door == cases::Door::state_static &&
@@ -150,7 +152,8 @@ Result<void> BatchRenderer::draw_chunk(std::span<CasePlan> plans, bool read_back
     }
     for (const CasePlan& plan : plans) {
         write_vertices(plan, (*vertices)->bytes());
-        if (auto made = make_door_buffers(*device_, plan, (*vertices)->bytes()); !made) {
+        if (auto made = make_door_buffers(*device_, pipelines_, plan, (*vertices)->bytes());
+            !made) {
             return made;
         }
     }
@@ -352,6 +355,11 @@ Result<BatchRenderer> BatchRenderer::create(const Options& options) {
     auto capabilities = choose_device(*instance, options);
     if (!capabilities) {
         return fail(capabilities.error());
+    }
+    // An older layer takes shader objects for draws without a pipeline, and hands on its own
+    // handles.
+    if (instance->validation_version().value_or(kShaderObjectHeaders) < kShaderObjectHeaders) {
+        capabilities->doors.shader_objects = false;
     }
     auto made = Device::create(*capabilities);
     if (!made) {

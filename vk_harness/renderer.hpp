@@ -97,6 +97,10 @@ class BatchRenderer {
                             const PlaneStore& store, std::vector<GuardDamage>& damage);
     // The render pass and framebuffer of a case whose door asks for them.
     Result<void> plan_pass(CasePlan& plan);
+    // The pipeline of a draw, or its shaders where there is none.
+    Result<void> plan_shaders(DrawPlan& item, const PipelineKey& key, cases::Door door);
+    // What clears the attachments of a case that is cleared by draws.
+    Result<void> plan_clears(CasePlan& plan);
     // The commands of one case, with secondary command buffers if its door asks for them;
     // `commands` is then the buffer to go on with.
     Result<void> record(VkCommandBuffer& commands, CasePlan& plan, VkBuffer vertices,

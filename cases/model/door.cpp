@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 
+#include "cases/format/color_format.hpp"
 #include "cases/model/case.hpp"
 #include "cases/model/derive.hpp"
 #include "cases/model/float_bits.hpp"
@@ -77,6 +79,56 @@ bool has_one_layer(const Case& c) {
     return c.target.layers == 1;
 }
 
+// Linear images of several samples or layers are offered by hardly any device ("Required Format
+// Support" demands neither).
+bool is_plain_image(const Case& c) {
+    return c.target.samples == 1 && c.target.layers == 1;
+}
+
+// The shader that reads vertices from a storage buffer is built with distances of one kind.
+bool has_one_kind_of_distances(const Case& c) {
+    return all_draws(c, [](const Draw& draw) {
+        return draw.distances.clip_count == 0 || draw.distances.cull_count == 0;
+    });
+}
+
+// No dynamic state says how many samples are shaded at least.
+bool has_no_sample_fraction(const Case& c) {
+    return all_draws(
+        c, [](const Draw& draw) { return !draw.multisample.min_sample_shading.has_value(); });
+}
+
+// Whether a shader that writes the number leaves what clearing to it leaves: neither is rounded.
+// Denormal numbers a shader may flush.
+bool is_written_as_cleared(const ComponentFormat& component, float value) {
+    if (component.bits == 0 || component.kind == ComponentKind::uint) {
+        return true;
+    }
+    if (component.kind == ComponentKind::half) {
+        return half_bits(value).has_value();
+    }
+    if (component.kind == ComponentKind::binary32) {
+        return std::isnormal(value) || std::fpclassify(value) == FP_ZERO;
+    }
+    return std::fpclassify(value) == FP_ZERO || is_one(value);  // in between it is a conversion
+}
+
+bool can_be_cleared_by_draw(const Case& c) {
+    const Target& t = c.target;
+    for (uint32_t location = 0; t.color && location < t.color_count(); ++location) {
+        const ColorTarget& color = t.color_at(location);
+        for (int k = 0; k < 4; ++k) {
+            if (!is_written_as_cleared(component_of(color.format, static_cast<uint32_t>(k)),
+                                       color.clear[k])) {
+                return false;
+            }
+        }
+    }
+    const ComponentKind depth =
+        t.depth_format == DepthFormat::d32_float ? ComponentKind::binary32 : ComponentKind::unorm;
+    return t.layers == 1 && (!t.has_depth || is_written_as_cleared({depth, 32}, t.depth_clear));
+}
+
 // In which order a stage gets and hands on the vertices of a triangle, barycentrics would tell.
 bool has_barycentrics(const Draw& draw) {
     return std::any_of(draw.attributes.begin(), draw.attributes.end(),
@@ -96,6 +148,14 @@ bool can_be_tessellated(const Case& c) {
                       draw.distances.clip_count == 0 && draw.distances.cull_count == 0 &&
                       draw.viewport_index == 0 && !has_barycentrics(draw);
            });
+}
+
+// What is written of them has the order of the draw, so that its vertices keep their numbers.
+bool are_plain_lists(const Case& c) {
+    return all_draws(c, [](const Draw& draw) {
+        return draw.topology == Topology::triangle_list && !draw.indices &&
+               draw.distances.clip_count == 0 && draw.distances.cull_count == 0;
+    });
 }
 
 bool is_constant(const std::vector<glm::vec4>& values) {
@@ -193,6 +253,10 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
      kAny, is_any},
     {Door::separate_buffers, "separate-buffers", kVertices, kSame, rule::door_buffer,
      "Each binding, and the indices, have a buffer and memory of their own.", "", kAny, is_any},
+    {Door::memory_imported, "memory-imported", kVertices, kSame, rule::door_buffer,
+     "The same, in memory that the application has allocated itself and the device imports.",
+     "the import of memory of the host for vertices and indices (VK_EXT_external_memory_host)",
+     kAny, is_any},
     {Door::stride_padded, "stride-padded", kVertices, kRight, rule::door_layout,
      "Vertices lie further apart than they are long: 12 bytes between them, another number for "
      "each binding.",
@@ -213,6 +277,10 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
      "2: firstInstance is 2.",
      "", "a draw with an attribute or distances that are the same at every vertex",
      has_constant_input},
+    {Door::vertices_pulled, "vertices-pulled", kVertices, kRight, rule::door_layout,
+     "The pipeline has no inputs: the vertex shader reads its vertex from a storage buffer, by "
+     "gl_VertexIndex.",
+     "", "no draw with both clip and cull distances", has_one_kind_of_distances},
     {Door::indirect, "indirect", kVertices, kSame, rule::door_indirect,
      "Draws are indirect: their parameters are read from a buffer, from firstVertex or "
      "vertexOffset 5 on, behind a draw that is not asked for.",
@@ -259,6 +327,11 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
      "the states of blending, logical operations, sample masks and alpha to one of "
      "VK_EXT_extended_dynamic_state3, and extendedDynamicState2LogicOp",
      kAny, is_any},
+    {Door::state_unused, "state-unused", kState, kRight, rule::door_state,
+     "State is on that changes nothing: a bias of 0, restart without an index that restarts, tests "
+     "that fail and have no attachment to test, blending by ONE and ZERO, logical operations that "
+     "copy.",
+     "", kAny, is_any},
     {Door::unoptimized, "unoptimized", kState, kRight, rule::door_state,
      "Pipelines are made with VK_PIPELINE_CREATE_DISABLE_OPTIMIZATION_BIT.", "", kAny, is_any},
     {Door::pipeline_library, "pipeline-library", kState, kRight, rule::door_state,
@@ -270,11 +343,20 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
     {Door::pipeline_cached, "pipeline-cached", kState, kRight, rule::door_state,
      "Pipelines are made a second time, with a cache that was made of the data of a first one.", "",
      kAny, is_any},
+    {Door::shader_objects, "shader-objects", kState, kRight, rule::door_state,
+     "There are no pipelines: shaders are objects of their own, and all state is dynamic.",
+     "shaderObject (VK_EXT_shader_object)",
+     "no draw that asks for a part of its samples to be shaded", has_no_sample_fraction},
     {Door::secondary, "secondary", kRecording, kSame, rule::door_recording,
      "All draws are recorded in a secondary command buffer.", "", kAny, is_any},
     {Door::secondary_each, "secondary-each", kRecording, kSame, rule::door_recording,
      "Each draw is recorded in a secondary command buffer of its own; one command executes them.",
      "", "several draws", has_several_draws},
+    {Door::secondary_reused, "secondary-reused", kRecording, kSame, rule::door_recording,
+     "As secondary, for simultaneous use, and it is executed twice: the second rendering clears "
+     "what "
+     "the first one has drawn.",
+     "", kAny, is_any},
     {Door::pass_split, "pass-split", kRecording, kRight, rule::door_recording,
      "The rendering ends after the clears and after each draw, and the next one loads what was "
      "stored.",
@@ -285,6 +367,13 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
     {Door::clear_commands, "clear-commands", kRecording, kRight, rule::door_recording,
      "Nothing is loaded or cleared when the rendering begins; vkCmdClearAttachments clears.", "",
      kAny, is_any},
+    {Door::clear_draw, "clear-draw", kRecording, kRight, rule::door_recording,
+     "Nothing is loaded or cleared; a triangle over the whole target writes the values to one "
+     "attachment after the other.",
+     "",
+     "one layer, and clear values that are neither rounded nor denormal: 0 and 1 of a normalized "
+     "format",
+     can_be_cleared_by_draw},
     {Door::render_pass, "render-pass", kRecording, kRight, rule::door_recording,
      "The rendering is an instance of a render pass object with one subpass.", "", kAny, is_any},
     {Door::subpasses, "subpasses", kRecording, kRight, rule::door_recording,
@@ -301,12 +390,20 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
     {Door::image_level, "image-level", kTargets, kRight, rule::door_target,
      "Attachments are level 1 of images with more mip levels.", "", "one sample a pixel",
      has_one_sample},
+    {Door::image_linear, "image-linear", kTargets, kRight, rule::door_target,
+     "Attachments are images of linear tiling, where the device has them for their formats.",
+     "images of linear tiling for any of its attachments", "one sample a pixel and one layer",
+     is_plain_image},
     {Door::image_usages, "image-usages", kTargets, kRight, rule::door_target,
      "Attachments may be used in every way that the device offers for their formats: sampled, "
      "stored to, copied to, as input attachments, seen in other formats.",
      "", kAny, is_any},
     {Door::memory_dedicated, "memory-dedicated", kTargets, kRight, rule::door_target,
      "Each attachment has an allocation that is dedicated to it.", "", kAny, is_any},
+    {Door::memory_aliased, "memory-aliased", kTargets, kRight, rule::door_target,
+     "The memory of each attachment is that of another image, too, which is cleared to another "
+     "colour just before.",
+     "", kAny, is_any},
     {Door::multiview, "multiview", kTargets, kRight, rule::door_target,
      "The second view of two is drawn, alone, to the second layer.", "multiview",
      "a target of one layer", has_one_layer},
@@ -317,6 +414,12 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
      "Each triangle is a patch, which is tessellated into itself.", "tessellationShader",
      "lists without restart, without distances, layers, viewport indices and barycentrics",
      can_be_tessellated},
+    {Door::transform_feedback, "transform-feedback", kStages, kRight, rule::door_layout,
+     "Vertices are written to a buffer by transform feedback, in a rendering without attachments, "
+     "and "
+     "drawn from there.",
+     "transformFeedback (VK_EXT_transform_feedback)", "lists without indices, without distances",
+     are_plain_lists},
 }};
 
 constexpr bool is_in_order() {

@@ -317,12 +317,15 @@ constexpr std::array kRules = {
          "vkCmdDrawIndexed", "", "diff/consistency.cpp"},
     Rule{rule::door_buffer, Profile::vulkan, "Where buffers are bound changes no vertex",
          "Vertex buffers and the index buffer may be bound at any offset that is a multiple of "
-         "what they hold, and every binding in a buffer of its own. The same vertices reach the "
+         "what they hold, and every binding in a buffer of its own, whoever has allocated the "
+         "memory. The same vertices reach the "
          "same pipeline: the picture has the same bits (Rule 4).",
          "vkCmdBindVertexBuffers", "", "diff/consistency.cpp"},
     Rule{rule::door_layout, Profile::vulkan, "How vertices lie in memory changes nothing",
          "Strides with room between vertices, strides given with the buffers, all inputs in one "
-         "binding, positions of three numbers whose fourth is 1. The pipeline is another one, so "
+         "binding, positions of three numbers whose fourth is 1; a shader may read it from a "
+         "storage buffer instead, or transform feedback have written it. The pipeline is another "
+         "one, so "
          "Rule 4 does not promise the bits: at vulkan the picture has to be right by the rules of "
          "every picture, from practice on it has the same bits.",
          "fxvertex-input", "", "diff/consistency.cpp"},
@@ -340,23 +343,26 @@ constexpr std::array kRules = {
     Rule{rule::door_state, Profile::vulkan, "State is the same however it is given",
          "Dynamic state may be set before or after the pipeline is bound, and only what was set "
          "last counts, whatever was drawn with other values or with a pipeline whose state is "
-         "static: the same pipeline, state and vertices give the same bits (Rule 4). Static state "
-         "and a pipeline that is not optimized are other pipelines: at vulkan the picture has to "
-         "be right, from practice on it has the same bits.",
+         "static: the same pipeline, state and vertices give the same bits (Rule 4). Static state, "
+         "state that is on and changes nothing, a pipeline that is not optimized and shaders "
+         "without a pipeline are another pipeline: at vulkan the picture has to be right, from "
+         "practice on it has the same bits.",
          "pipelines-dynamic-state", "", "diff/consistency.cpp"},
     Rule{rule::door_recording, Profile::vulkan, "Draws are the same however they are recorded",
          "Secondary command buffers draw what a primary one draws: the same pipeline, state, "
-         "vertices and attachments give the same bits (Rule 4). A rendering that ends and goes on "
-         "with what was stored, one that is suspended and resumed, and vkCmdClearAttachments "
-         "instead of a load operation clear in another way, and which neighbour of a clear value "
+         "vertices and attachments give the same bits (Rule 4), also when one is executed again. A "
+         "rendering that ends and goes on with what was stored, one that is suspended and "
+         "resumed, and vkCmdClearAttachments or a draw instead of a load operation clear in "
+         "another way, and which neighbour of a clear value "
          "is stored is not fixed: at vulkan the picture has to be right, from practice on it has "
          "the same bits. So it is in a subpass of a render pass object, and where its parts are "
          "submitted one by one.",
          "vkCmdBeginRendering", "", "diff/consistency.cpp"},
     Rule{rule::door_target, Profile::vulkan, "What an attachment is a part of changes nothing",
          "Attachments may be larger than the rendering's area, layers or levels of images with "
-         "more of them, of images that may be used in other ways, too, in memory of their own, or "
-         "the second view of a multiview rendering. Images or the pipeline are others: at vulkan "
+         "more of them, of images that may be used in other ways, too, or are tiled linearly, in "
+         "memory of their own or in that of another image which is not used any more, or the "
+         "second view of a multiview rendering. Images or the pipeline are others: at vulkan "
          "the picture has to be right, from practice on it has the same bits.",
          "VkRenderingInfo", "", "diff/consistency.cpp"},
     Rule{rule::door_stage, Profile::vulkan, "A stage that hands triangles on changes nothing",

@@ -65,7 +65,7 @@ VKAPI_ATTR VkResult VKAPI_CALL create_buffer(VkDevice device, const VkBufferCrea
                                              VkBuffer* out) {
     const VkResult result = driver_of_handle(device).CreateBuffer(device, info, allocator, out);
     if (result == VK_SUCCESS) {
-        note_buffer(*out, info->size);
+        note_buffer(*out, *info);
     }
     return result;
 }
@@ -453,6 +453,7 @@ void draw_call(VkCommandBuffer commands, DrawCall call, uint32_t instances) {
     call.in_secondary = recording.is_secondary;
     call.subpass = recording.subpass;
     call.stages = recording.stages;
+    call.is_imported = is_imported(recording.first_buffer);
     call.rendering = recording.rendering;
     call.index_type = recording.index_type;
     call.has_restart = recording.has_restart;

@@ -217,6 +217,28 @@ constexpr std::array kFaults = {
     Fault{"door-first-instance-ignored",
           "firstInstance is ignored.",
           {.draw = [](DrawCall& d) { return change(d.first_instance, 0); }}},
+    Fault{"door-pulled-writes-no-green",
+          "A pipeline without inputs, whose depth test is dynamic, does not write the second "
+          "component.",
+          {.pipeline =
+               [](PipelineCopy& p) {
+                   bool altered = false;
+                   for (VkPipelineColorBlendAttachmentState& blend : p.blends) {
+                       altered =
+                           (!p.has_inputs() && p.depth.depthCompareOp != VK_COMPARE_OP_ALWAYS &&
+                            change(blend.colorWriteMask,
+                                   blend.colorWriteMask &
+                                       ~VkColorComponentFlags{VK_COLOR_COMPONENT_G_BIT})) ||
+                           altered;
+                   }
+                   return altered;
+               }}},
+    Fault{"door-imported-last-triangle-lost",
+          "A draw from memory of the host loses its last three vertices.",
+          {.draw =
+               [](DrawCall& d) {
+                   return d.is_imported && change(d.count, d.count - std::min(d.count, 3U));
+               }}},
     Fault{"door-indirect-offset-short",
           "A single indirect draw is read 32 bytes too early.",
           {.indirect =

@@ -6,6 +6,12 @@
 
 #include "vulkan_layer/layer.hpp"
 
+#ifndef VK_EXT_shader_object
+// Newer than Debian 12's headers; the handles are 64 bits each.
+using PFN_vkCmdBindShadersEXT = void(VKAPI_PTR*)(VkCommandBuffer, uint32_t,
+                                                 const VkShaderStageFlagBits*, const uint64_t*);
+#endif
+
 namespace breaking {
 
 // Every device command that the layer takes on the way to the driver.
@@ -47,6 +53,7 @@ namespace breaking {
     X(CmdSetStencilWriteMask) \
     X(CmdSetStencilReference) \
     X(CmdBindPipeline) \
+    X(CmdBindShadersEXT) \
     X(CmdBindDescriptorSets) \
     X(CmdPushConstants) \
     X(CmdBindVertexBuffers) \
@@ -63,6 +70,8 @@ namespace breaking {
     X(CmdBeginRendering) \
     X(CmdEndRendering) \
     X(CmdBeginRenderPass) \
+    X(CmdBeginTransformFeedbackEXT) \
+    X(CmdEndTransformFeedbackEXT) \
     X(CmdNextSubpass) \
     X(CmdPipelineBarrier2) \
     X(CmdClearColorImage) \

@@ -43,6 +43,7 @@ struct DrawCall {
     bool has_restart = false;                       // primitive restart is on
     uint32_t subpass = 0;                           // of a render pass object
     VkShaderStageFlags stages = 0;                  // of the pipeline
+    bool is_imported = false;  // the first vertex buffer's memory is the host's
     // Set by a fault: restart is on or off for this draw whatever was asked.
     std::optional<bool> restart;
     // The first index of an indexed draw, if the buffer is mapped.
@@ -102,6 +103,8 @@ struct ImageFacts {
     VkExtent3D extent{};
     VkImageUsageFlags usage = 0;
     bool is_dedicated = false;
+    VkImageTiling tiling = VK_IMAGE_TILING_OPTIMAL;
+    bool is_aliased = false;  // another image is bound to the same place
 };
 struct ImageCopy {
     VkBufferImageCopy region;
@@ -206,6 +209,9 @@ struct Hooks {
     bool (*drop_state)(StateCall&) = nullptr;  // whether the call is not done
     bool (*bind)(Reset&) = nullptr;            // of a pipeline with dynamic state
     bool (*secondaries)(std::vector<VkCommandBuffer>&) = nullptr;  // of vkCmdExecuteCommands
+    // Whether a secondary command buffer is not executed that has been executed before.
+    bool (*drop_again)() = nullptr;
+    bool (*drop_feedback)() = nullptr;  // whether transform feedback is not begun
     bool (*clear_attachments)(Clears&) = nullptr;
     bool (*pipeline)(PipelineCopy&) = nullptr;
     bool (*shader)(ShaderWords&) = nullptr;

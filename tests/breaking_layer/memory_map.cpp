@@ -7,6 +7,7 @@
 #include <iterator>
 #include <map>
 #include <mutex>
+#include <set>
 
 namespace breaking {
 
@@ -20,6 +21,7 @@ struct Map {
     };
     std::mutex mutex;
     std::map<VkBuffer, VkDeviceSize> sizes;
+    std::set<VkBuffer> imported;
     std::map<VkImageView, VkImage> images;
     std::map<VkImage, ImageFacts> facts;
     std::map<VkDeviceMemory, Contents> memories;
@@ -35,9 +37,21 @@ Map& map() {
 
 }  // namespace
 
-void note_buffer(VkBuffer buffer, VkDeviceSize size) {
+void note_buffer(VkBuffer buffer, const VkBufferCreateInfo& info) {
     const std::lock_guard lock(map().mutex);
-    map().sizes[buffer] = size;
+    map().sizes[buffer] = info.size;
+    const auto* chained = static_cast<const VkBaseInStructure*>(info.pNext);
+    if (chained != nullptr &&
+        chained->sType == VK_STRUCTURE_TYPE_EXTERNAL_MEMORY_BUFFER_CREATE_INFO) {
+        map().imported.insert(buffer);
+    } else {
+        map().imported.erase(buffer);
+    }
+}
+
+bool is_imported(VkBuffer buffer) {
+    const std::lock_guard lock(map().mutex);
+    return map().imported.contains(buffer);
 }
 
 void note_view(VkImageView view, VkImage image) {
@@ -53,7 +67,13 @@ void note_binding(VkBuffer buffer, VkDeviceMemory memory, VkDeviceSize offset) {
 
 void note_binding(VkImage image, VkDeviceMemory memory, VkDeviceSize offset) {
     const std::lock_guard lock(map().mutex);
-    map().memories[memory].images[image] = offset;
+    std::map<VkImage, VkDeviceSize>& images = map().memories[memory].images;
+    for (const auto& [other, place] : images) {
+        if (other != image && place == offset) {
+            map().facts[image].is_aliased = map().facts[other].is_aliased = true;
+        }
+    }
+    images[image] = offset;
     map().memory_of[image] = memory;
 }
 
@@ -65,7 +85,7 @@ void forget_memory(VkDeviceMemory memory) {
 
 void note_image(VkImage image, const VkImageCreateInfo& info) {
     const std::lock_guard lock(map().mutex);
-    map().facts[image] = {info.extent, info.usage, false};
+    map().facts[image] = {info.extent, info.usage, false, info.tiling, false};
 }
 
 void note_dedicated(VkImage image) {

@@ -9,7 +9,8 @@
 namespace breaking {
 
 // What lies where in the application's memory, as far as it is bound.
-void note_buffer(VkBuffer buffer, VkDeviceSize size);
+void note_buffer(VkBuffer buffer, const VkBufferCreateInfo& info);
+bool is_imported(VkBuffer buffer);  // its memory comes from outside of the device
 void note_view(VkImageView view, VkImage image);
 void note_binding(VkBuffer buffer, VkDeviceMemory memory, VkDeviceSize offset);
 void note_binding(VkImage image, VkDeviceMemory memory, VkDeviceSize offset);

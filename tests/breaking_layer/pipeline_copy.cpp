@@ -58,6 +58,13 @@ PipelineCopy::PipelineCopy(const VkGraphicsPipelineCreateInfo& from) : info_(fro
             vertex_input.pVertexBindingDescriptions + vertex_input.vertexBindingDescriptionCount);
     }
 
+    for (const auto* s = first_of(from.pNext); s != nullptr; s = s->pNext) {
+        lacks_stencil =
+            lacks_stencil ||
+            (s->sType == VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO &&
+             reinterpret_cast<const VkPipelineRenderingCreateInfo*>(s)->stencilAttachmentFormat ==
+                 VK_FORMAT_UNDEFINED);
+    }
     if (from.pRasterizationState != nullptr) {
         rasterization = *from.pRasterizationState;
     }

@@ -41,6 +41,8 @@ class PipelineCopy {
     bool is_library() const { return (info_.flags & VK_PIPELINE_CREATE_LIBRARY_BIT_KHR) != 0; }
     bool is_derived() const { return (info_.flags & VK_PIPELINE_CREATE_DERIVATIVE_BIT) != 0; }
     bool has_cached_data = false;  // it is made with a cache that was made of data
+    bool has_inputs() const { return info_.pVertexInputState == nullptr || !inputs.empty(); }
+    bool lacks_stencil = false;  // it is made for a dynamic rendering without stencil
     // Nothing of its state is dynamic.
     bool is_static() const { return !has_dynamic_state(info_); }
 

@@ -19,6 +19,7 @@ void Recording::begin_rendering(bool holds_back) {
 
 void Recording::begin(bool secondary) {
     is_secondary = secondary;
+    executions = 0;
     subpass = 0;
     draws = 0;
     follows_static = false;

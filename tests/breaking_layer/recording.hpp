@@ -35,6 +35,8 @@ class Recording {
     uint64_t rendering = 0;                  // in this process, from 1
     std::vector<VkImageView> attachments;    // of this rendering
     bool is_secondary = false;
+    bool lacks_feedback = false;        // transform feedback should have been begun
+    uint32_t executions = 0;            // of a secondary one, since it was begun
     uint32_t subpass = 0;               // of a render pass object
     VkShaderStageFlags stages = 0;      // of the pipeline that was bound last
     bool follows_static = false;        // StateCall

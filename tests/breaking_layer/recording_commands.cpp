@@ -24,6 +24,9 @@ VKAPI_ATTR void VKAPI_CALL execute_commands(VkCommandBuffer commands, uint32_t c
                                             const VkCommandBuffer* given) {
     std::vector<VkCommandBuffer> own(given, given + count);
     alter(hooks().secondaries, own);
+    std::erase_if(own, [](VkCommandBuffer c) {
+        return ++recording_of(c).executions > 1 && alter(hooks().drop_again);
+    });
     if (!own.empty()) {
         driver_of_handle(commands).CmdExecuteCommands(commands, static_cast<uint32_t>(own.size()),
                                                       own.data());
@@ -60,7 +63,26 @@ VKAPI_ATTR void VKAPI_CALL next_subpass(VkCommandBuffer commands, VkSubpassConte
     driver_of_handle(commands).CmdNextSubpass(commands, contents);
 }
 
+VKAPI_ATTR void VKAPI_CALL begin_feedback(VkCommandBuffer commands, uint32_t first, uint32_t count,
+                                          const VkBuffer* counters, const VkDeviceSize* offsets) {
+    recording_of(commands).lacks_feedback = alter(hooks().drop_feedback);
+    if (!recording_of(commands).lacks_feedback) {
+        driver_of_handle(commands).CmdBeginTransformFeedbackEXT(commands, first, count, counters,
+                                                                offsets);
+    }
+}
+
+VKAPI_ATTR void VKAPI_CALL end_feedback(VkCommandBuffer commands, uint32_t first, uint32_t count,
+                                        const VkBuffer* counters, const VkDeviceSize* offsets) {
+    if (!recording_of(commands).lacks_feedback) {
+        driver_of_handle(commands).CmdEndTransformFeedbackEXT(commands, first, count, counters,
+                                                              offsets);
+    }
+}
+
 const OwnCommand kCommands[] = {
+    BREAKING_OWN(CmdBeginTransformFeedbackEXT, begin_feedback),
+    BREAKING_OWN(CmdEndTransformFeedbackEXT, end_feedback),
     BREAKING_OWN(CmdBeginRenderPass, begin_render_pass),
     BREAKING_OWN(CmdNextSubpass, next_subpass),
     BREAKING_OWN(BeginCommandBuffer, begin_command_buffer),

@@ -116,6 +116,22 @@ constexpr std::array kFaults = {
     Fault{"door-dynamic-sample-mask-empty",
           "A dynamic sample mask takes away every sample.",
           {.sample_mask = [](VkSampleMask& mask) { return change(mask, VkSampleMask{0}); }}},
+    Fault{"door-stencil-test-of-nothing-fails",
+          "Where a stencil test is on and has no stencil, nothing is written.",
+          {.pipeline =
+               [](PipelineCopy& p) {
+                   bool altered = false;
+                   for (VkPipelineColorBlendAttachmentState& blend : p.blends) {
+                       altered = (p.lacks_stencil && p.depth.stencilTestEnable == VK_TRUE &&
+                                  p.depth.front.compareOp == VK_COMPARE_OP_NEVER &&
+                                  change(blend.colorWriteMask, 0)) ||
+                                 altered;
+                   }
+                   return altered;
+               }}},
+    Fault{"door-restart-without-indices-ends",
+          "Nothing is drawn where restart is on and a draw has no indices.",
+          {.draw = [](DrawCall& d) { return !d.indexed && d.has_restart && change(d.times, 0); }}},
     Fault{"door-unoptimized-writes-no-green",
           "Pipelines that are not optimized do not write the second component.",
           {.pipeline =
@@ -129,6 +145,12 @@ constexpr std::array kFaults = {
                                  altered;
                    }
                    return altered;
+               }}},
+    Fault{"door-objects-last-triangle-lost",
+          "A draw without a pipeline loses its last three vertices.",
+          {.draw =
+               [](DrawCall& d) {
+                   return d.stages == 0 && change(d.count, d.count - std::min(d.count, 3U));
                }}},
     Fault{"door-secondary-last-triangle-lost",
           "In a secondary command buffer lists lose their last triangle.",
@@ -156,6 +178,9 @@ constexpr std::array kFaults = {
                    std::ranges::reverse(c);
                    return c.size() > 1;
                }}},
+    Fault{"door-secondary-again-lost",
+          "A secondary command buffer is executed once, and never again.",
+          {.drop_again = [] { return true; }}},
     Fault{"door-load-clears-color",
           "Colours that are loaded are cleared.",
           {.rendering =
@@ -181,6 +206,13 @@ constexpr std::array kFaults = {
                        c.attachments[k].clearValue = {};
                    }
                    return c.attachments.size() > 1;
+               }}},
+    Fault{"door-clearing-draw-leaves-depth",
+          "A draw without inputs that passes every depth test writes no depth.",
+          {.pipeline =
+               [](PipelineCopy& p) {
+                   return !p.has_inputs() && p.depth.depthCompareOp == VK_COMPARE_OP_ALWAYS &&
+                          change(p.depth.depthWriteEnable, VK_FALSE);
                }}},
     Fault{"door-clear-depth-of-one",
           "vkCmdClearAttachments clears depth to 1, whatever it is told.",

@@ -192,6 +192,13 @@ VKAPI_ATTR void VKAPI_CALL set_stencil_reference(VkCommandBuffer commands, VkSte
                       driver_of_handle(commands).CmdSetStencilReference);
 }
 
+VKAPI_ATTR void VKAPI_CALL bind_shaders(VkCommandBuffer commands, uint32_t count,
+                                        const VkShaderStageFlagBits* stages,
+                                        const uint64_t* shaders) {
+    recording_of(commands).stages = 0;  // there is no pipeline
+    driver_of_handle(commands).CmdBindShadersEXT(commands, count, stages, shaders);
+}
+
 VKAPI_ATTR void VKAPI_CALL bind_pipeline(VkCommandBuffer commands, VkPipelineBindPoint point,
                                          VkPipeline pipeline) {
     Recording& recording = recording_of(commands);
@@ -328,6 +335,7 @@ const OwnCommand kCommands[] = {
     BREAKING_OWN(CmdSetStencilWriteMask, set_stencil_write_mask),
     BREAKING_OWN(CmdSetStencilReference, set_stencil_reference),
     BREAKING_OWN(CmdBindPipeline, bind_pipeline),
+    BREAKING_OWN(CmdBindShadersEXT, bind_shaders),
     BREAKING_OWN(CmdBindDescriptorSets, bind_descriptor_sets),
     BREAKING_OWN(CmdPushConstants, push_constants),
     BREAKING_OWN(CmdBindVertexBuffers, bind_vertex_buffers),

@@ -115,10 +115,28 @@ constexpr std::array kFaults = {
                    return clear_to_zero(r,
                                         [](const ImageFacts& image) { return image.is_dedicated; });
                }}},
+    Fault{"door-linear-image-clears-to-zero",
+          "Colours of linear tiling are cleared to 0.",
+          {.rendering =
+               [](Rendering& r) {
+                   return clear_to_zero(r, [](const ImageFacts& image) {
+                       return image.tiling == VK_IMAGE_TILING_LINEAR;
+                   });
+               }}},
+    Fault{"door-aliased-image-clears-to-zero",
+          "Colours whose memory is another image's, too, are cleared to 0.",
+          {.rendering =
+               [](Rendering& r) {
+                   return clear_to_zero(r,
+                                        [](const ImageFacts& image) { return image.is_aliased; });
+               }}},
     Fault{"door-multiview-first-view",
           "Of several views the first is drawn instead of the second.",
           {.rendering =
                [](Rendering& r) { return r.info.viewMask != 0 && change(r.info.viewMask, 1); }}},
+    Fault{"door-feedback-writes-nothing",
+          "Transform feedback writes nothing.",
+          {.drop_feedback = [] { return true; }}},
     Fault{
         "door-geometry-last-triangle-lost",
         "A geometry shader never gets a draw's last three vertices.",

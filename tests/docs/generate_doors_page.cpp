@@ -51,8 +51,9 @@ void print_doors() {
 
 void print_drivers(const Json& drivers) {
     fmt::print("\n## What ran\n\n{}\n",
-               wrapped("Pictures that `edgecase run --doors all` drew and compared, by driver; a "
-                       "dash is a door that the driver lacks, and a door that is newer than the "
+               wrapped("Pictures that `edgecase run` of the whole suite drew and compared with "
+                       "`--doors all` or the door's name, by driver; a dash is a door that the "
+                       "driver lacks, and a door that is newer than the "
                        "numbers was not run. `scripts/record-doors` writes the numbers."));
     std::string head = "| door |", line = "| --- |";
     for (const Json& driver : drivers) {

@@ -91,7 +91,10 @@ class Doors(ProgramTest):
         pictures = {d["door"]: d["pictures"] for d in results["doors"]}
         self.assertEqual(len(pictures), len(self.edgecase("doors", check=0).stdout.splitlines()) // 3)
         self.assertGreater(sum(pictures.values()), 1500)
-        self.assertEqual([door for door, count in pictures.items() if count == 0], [])
+        # lavapipe has shader objects since Mesa 25.
+        lacking = {d["door"] for d in results["doors"] if d["pictures"] == 0 and d["reason"].startswith("the device lacks ")}
+        self.assertLessEqual(lacking, {"shader-objects"})
+        self.assertEqual({door for door, count in pictures.items() if count == 0}, lacking)
         # A failure of the plain picture is drawn again without them.
         known = [c for c in results["cases"] if c["status"] == "xfail" and not any(g.get("door") for g in c["groups"])]
         self.assertGreater(len(known), 50)

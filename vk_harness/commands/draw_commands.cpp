@@ -10,6 +10,7 @@
 
 #include "cases/model/derive.hpp"
 #include "vk_harness/device/depth_bias_control.hpp"
+#include "vk_harness/pipeline/object_state.hpp"
 #include "vk_harness/target/shader_interface.hpp"
 
 namespace vk_harness {
@@ -152,10 +153,18 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
     }
     const Door door = test.variation.door;
     const auto bind = [&](VkPipeline pipeline) {
-        vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+        if (plan.object_key) {
+            bind_objects(device, commands, plan.objects);
+            set_object_state(device, commands, *plan.object_key);
+        } else {
+            vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+        }
         if (plan.texture != VK_NULL_HANDLE) {
             vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
                                        pipelines.layout(), 0, 1, &plan.texture, 0, nullptr);
+        }
+        if (plan.feed) {
+            plan.feed->bind_pulled(device, commands, pipelines.pulled_layout());
         }
     };
     DrawState state =
@@ -188,7 +197,8 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
     for (const VkRect2D& scissor : scissors_of(draw, test)) {
         if (is_dynamic) {
             replace_scissor(state, draw, scissor);
-            set_viewports(device, commands, state);
+            plan.object_key ? set_counted_viewports(device, commands, state)
+                            : set_viewports(device, commands, state);
         }
         if (door == Door::state_first) {
             bind(plan.pipeline);

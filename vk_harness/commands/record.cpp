@@ -63,11 +63,12 @@ void write_vertices(const CasePlan& plan, std::span<std::byte> memory) {
     }
 }
 
-Result<void> make_door_buffers(const Device& device, const CasePlan& plan,
-                               std::span<const std::byte> memory) {
+Result<void> make_door_buffers(const Device& device, const PipelineCache& pipelines,
+                               const CasePlan& plan, std::span<const std::byte> memory) {
     for (const DrawPlan& item : plan.draws) {
         if (item.feed) {
-            if (auto made = item.feed->make_buffers(device, memory); !made) {
+            if (auto made = item.feed->make_buffers(device, memory, pipelines.pulled_set_layout());
+                !made) {
                 return made;
             }
         }

@@ -4,6 +4,7 @@
 // One case as commands: upload, draw, copy.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <span>
@@ -24,6 +25,7 @@ struct DrawPlan {
     const cases::Draw* draw = nullptr;
     VkPipeline pipeline = VK_NULL_HANDLE;
     VkPipeline other_pipeline = VK_NULL_HANDLE;  // of the door state_after_static: all is static
+    VkPipeline feedback = VK_NULL_HANDLE;        // of the door transform_feedback: writes vertices
     VkDescriptorSet texture = VK_NULL_HANDLE;    // if an attribute asks for a level of detail
     std::array<VkDeviceSize, 1 + cases::kMaxAttributes> vertices{};  // positions, attributes
     DistancePlaces distances{};
@@ -31,6 +33,17 @@ struct DrawPlan {
     bool is_split = false;                    // TargetLayout::split
     std::shared_ptr<Feed> feed;               // of a door that feeds vertices in another way
     std::optional<OutputState> outputs = {};  // of the door state_output: set before the draw
+    // Of the door shader_objects, instead of a pipeline; the state is that of the key.
+    std::shared_ptr<const PipelineKey> object_key;
+    ShaderPair objects{};
+};
+
+// A draw that clears one colour, or depth and stencil.
+struct ClearDraw {
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    std::array<uint32_t, 4> bits{};  // that it writes; of depth: the first
+    bool has_stencil = false;
+    uint32_t stencil = 0;
 };
 
 struct CasePlan {
@@ -43,6 +56,7 @@ struct CasePlan {
     std::shared_ptr<BlitImages> blit;          // instead of images and draws
     std::shared_ptr<Queries> queries;          // if draws ask for them
     std::vector<VkCommandBuffer> secondaries;  // secondaries_of() many; empty: none
+    std::vector<ClearDraw> clears;             // of the door clear_draw
     // Of a door that renders by an object.
     VkRenderPass pass = VK_NULL_HANDLE;
     std::shared_ptr<Handle<VkFramebuffer>> framebuffer;
@@ -58,8 +72,8 @@ VkDeviceSize place_vertices(CasePlan& plan, VkDeviceSize begin);
 void write_vertices(const CasePlan& plan, std::span<std::byte> memory);
 
 // Gives the doors that need them buffers of their own; `memory` is what was written.
-Result<void> make_door_buffers(const Device& device, const CasePlan& plan,
-                               std::span<const std::byte> memory);
+Result<void> make_door_buffers(const Device& device, const PipelineCache& pipelines,
+                               const CasePlan& plan, std::span<const std::byte> memory);
 
 // How many secondary command buffers the case is recorded in, beside the primary one.
 size_t secondaries_of(const CasePlan& plan);

@@ -3,6 +3,7 @@
 //
 // The rendering of a case: attachments that are cleared, loaded and stored around its draws, in one
 // piece or as a door of the group `recording` asks for (cases/model/door.hpp).
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <vector>
@@ -89,6 +90,58 @@ constexpr ImageUse kSampled = {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                                VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
                                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
 
+// Writes to the memory of attachments as other images. Their own contents are undefined then, as
+// they are when they are drawn to next (Vulkan specification, "Memory Aliasing").
+void spoil_aliases(const Device& device, VkCommandBuffer commands, const CasePlan& plan) {
+    constexpr ImageUse kCleared = {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+                                   VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL};
+    constexpr ImageUse kAnyUse = {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                  VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT,
+                                  VK_IMAGE_LAYOUT_UNDEFINED};
+    constexpr VkImageSubresourceRange kAll = {VK_IMAGE_ASPECT_COLOR_BIT, 0, VK_REMAINING_MIP_LEVELS,
+                                              0, VK_REMAINING_ARRAY_LAYERS};
+    std::vector<VkImageMemoryBarrier2> barriers;
+    for (size_t k = 0; k < plan.images.size(); ++k) {
+        const VkImage alias = plan.images[k]->alias();
+        if (alias != VK_NULL_HANDLE && !plan.attachments[k].is_beside_depth) {
+            barriers.push_back(image_barrier(alias, kAll, kAnyUse, kCleared));
+        }
+    }
+    if (barriers.empty()) {
+        return;
+    }
+    record_barriers(device, commands, barriers);
+    VkClearColorValue color{};
+    std::fill(std::begin(color.float32), std::end(color.float32), 0.625F);
+    for (const VkImageMemoryBarrier2& b : barriers) {
+        device.vk().vkCmdClearColorImage(commands, b.image, kCleared.layout, &color, 1, &kAll);
+    }
+    memory_barrier(device, commands, {kCleared.stage, kCleared.access},
+                   {kAnyUse.stage, kAnyUse.access});
+}
+
+// Has the vertices written that are drawn, in a rendering of its own: within one no barrier could
+// stand between writing and reading them.
+void record_feedback(const Device& device, VkCommandBuffer commands, const CasePlan& plan,
+                     VkBuffer vertices) {
+    VkRenderingInfo rendering = Typed{VK_STRUCTURE_TYPE_RENDERING_INFO};
+    rendering.renderArea = {{0, 0}, {1, 1}};
+    rendering.layerCount = 1;
+    device.vk().vkCmdBeginRendering(commands, &rendering);
+    for (const DrawPlan& item : plan.draws) {
+        if (item.feedback != VK_NULL_HANDLE && !item.draw->positions.empty()) {
+            item.feed->record_feedback(device, commands, item.feedback, vertices);
+        }
+    }
+    device.vk().vkCmdEndRendering(commands);
+    memory_barrier(
+        device, commands,
+        {VK_PIPELINE_STAGE_2_TRANSFORM_FEEDBACK_BIT_EXT,
+         VK_ACCESS_2_TRANSFORM_FEEDBACK_WRITE_BIT_EXT},
+        {VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT, VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT});
+}
+
 // Clears what is resolved into, by a rendering without draws, and waits for it.
 void clear_resolved(const Device& device, VkCommandBuffer commands, const CasePlan& plan) {
     const VolkDeviceTable& vk = device.vk();
@@ -118,11 +171,15 @@ void clear_resolved(const Device& device, VkCommandBuffer commands, const CasePl
     memory_barrier(device, commands, cleared, cleared);
 }
 
+VkClearValue own_clear(const Attachment& a) {
+    return a.clear;
+}
+
 // What a rendering begins with, with all that it points to: not to be moved.
 class Attached {
   public:
     Attached(const CasePlan& plan, VkAttachmentLoadOp load, VkRenderingFlags flags,
-             bool resolves = true) {
+             bool resolves = true, VkClearValue (*clear_of)(const Attachment&) = own_clear) {
         const cases::Target& target = plan.test->target;
         size_t judged = 0;  // among the colour attachments
         for (size_t k = 0; k < plan.images.size(); ++k) {
@@ -130,10 +187,10 @@ class Attached {
             VkImageView view = plan.images[k]->view();
             switch (a.role) {
                 case Role::depth:
-                    depth_ = attachment(view, kDepthDrawn.layout, a.clear, load);
+                    depth_ = attachment(view, kDepthDrawn.layout, clear_of(a), load);
                     break;
                 case Role::stencil:
-                    stencil_ = attachment(view, kDepthDrawn.layout, a.clear, load);
+                    stencil_ = attachment(view, kDepthDrawn.layout, clear_of(a), load);
                     break;
                 case Role::resolved_color:
                     if (resolves) {
@@ -143,7 +200,7 @@ class Attached {
                     break;
                 case Role::color:
                     judged = colors_.size();
-                    colors_.push_back(attachment(view, kColorDrawn.layout, a.clear, load));
+                    colors_.push_back(attachment(view, kColorDrawn.layout, clear_of(a), load));
                     break;
                 case Role::resolved_depth:
                     if (resolves) {
@@ -151,7 +208,7 @@ class Attached {
                     }
                     break;
                 default:
-                    colors_.push_back(attachment(view, kColorDrawn.layout, a.clear, load));
+                    colors_.push_back(attachment(view, kColorDrawn.layout, clear_of(a), load));
                     break;
             }
         }
@@ -198,6 +255,27 @@ void clear_by_command(const Device& device, VkCommandBuffer commands, const Case
                                       1, &all);
 }
 
+// The same by triangles over the target, one for each colour, and one for depth and stencil.
+void clear_by_draws(const Device& device, const PipelineCache& pipelines, VkCommandBuffer commands,
+                    const CasePlan& plan) {
+    const VolkDeviceTable& vk = device.vk();
+    const cases::Target& target = plan.test->target;
+    const VkViewport viewport = {
+        0, 0, static_cast<float>(target.width), static_cast<float>(target.height), 0, 1};
+    const VkRect2D scissor = {{0, 0}, {target.width, target.height}};
+    for (const ClearDraw& clear : plan.clears) {
+        vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, clear.pipeline);
+        vk.vkCmdSetViewport(commands, 0, 1, &viewport);
+        vk.vkCmdSetScissor(commands, 0, 1, &scissor);
+        if (clear.has_stencil) {
+            vk.vkCmdSetStencilReference(commands, VK_STENCIL_FACE_FRONT_AND_BACK, clear.stencil);
+        }
+        vk.vkCmdPushConstants(commands, pipelines.layout(), draw_stages(device), 0,
+                              sizeof clear.bits, clear.bits.data());
+        vk.vkCmdDraw(commands, 3, 1, 0, 0);
+    }
+}
+
 // Records draws [first, end) to a secondary command buffer that inherits the rendering.
 Result<void> record_secondary(const Device& device, const PipelineCache& pipelines,
                               VkCommandBuffer secondary, const CasePlan& plan, uint32_t first,
@@ -222,8 +300,10 @@ Result<void> record_secondary(const Device& device, const PipelineCache& pipelin
         Typed{VK_STRUCTURE_TYPE_COMMAND_BUFFER_INHERITANCE_INFO};
     inheritance.pNext = &rendering;
     VkCommandBufferBeginInfo begin = Typed{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
-    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT |
-                  VK_COMMAND_BUFFER_USAGE_RENDER_PASS_CONTINUE_BIT;
+    const bool is_reused = plan.test->variation.door == Door::secondary_reused;
+    begin.flags = VkCommandBufferUsageFlags{VK_COMMAND_BUFFER_USAGE_RENDER_PASS_CONTINUE_BIT} |
+                  (is_reused ? VK_COMMAND_BUFFER_USAGE_SIMULTANEOUS_USE_BIT
+                             : VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT);
     begin.pInheritanceInfo = &inheritance;
     if (auto begun = check(Stage::submit, vk.vkBeginCommandBuffer(secondary, &begin),
                            "vkBeginCommandBuffer");
@@ -251,9 +331,21 @@ Result<void> render_by_secondaries(const Device& device, const PipelineCache& pi
     }
     const Attached attached(plan, VK_ATTACHMENT_LOAD_OP_CLEAR,
                             VK_RENDERING_CONTENTS_SECONDARY_COMMAND_BUFFERS_BIT);
-    device.vk().vkCmdBeginRendering(commands, &attached.info());
-    device.vk().vkCmdExecuteCommands(commands, count, plan.secondaries.data());
-    device.vk().vkCmdEndRendering(commands);
+    const auto execute = [&] {
+        device.vk().vkCmdBeginRendering(commands, &attached.info());
+        device.vk().vkCmdExecuteCommands(commands, count, plan.secondaries.data());
+        device.vk().vkCmdEndRendering(commands);
+    };
+    execute();
+    if (plan.test->variation.door == Door::secondary_reused) {
+        // Nothing of the first time may be left: targets, what they are resolved into, counts.
+        barrier(device, commands, plan, kColorDrawn, kColorDrawn, kDepthDrawn, kDepthDrawn);
+        clear_resolved(device, commands, plan);
+        if (plan.queries) {
+            plan.queries->reset(commands);
+        }
+        execute();
+    }
     return {};
 }
 
@@ -293,12 +385,23 @@ Result<void> render_in_pieces(const Device& device, const PipelineCache& pipelin
 }
 
 void render_at_once(const Device& device, const PipelineCache& pipelines, VkCommandBuffer commands,
-                    const CasePlan& plan, VkBuffer vertices, bool clears_by_command) {
+                    const CasePlan& plan, VkBuffer vertices) {
+    const Door door = plan.test->variation.door;
+    const bool clears = door == Door::clear_commands || door == Door::clear_draw;
+    if (clears) {
+        // Contents are undefined, and shall not be by chance those of the plain picture.
+        const Attached other(plan, VK_ATTACHMENT_LOAD_OP_CLEAR, 0, false, other_clear);
+        device.vk().vkCmdBeginRendering(commands, &other.info());
+        device.vk().vkCmdEndRendering(commands);
+        barrier(device, commands, plan, kColorDrawn, kColorDrawn, kDepthDrawn, kDepthDrawn);
+    }
     const Attached attached(
-        plan, clears_by_command ? VK_ATTACHMENT_LOAD_OP_DONT_CARE : VK_ATTACHMENT_LOAD_OP_CLEAR, 0);
+        plan, clears ? VK_ATTACHMENT_LOAD_OP_DONT_CARE : VK_ATTACHMENT_LOAD_OP_CLEAR, 0);
     device.vk().vkCmdBeginRendering(commands, &attached.info());
-    if (clears_by_command) {
+    if (door == Door::clear_commands) {
         clear_by_command(device, commands, plan);
+    } else if (door == Door::clear_draw) {
+        clear_by_draws(device, pipelines, commands, plan);
     }
     for (uint32_t k = 0; k < plan.draws.size(); ++k) {
         record_draw(device, pipelines, commands, plan, k, vertices);
@@ -311,6 +414,7 @@ void render_at_once(const Device& device, const PipelineCache& pipelines, VkComm
 size_t secondaries_of(const CasePlan& plan) {
     switch (plan.test->variation.door) {
         case Door::secondary:
+        case Door::secondary_reused:
             return 1;
         case Door::secondary_each:
             return plan.draws.size();
@@ -322,6 +426,10 @@ size_t secondaries_of(const CasePlan& plan) {
 Result<void> record_draws(const Device& device, const PipelineCache& pipelines,
                           VkCommandBuffer& commands, const CasePlan& plan, VkBuffer vertices,
                           bool for_copies, const NextCommands& next) {
+    if (plan.test->variation.door == Door::transform_feedback) {
+        record_feedback(device, commands, plan, vertices);
+    }
+    spoil_aliases(device, commands, plan);
     barrier(device, commands, plan, kReused, kColorDrawn, kReused, kDepthDrawn);
     clear_resolved(device, commands, plan);
     if (plan.queries) {
@@ -344,7 +452,7 @@ Result<void> record_draws(const Device& device, const PipelineCache& pipelines,
     } else if (plan.framebuffer) {
         render_by_pass(device, pipelines, commands, plan, vertices);
     } else {
-        render_at_once(device, pipelines, commands, plan, vertices, door == Door::clear_commands);
+        render_at_once(device, pipelines, commands, plan, vertices);
     }
     if (for_copies) {
         // Samples are read by a shader; guards (guard.hpp) are copied whatever the target is.

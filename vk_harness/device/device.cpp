@@ -193,12 +193,22 @@ Result<Device> Device::create(const Capabilities& capabilities) {
         device.set_depth_bias2_ = reinterpret_cast<SetDepthBias2>(
             vkGetDeviceProcAddr(device.device_, "vkCmdSetDepthBias2EXT"));
     }
+    if (capabilities.doors.shader_objects) {
+        const auto load = [&device](auto& call, const char* name) {
+            call = reinterpret_cast<std::decay_t<decltype(call)>>(
+                vkGetDeviceProcAddr(device.device_, name));
+        };
+        load(device.shader_objects_.create, "vkCreateShadersEXT");
+        load(device.shader_objects_.destroy, "vkDestroyShaderEXT");
+        load(device.shader_objects_.bind, "vkCmdBindShadersEXT");
+    }
     device.vk().vkGetDeviceQueue(device.device_, capabilities.queue_family, 0, &device.queue_);
     return device;
 }
 
 Device::Device(Device&& other) noexcept
     : set_depth_bias2_(other.set_depth_bias2_),
+      shader_objects_(other.shader_objects_),
       device_(std::exchange(other.device_, VK_NULL_HANDLE)),
       queue_(other.queue_),
       longest_wait_(other.longest_wait_),

@@ -9,6 +9,7 @@
 
 #include "vk_harness/device/capabilities.hpp"
 #include "vk_harness/device/instance.hpp"
+#include "vk_harness/device/shader_object.hpp"
 
 namespace vk_harness {
 
@@ -43,10 +44,12 @@ class Device {
 
     // Null unless the device has depthBiasControl.
     SetDepthBias2 set_depth_bias2() const { return set_depth_bias2_; }
+    const ShaderObjectCalls& shader_objects() const { return shader_objects_; }
 
   private:
     Device() = default;
     SetDepthBias2 set_depth_bias2_ = nullptr;
+    ShaderObjectCalls shader_objects_;
     VkDevice device_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
     uint64_t longest_wait_ = UINT64_MAX;

@@ -4,11 +4,40 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "cases/format/color_format.hpp"
+
 namespace vk_harness {
 
 namespace {
 
 constexpr uint32_t kDrawsInOne = 3;  // of a command with several draws, feed.cpp
+
+bool has_linear_attachments(VkPhysicalDevice physical) {
+    std::vector<uint32_t> formats = {VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_R32G32_SFLOAT};
+    for (const cases::ColorFormatRow& row : cases::kColorFormats) {
+        formats.push_back(row.vulkan);
+    }
+    return std::any_of(formats.begin(), formats.end(), [physical](uint32_t format) {
+        VkFormatProperties offered{};
+        vkGetPhysicalDeviceFormatProperties(physical, static_cast<VkFormat>(format), &offered);
+        return (offered.linearTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT) != 0;
+    });
+}
+
+bool can_import_vertices(VkPhysicalDevice physical) {
+    VkPhysicalDeviceExternalBufferInfo info =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_EXTERNAL_BUFFER_INFO};
+    info.usage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
+    info.handleType = VK_EXTERNAL_MEMORY_HANDLE_TYPE_HOST_ALLOCATION_BIT_EXT;
+    VkExternalBufferProperties offered = Typed{VK_STRUCTURE_TYPE_EXTERNAL_BUFFER_PROPERTIES};
+    vkGetPhysicalDeviceExternalBufferProperties(physical, &info, &offered);
+    const VkExternalMemoryFeatureFlags features =
+        offered.externalMemoryProperties.externalMemoryFeatures;
+    return (features & VK_EXTERNAL_MEMORY_FEATURE_IMPORTABLE_BIT) != 0 &&
+           (features & VK_EXTERNAL_MEMORY_FEATURE_DEDICATED_ONLY_BIT) == 0;
+}
 
 }  // namespace
 
@@ -40,6 +69,14 @@ DoorSupport query_door_support(VkPhysicalDevice physical, HasExtension has_exten
         chain(features, optional.library);
     }
     chain(features, optional.multiview);
+    if (has_extension(physical, VK_EXT_TRANSFORM_FEEDBACK_EXTENSION_NAME)) {
+        chain(features, optional.feedback);
+    }
+    const bool has_objects = properties.apiVersion >= VK_API_VERSION_1_3 &&
+                             has_extension(physical, kShaderObjectExtension);
+    if (has_objects) {
+        chain(features, optional.shader_objects);
+    }
     // Before 1.3 the first of these structures is chained for what every case needs.
     const bool has_dynamic_outputs =
         properties.apiVersion >= VK_API_VERSION_1_3 &&
@@ -49,6 +86,14 @@ DoorSupport query_door_support(VkPhysicalDevice physical, HasExtension has_exten
         chain(features, optional.dynamic_state2);
         chain(features, optional.dynamic_state3);
     }
+    if (has_extension(physical, VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME)) {
+        VkPhysicalDeviceExternalMemoryHostPropertiesEXT host =
+            Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_EXTERNAL_MEMORY_HOST_PROPERTIES_EXT};
+        get_properties(physical, host);
+        out.host_import = can_import_vertices(physical);
+        out.host_alignment = host.minImportedHostPointerAlignment;
+    }
+    out.linear = has_linear_attachments(physical);
     vkGetPhysicalDeviceFeatures2(physical, &features);
     const VkPhysicalDeviceExtendedDynamicState3FeaturesEXT& three = optional.dynamic_state3;
     out.dynamic_outputs = optional.dynamic_state2.extendedDynamicState2LogicOp == VK_TRUE &&
@@ -58,6 +103,8 @@ DoorSupport query_door_support(VkPhysicalDevice physical, HasExtension has_exten
                           three.extendedDynamicState3LogicOpEnable == VK_TRUE &&
                           three.extendedDynamicState3AlphaToOneEnable == VK_TRUE &&
                           three.extendedDynamicState3SampleMask == VK_TRUE;
+    out.feedback = optional.feedback.transformFeedback == VK_TRUE;
+    out.shader_objects = optional.shader_objects.shader_object == VK_TRUE;
     out.library = has_library && optional.library.graphicsPipelineLibrary == VK_TRUE;
     // maxMultiviewViewCount is at least 6.
     out.multiview = optional.multiview.multiview == VK_TRUE;
@@ -107,6 +154,19 @@ void enable_door_features(const DoorSupport& support, VkPhysicalDeviceFeatures2&
         chain(features, enabled.multiview);
     }
     features.features.tessellationShader = support.tessellation ? VK_TRUE : VK_FALSE;
+    if (support.feedback) {
+        enabled.feedback.transformFeedback = VK_TRUE;
+        chain(features, enabled.feedback);
+        extensions.push_back(VK_EXT_TRANSFORM_FEEDBACK_EXTENSION_NAME);
+    }
+    if (support.shader_objects) {
+        enabled.shader_objects.shader_object = VK_TRUE;
+        chain(features, enabled.shader_objects);
+        extensions.push_back(kShaderObjectExtension);
+    }
+    if (support.host_import) {
+        extensions.push_back(VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME);
+    }
     if (support.multi_draw) {
         enabled.multi_draw.multiDraw = VK_TRUE;
         chain(features, enabled.multi_draw);
@@ -127,6 +187,10 @@ std::optional<std::string> missing_door_support(const DoorSupport& support, case
         (door == Door::multiview && !support.multiview) ||
         (door == Door::geometry && !support.geometry) ||
         (door == Door::tessellation && !support.tessellation) ||
+        (door == Door::transform_feedback && !support.feedback) ||
+        (door == Door::shader_objects && !support.shader_objects) ||
+        (door == Door::image_linear && !support.linear) ||
+        (door == Door::memory_imported && !support.host_import) ||
         ((door == Door::multi_draw || door == Door::multi_draw_empty) && !support.multi_draw);
     return is_missing ? std::optional(fmt::format("the device lacks {}", cases::row_of(door).needs))
                       : std::nullopt;

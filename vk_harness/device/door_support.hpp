@@ -10,19 +10,25 @@
 
 #include "cases/model/door.hpp"
 #include "vk_harness/device/clip_support.hpp"
+#include "vk_harness/device/shader_object.hpp"
 
 namespace vk_harness {
 
 struct DoorSupport {
-    bool index_8 = false;          // indexTypeUint8
-    bool indirect_count = false;   // drawIndirectCount
-    bool multi_indirect = false;   // multiDrawIndirect, with room for three draws
-    bool multi_draw = false;       // multiDraw, with room for three draws
-    bool dynamic_outputs = false;  // all that pipeline/output_state.hpp sets
-    bool library = false;          // graphicsPipelineLibrary
-    bool multiview = false;        // of two views at least
-    bool geometry = false;         // geometryShader
-    bool tessellation = false;     // tessellationShader
+    bool index_8 = false;             // indexTypeUint8
+    bool indirect_count = false;      // drawIndirectCount
+    bool multi_indirect = false;      // multiDrawIndirect, with room for three draws
+    bool multi_draw = false;          // multiDraw, with room for three draws
+    bool dynamic_outputs = false;     // all that pipeline/output_state.hpp sets
+    bool library = false;             // graphicsPipelineLibrary
+    bool multiview = false;           // of two views at least
+    bool geometry = false;            // geometryShader
+    bool tessellation = false;        // tessellationShader
+    bool feedback = false;            // transformFeedback
+    bool shader_objects = false;      // shaderObject
+    bool linear = false;              // linear attachments of some format that cases are drawn to
+    bool host_import = false;         // of memory that vertices and indices are read from
+    VkDeviceSize host_alignment = 1;  // minImportedHostPointerAlignment
 };
 
 DoorSupport query_door_support(VkPhysicalDevice physical, HasExtension has_extension);
@@ -39,6 +45,9 @@ struct DoorFeatures {
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_EXTENDED_DYNAMIC_STATE_3_FEATURES_EXT};
     VkPhysicalDeviceGraphicsPipelineLibraryFeaturesEXT library =
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_GRAPHICS_PIPELINE_LIBRARY_FEATURES_EXT};
+    ShaderObjectFeatures shader_objects;
+    VkPhysicalDeviceTransformFeedbackFeaturesEXT feedback =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TRANSFORM_FEEDBACK_FEATURES_EXT};
     VkPhysicalDeviceMultiviewFeatures multiview =
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MULTIVIEW_FEATURES};
 };

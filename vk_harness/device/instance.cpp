@@ -31,14 +31,16 @@ VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT
     return VK_FALSE;
 }
 
-bool has_layer(const char* name) {
+// The version of Vulkan that the layer was written for; nothing if it is not installed.
+std::optional<uint32_t> layer_version(const char* name) {
     uint32_t count = 0;
     vkEnumerateInstanceLayerProperties(&count, nullptr);
     std::vector<VkLayerProperties> layers(count);
     vkEnumerateInstanceLayerProperties(&count, layers.data());
-    return std::any_of(layers.begin(), layers.end(), [name](const VkLayerProperties& layer) {
-        return std::strcmp(layer.layerName, name) == 0;
-    });
+    const auto found = std::find_if(
+        layers.begin(), layers.end(),
+        [name](const VkLayerProperties& layer) { return std::strcmp(layer.layerName, name) == 0; });
+    return found == layers.end() ? std::nullopt : std::optional(found->specVersion);
 }
 
 bool has_extension(const char* layer, const char* name) {
@@ -89,7 +91,8 @@ Result<Instance> Instance::create(const Options& options) {
     messenger.pfnUserCallback = on_message;
     messenger.pUserData = instance.messages_.get();
     if (options.validation) {
-        if (!has_layer(kValidationLayer) ||
+        instance.validation_version_ = layer_version(kValidationLayer);
+        if (!instance.validation_version_ ||
             !has_extension(kValidationLayer, VK_EXT_DEBUG_UTILS_EXTENSION_NAME)) {
             return fail(Stage::instance,
                         std::string("the validation layer ") + kValidationLayer +
@@ -140,6 +143,7 @@ Instance::Instance(Instance&& other) noexcept
     : instance_(std::exchange(other.instance_, VK_NULL_HANDLE)),
       messenger_(std::exchange(other.messenger_, VK_NULL_HANDLE)),
       destroy_messenger_(other.destroy_messenger_),
+      validation_version_(other.validation_version_),
       messages_(std::move(other.messages_)) {}
 
 Instance::~Instance() {

@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,8 @@ class Instance {
     VkInstance get() const { return instance_; }
     MessageLog& messages() const { return *messages_; }
     Result<std::vector<VkPhysicalDevice>> physical_devices() const;
+    // The version of Vulkan that the validation layer was written for, if there is one.
+    std::optional<uint32_t> validation_version() const { return validation_version_; }
 
   private:
     Instance() = default;
@@ -46,6 +49,7 @@ class Instance {
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
     // Of this instance: volk's global pointer belongs to the instance that was created last.
     PFN_vkDestroyDebugUtilsMessengerEXT destroy_messenger_ = nullptr;
+    std::optional<uint32_t> validation_version_;
     std::unique_ptr<MessageLog> messages_ = std::make_unique<MessageLog>();
 };
 

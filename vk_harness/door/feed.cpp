@@ -38,7 +38,7 @@ bool is_indirect(Door door) {
 
 // What a driver reads at a wrong place of a buffer shall not depend on what else is drawn.
 bool has_own_buffers(Door door) {
-    return door == Door::separate_buffers || is_indirect(door);
+    return door == Door::separate_buffers || door == Door::memory_imported || is_indirect(door);
 }
 
 // Doors that draw by indices whatever the case does.
@@ -305,16 +305,93 @@ void Feed::write(std::span<std::byte> memory) const {
     write_commands(memory);
 }
 
-Result<void> Feed::make_buffers(const Device& device, std::span<const std::byte> memory) {
+Result<void> Feed::make_pulled(const Device& device, std::span<const std::byte> memory,
+                               VkDescriptorSetLayout layout) {
+    constexpr VkDeviceSize kHead = kPulledWords * sizeof(uint32_t);
+    const VkDeviceSize first = arrays_.front().begin;
+    const auto bytes = memory.subspan(first, arrays_.back().end - first);
+    auto made = Buffer::create(device, kHead + std::max<VkDeviceSize>(bytes.size(), 16),
+                               VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, HostAccess::write);
+    if (!made) {
+        return fail(made.error());
+    }
+    std::array<uint32_t, kPulledWords> head{};
+    for (const Array& array : arrays_) {
+        head.at(array.binding) = static_cast<uint32_t>((array.offset - first) / sizeof(glm::vec4));
+    }
+    std::memcpy(made->bytes().data(), head.data(), sizeof head);
+    std::copy(bytes.begin(), bytes.end(), made->bytes().begin() + kHead);
+    if (auto flushed = made->flush(); !flushed) {
+        return flushed;
+    }
+    pulled_ = std::move(*made);
+    const VkDescriptorPoolSize size = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1};
+    if (auto sets = put(pulled_set_, make_sets(device, {&size, 1}, {&layout, 1})); !sets) {
+        return sets;
+    }
+    const VkDescriptorBufferInfo buffer = {pulled_.get(), 0, VK_WHOLE_SIZE};
+    VkWriteDescriptorSet write = Typed{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+    write.dstSet = pulled_set_.sets.front();
+    write.descriptorCount = 1;
+    write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    write.pBufferInfo = &buffer;
+    device.vk().vkUpdateDescriptorSets(device.get(), 1, &write, 0, nullptr);
+    return {};
+}
+
+void Feed::record_feedback(const Device& device, VkCommandBuffer commands, VkPipeline pipeline,
+                           VkBuffer vertices) const {
+    const VolkDeviceTable& vk = device.vk();
+    const VkBuffer target = buffers_.front().get();
+    const VkDeviceSize begin = 0, size = VK_WHOLE_SIZE;
+    vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+    vk.vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &arrays_.front().offset);
+    vk.vkCmdBindTransformFeedbackBuffersEXT(commands, 0, 1, &target, &begin, &size);
+    vk.vkCmdBeginTransformFeedbackEXT(commands, 0, 0, nullptr, nullptr);
+    vk.vkCmdDraw(commands, count_, 1, 0, 0);
+    vk.vkCmdEndTransformFeedbackEXT(commands, 0, 0, nullptr, nullptr);
+}
+
+void Feed::bind_pulled(const Device& device, VkCommandBuffer commands,
+                       VkPipelineLayout layout) const {
+    if (way_.pulled) {
+        device.vk().vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout,
+                                            kPulledSet, 1, pulled_set_.sets.data(), 0, nullptr);
+    }
+}
+
+Result<void> Feed::make_buffers(const Device& device, std::span<const std::byte> memory,
+                                VkDescriptorSetLayout pulled) {
     buffers_.clear();
+    if (way_.pulled) {
+        return make_pulled(device, memory, pulled);
+    }
+    if (door_ == Door::transform_feedback) {
+        const VkDeviceSize size = arrays_.front().end - arrays_.front().begin;
+        auto made = Buffer::create(
+            device, std::max<VkDeviceSize>(size, 16),
+            VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFORM_FEEDBACK_BUFFER_BIT_EXT,
+            HostAccess::write);
+        if (!made) {
+            return fail(made.error());
+        }
+        for (size_t at = 0; at + sizeof kForeign <= made->bytes().size(); at += sizeof kForeign) {
+            std::memcpy(made->bytes().data() + at, &kForeign, sizeof kForeign);
+        }
+        auto flushed = made->flush();
+        buffers_.push_back(std::move(*made));
+        return flushed;
+    }
     if (!has_own_buffers(door_)) {
         return {};
     }
     const auto add = [&](VkDeviceSize begin, VkDeviceSize end,
                          VkBufferUsageFlags usage) -> Result<void> {
         const auto bytes = memory.subspan(begin, end - begin);
-        auto made = Buffer::create(device, std::max<VkDeviceSize>(bytes.size(), 16), usage,
-                                   HostAccess::write);
+        const VkDeviceSize size = std::max<VkDeviceSize>(bytes.size(), 16);
+        auto made = door_ == Door::memory_imported
+                        ? Buffer::import(device, size, usage)
+                        : Buffer::create(device, size, usage, HostAccess::write);
         if (!made) {
             return fail(made.error());
         }
@@ -336,7 +413,7 @@ Result<void> Feed::make_buffers(const Device& device, std::span<const std::byte>
 
 void Feed::bind(const Device& device, VkCommandBuffer commands, VkBuffer vertices) const {
     const VolkDeviceTable& vk = device.vk();
-    for (size_t k = 0; k < arrays_.size(); ++k) {
+    for (size_t k = 0; k < arrays_.size() && !way_.pulled; ++k) {
         const Array& array = arrays_[k];
         const VkBuffer buffer = buffers_.empty() ? vertices : buffers_[k].get();
         const VkDeviceSize offset = buffers_.empty() ? array.offset : array.offset - array.begin;

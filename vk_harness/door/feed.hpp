@@ -24,10 +24,18 @@ class Feed {
     // Writes vertices, indices and parameters there; what lies between them must not be read.
     void write(std::span<std::byte> memory) const;
     // Buffers and memory of their own, if the door gives them; after place() and write().
-    Result<void> make_buffers(const Device& device, std::span<const std::byte> memory);
+    // `pulled`: the layout of the descriptor set from which a shader reads vertices.
+    Result<void> make_buffers(const Device& device, std::span<const std::byte> memory,
+                              VkDescriptorSetLayout pulled);
 
     // Binds vertices and indices; `vertices` is the buffer that was written.
     void bind(const Device& device, VkCommandBuffer commands, VkBuffer vertices) const;
+    // Binds what a shader reads vertices from, if it does; `layout` is the pipeline's.
+    void bind_pulled(const Device& device, VkCommandBuffer commands, VkPipelineLayout layout) const;
+    // Writes the vertices to the buffer that they are drawn from, by transform feedback; `pipeline`
+    // is PipelineCache::get_feedback()'s, `vertices` the buffer that was written.
+    void record_feedback(const Device& device, VkCommandBuffer commands, VkPipeline pipeline,
+                         VkBuffer vertices) const;
     // Draws once. Called after bind(), once for every scissor.
     void draw(const Device& device, VkCommandBuffer commands, VkBuffer vertices) const;
 
@@ -47,6 +55,8 @@ class Feed {
     };
     std::span<const glm::vec4> values_of(uint32_t binding) const;
     void make_indices();
+    Result<void> make_pulled(const Device& device, std::span<const std::byte> memory,
+                             VkDescriptorSetLayout layout);
     VkDeviceSize index_size() const;
     VkDeviceSize place_commands(VkDeviceSize begin);
     void write_vertices(std::span<std::byte> memory) const;
@@ -69,6 +79,8 @@ class Feed {
     VkDeviceSize index_begin_ = 0, index_offset_ = 0, index_end_ = 0;
     VkDeviceSize commands_ = 0, draw_count_ = 0;  // places
     std::vector<Buffer> buffers_;                 // of the arrays, then of the indices; or none
+    Buffer pulled_;                               // of a shader that reads vertices
+    DescriptorSets pulled_set_;                   // with that buffer
 };
 
 }  // namespace vk_harness

@@ -18,6 +18,8 @@ struct ImageWay {
     uint32_t level = 0;                        // of the image; others lie before and behind it
     bool all_usages = false;
     bool is_dedicated = false;
+    bool is_linear = false;   // tiled so, where the device offers it
+    bool is_aliased = false;  // its memory is another image's, too
     // The view shows all layers of the image, of which a view mask picks the last.
     bool is_multiview = false;
     friend auto operator<=>(const ImageWay&, const ImageWay&) = default;

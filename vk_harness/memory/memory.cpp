@@ -120,7 +120,38 @@ void add_usages(const Device& device, VkImageCreateInfo& info, bool is_depth) {
     }
 }
 
+// An image of colour, of as many texels as the other has samples in all, which is cleared by a
+// command; every device clears these formats ("Required Format Support").
+Result<Handle<VkImage>> make_alias(const Device& device, const VkImageCreateInfo& other) {
+    const VkFormat format = other.format == kColorFormat  ? kColorFormat
+                            : other.format == kTwoNumbers ? VK_FORMAT_R16G16B16A16_SFLOAT
+                                                          : VK_FORMAT_R8G8B8A8_UNORM;
+    VkImageCreateInfo info = image_info(format, {other.extent.width, other.extent.height},
+                                        VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+    info.arrayLayers = std::min(other.arrayLayers * static_cast<uint32_t>(other.samples),
+                                device.capabilities().limits.maxImageArrayLayers);
+    return make_image(device, info);
+}
+
 }  // namespace
+
+bool has_linear(VkPhysicalDevice physical, const VkImageCreateInfo& info) {
+    VkFormatProperties offered{};
+    vkGetPhysicalDeviceFormatProperties(physical, info.format, &offered);
+    const VkFormatFeatureFlags needed =
+        offered.optimalTilingFeatures &
+        (VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT | VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT |
+         VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_FORMAT_FEATURE_TRANSFER_SRC_BIT);
+    if ((offered.linearTilingFeatures & needed) != needed) {
+        return false;
+    }
+    VkImageFormatProperties limits{};
+    return vkGetPhysicalDeviceImageFormatProperties(physical, info.format, info.imageType,
+                                                    VK_IMAGE_TILING_LINEAR, info.usage, info.flags,
+                                                    &limits) == VK_SUCCESS &&
+           limits.maxExtent.width >= info.extent.width &&
+           limits.maxExtent.height >= info.extent.height;
+}
 
 Result<Buffer> Buffer::create(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage,
                               HostAccess access) {
@@ -160,6 +191,71 @@ Result<Buffer> Buffer::create(const Device& device, VkDeviceSize size, VkBufferU
     return buffer;
 }
 
+Result<Buffer> Buffer::import(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage) {
+    constexpr VkExternalMemoryHandleTypeFlagBits kHost =
+        VK_EXTERNAL_MEMORY_HANDLE_TYPE_HOST_ALLOCATION_BIT_EXT;
+    const VolkDeviceTable& vk = device.vk();
+    VkExternalMemoryBufferCreateInfo external =
+        Typed{VK_STRUCTURE_TYPE_EXTERNAL_MEMORY_BUFFER_CREATE_INFO};
+    external.handleTypes = kHost;
+    VkBufferCreateInfo info = Typed{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
+    info.pNext = &external;
+    info.size = size;
+    info.usage = usage;
+    info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
+    Buffer buffer;
+    buffer.device_ = &device;
+    buffer.size_ = size;
+    if (auto made = put(buffer.buffer_, make(device, Stage::memory, "vkCreateBuffer",
+                                             vk.vkCreateBuffer, vk.vkDestroyBuffer, info));
+        !made) {
+        return fail(made.error());
+    }
+    VkMemoryRequirements needs{};
+    vk.vkGetBufferMemoryRequirements(device.get(), buffer.get(), &needs);
+    // A power of two, of which address and size are multiples.
+    const VkDeviceSize alignment =
+        std::max({device.capabilities().doors.host_alignment, needs.alignment,
+                  VkDeviceSize{alignof(std::max_align_t)}});
+    const VkDeviceSize bytes = (needs.size + alignment - 1) / alignment * alignment;
+    buffer.host_.reset(static_cast<std::byte*>(
+        std::aligned_alloc(static_cast<size_t>(alignment), static_cast<size_t>(bytes))));
+    if (!buffer.host_) {
+        return fail(Stage::memory, fmt::format("the host has no {} bytes to import", bytes));
+    }
+    VkMemoryHostPointerPropertiesEXT offered =
+        Typed{VK_STRUCTURE_TYPE_MEMORY_HOST_POINTER_PROPERTIES_EXT};
+    if (auto asked = check(Stage::memory,
+                           vk.vkGetMemoryHostPointerPropertiesEXT(device.get(), kHost,
+                                                                  buffer.host_.get(), &offered),
+                           "vkGetMemoryHostPointerPropertiesEXT");
+        !asked) {
+        return fail(asked.error());
+    }
+    const auto type = find_memory_type(
+        device.capabilities().memory, needs.memoryTypeBits & offered.memoryTypeBits,
+        VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT, 0);
+    if (!type) {
+        return no_memory_type("a buffer in memory of the host");
+    }
+    VkImportMemoryHostPointerInfoEXT imported =
+        Typed{VK_STRUCTURE_TYPE_IMPORT_MEMORY_HOST_POINTER_INFO_EXT};
+    imported.handleType = kHost;
+    imported.pHostPointer = buffer.host_.get();
+    if (auto made = put(buffer.memory_, allocate(device, bytes, *type, &imported)); !made) {
+        return fail(made.error());
+    }
+    if (auto bound =
+            check(Stage::memory,
+                  vk.vkBindBufferMemory(device.get(), buffer.get(), buffer.memory_.get(), 0),
+                  "vkBindBufferMemory");
+        !bound) {
+        return fail(bound.error());
+    }
+    buffer.data_ = buffer.host_.get();
+    return buffer;
+}
+
 Result<void> Buffer::synchronize(PFN_vkFlushMappedMemoryRanges VolkDeviceTable::*call, Stage stage,
                                  std::string_view name) const {
     if (coherent_) {
@@ -181,7 +277,8 @@ Result<void> Buffer::invalidate() const {
                        "vkInvalidateMappedMemoryRanges");
 }
 
-Result<ImageMemory> bind_guarded(const Device& device, VkImage image, bool is_dedicated) {
+Result<ImageMemory> bind_guarded(const Device& device, VkImage image, bool is_dedicated,
+                                 Handle<VkImage>* alias) {
     VkImageMemoryRequirementsInfo2 asked =
         Typed{VK_STRUCTURE_TYPE_IMAGE_MEMORY_REQUIREMENTS_INFO_2};
     asked.image = image;
@@ -190,7 +287,20 @@ Result<ImageMemory> bind_guarded(const Device& device, VkImage image, bool is_de
     VkMemoryRequirements2 answer = Typed{VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2};
     answer.pNext = &dedicated;
     device.vk().vkGetImageMemoryRequirements2(device.get(), &asked, &answer);
-    const VkMemoryRequirements& needs = answer.memoryRequirements;
+    VkMemoryRequirements needs = answer.memoryRequirements;
+    if (alias != nullptr) {
+        VkMemoryRequirements other{};
+        device.vk().vkGetImageMemoryRequirements(device.get(), alias->get(), &other);
+        if ((needs.memoryTypeBits & other.memoryTypeBits) == 0 ||
+            dedicated.requiresDedicatedAllocation != VK_FALSE) {
+            *alias = {};
+            alias = nullptr;
+        } else {
+            needs.size = std::max(needs.size, other.size);
+            needs.alignment = std::max(needs.alignment, other.alignment);  // powers of two
+            needs.memoryTypeBits &= other.memoryTypeBits;
+        }
+    }
     const auto find_type = [&device](uint32_t allowed) {
         return find_memory_type(device.capabilities().memory, allowed, 0,
                                 VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
@@ -226,10 +336,15 @@ Result<ImageMemory> bind_guarded(const Device& device, VkImage image, bool is_de
         return fail(allocated.error());
     }
     made.size = places.size;
-    const VkResult result =
-        device.vk().vkBindImageMemory(device.get(), image, made.memory.get(), places.image);
-    if (result != VK_SUCCESS) {
-        return fail(call_failure(Stage::memory, result, "vkBindImageMemory"));
+    for (const VkImage bound : {image, alias != nullptr ? alias->get() : VK_NULL_HANDLE}) {
+        if (bound == VK_NULL_HANDLE) {
+            continue;
+        }
+        const VkResult result =
+            device.vk().vkBindImageMemory(device.get(), bound, made.memory.get(), places.image);
+        if (result != VK_SUCCESS) {
+            return fail(call_failure(Stage::memory, result, "vkBindImageMemory"));
+        }
     }
     if (made.guard) {
         if (auto bound = made.guard->bind(device, made.memory.get(), places, needs.size); !bound) {
@@ -271,6 +386,9 @@ Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D ex
     if (way.all_usages) {
         add_usages(device, info, depth);
     }
+    if (way.is_linear && has_linear(device.capabilities().physical, info)) {
+        info.tiling = VK_IMAGE_TILING_LINEAR;
+    }
     Image image;
     if (auto made = put(image.image_, make_image(device, info)); !made) {
         return fail(made.error());
@@ -282,7 +400,14 @@ Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D ex
         image.range_.aspectMask |= VK_IMAGE_ASPECT_STENCIL_BIT;
     }
 
-    if (auto made = put(image.memory_, bind_guarded(device, handle, way.is_dedicated)); !made) {
+    if (way.is_aliased) {
+        if (auto made = put(image.alias_, make_alias(device, info)); !made) {
+            return fail(made.error());
+        }
+    }
+    if (auto made = put(image.memory_, bind_guarded(device, handle, way.is_dedicated,
+                                                    image.alias_ ? &image.alias_ : nullptr));
+        !made) {
         return fail(made.error());
     }
 

@@ -5,6 +5,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdlib>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -23,6 +25,9 @@ class Buffer {
     static Result<Buffer> create(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage,
                                  HostAccess access);
 
+    // In memory of the application, which the device imports: DoorSupport::host_import. Not mapped.
+    static Result<Buffer> import(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage);
+
     VkBuffer get() const { return buffer_.get(); }
     VkDeviceSize size() const { return size_; }
     std::span<std::byte> bytes() const { return {data_, static_cast<size_t>(size_)}; }
@@ -35,8 +40,12 @@ class Buffer {
     Result<void> synchronize(PFN_vkFlushMappedMemoryRanges VolkDeviceTable::*call, Stage stage,
                              std::string_view name) const;
 
+    struct Free {
+        void operator()(std::byte* memory) const { std::free(memory); }
+    };
     const Device* device_ = nullptr;
-    Handle<VkDeviceMemory> memory_;  // freed after the buffer
+    std::unique_ptr<std::byte[], Free> host_;  // that is imported; freed after what imports it
+    Handle<VkDeviceMemory> memory_;            // freed after the buffer
     Handle<VkBuffer> buffer_;
     VkDeviceSize size_ = 0;
     std::byte* data_ = nullptr;
@@ -55,8 +64,14 @@ struct ImageMemory {
     VkDeviceSize size = 0;         // of it all
 };
 // Memory of its own for an image that is written to, bound to it.
-// is_dedicated: without guards, in an allocation for it alone.
-Result<ImageMemory> bind_guarded(const Device& device, VkImage image, bool is_dedicated = false);
+// is_dedicated: without guards, in an allocation for it alone. `alias`: an image that is bound to
+// the same place, where the device has memory for both; else it is destroyed.
+Result<ImageMemory> bind_guarded(const Device& device, VkImage image, bool is_dedicated = false,
+                                 Handle<VkImage>* alias = nullptr);
+
+// Whether the device draws to, and blends where it does so otherwise, images like this of one
+// sample, level and layer with linear tiling.
+bool has_linear(VkPhysicalDevice physical, const VkImageCreateInfo& info);
 
 // A colour or depth attachment.
 class Image {
@@ -83,10 +98,12 @@ class Image {
     const VkImageSubresourceRange& drawn() const { return drawn_; }
     VkDeviceSize memory_size() const { return memory_.size; }
     Guard* guard() const { return memory_.guard.get(); }  // may be null
+    // Another image in the same memory, which vkCmdClearColorImage clears; null if there is none.
+    VkImage alias() const { return alias_.get(); }
 
   private:
     ImageMemory memory_;
-    Handle<VkImage> image_;
+    Handle<VkImage> image_, alias_;
     Handle<VkImageView> view_;
     Handle<VkImageView> bits_view_;
     Handle<VkImageView> stencil_view_;

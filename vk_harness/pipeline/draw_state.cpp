@@ -98,6 +98,28 @@ std::vector<VkRect2D> DrawState::vulkan_scissors() const {
     return out;
 }
 
+namespace {
+
+// The dynamic part of what pipeline_key() switches on for nothing.
+void switch_on_unused(const cases::Case& c, const cases::Draw& own, DrawState& out) {
+    // "Depth Bias": a sum of products with 0. Without clamping, depth and so the slope is bounded,
+    // and no product is one of infinity.
+    if (!own.depth.bias && !own.depth.clamp) {
+        out.has_bias = VK_TRUE;
+    }
+    // "Drawing": it applies to indexed draws, and to the largest index of 32 bits, which names no
+    // vertex here. Lists need a feature.
+    if (own.topology != cases::Topology::triangle_list) {
+        out.restart = VK_TRUE;
+    }
+    // "Depth Test": skipped without a depth attachment.
+    if (!c.target.has_depth && !c.target.has_stencil) {
+        out.compare = VK_COMPARE_OP_NEVER;
+    }
+}
+
+}  // namespace
+
 DrawState draw_state(const cases::Case& c, const cases::Draw& own, bool has_restart) {
     DrawState out;
     out.cull = vulkan_of(own.cull);
@@ -129,6 +151,9 @@ DrawState draw_state(const cases::Case& c, const cases::Draw& own, bool has_rest
         put(draw);
     }
     put(own);
+    if (c.variation.door == cases::Door::state_unused) {
+        switch_on_unused(c, own, out);
+    }
     return out;
 }
 

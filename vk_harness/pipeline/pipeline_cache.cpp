@@ -14,33 +14,13 @@ namespace vk_harness {
 
 namespace {
 
-VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage, VkShaderModule module) {
-    VkPipelineShaderStageCreateInfo info =
-        Typed{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
-    info.stage = stage;
-    info.module = module;
-    info.pName = "main";
-    return info;
-}
-
-shaders::Ending ending_of(const PipelineKey& key) {
-    switch (key.discard_by) {
-        case cases::DiscardBy::kill:
-            break;
-        case cases::DiscardBy::demote:
-            return shaders::Ending::demote;
-        case cases::DiscardBy::terminate:
-            return shaders::Ending::terminate;
-    }
-    return shaders::Ending::kill;
-}
-
 Result<Handle<VkPipelineLayout>> make_layout(const Device& device, VkShaderStageFlags stage,
-                                             uint32_t bytes, VkDescriptorSetLayout set) {
+                                             uint32_t bytes,
+                                             std::span<const VkDescriptorSetLayout> sets) {
     const VkPushConstantRange range{stage, 0, bytes};
     VkPipelineLayoutCreateInfo info = Typed{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
-    info.setLayoutCount = 1;
-    info.pSetLayouts = &set;
+    info.setLayoutCount = static_cast<uint32_t>(sets.size());
+    info.pSetLayouts = sets.data();
     info.pushConstantRangeCount = 1;
     info.pPushConstantRanges = &range;
     return make(device, Stage::pipeline, "vkCreatePipelineLayout",
@@ -81,17 +61,24 @@ Result<PipelineCache> PipelineCache::create(const Device& device) {
     const std::array<VkDescriptorSetLayoutBinding, 1> texture = {
         {{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr}}};
     then(cache.texture_set_layout_, [&] { return make_set_layout(device, texture); });
-    then(cache.layout_, [&] {
-        return make_layout(device, draw_stages(device), sizeof(shaders::DrawConstants),
-                           cache.texture_set_layout_.get());
+    const auto draw_layout = [&](std::initializer_list<VkDescriptorSetLayout> sets) {
+        return make_layout(device, draw_stages(device), sizeof(shaders::DrawConstants), sets);
+    };
+    then(cache.layout_, [&] { return draw_layout({cache.texture_set_layout_.get()}); });
+    const std::array<VkDescriptorSetLayoutBinding, 1> inputs = {
+        {{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_VERTEX_BIT, nullptr}}};
+    then(cache.pulled_set_layout_, [&] { return make_set_layout(device, inputs); });
+    then(cache.pulled_layout_, [&] {
+        return draw_layout({cache.texture_set_layout_.get(), cache.pulled_set_layout_.get()});
     });
     const std::array<VkDescriptorSetLayoutBinding, 2> copies = {
         {{0, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr},
          {1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr}}};
     then(cache.copy_set_layout_, [&] { return make_set_layout(device, copies); });
     then(cache.copy_layout_, [&] {
+        const VkDescriptorSetLayout set = cache.copy_set_layout_.get();
         return make_layout(device, VK_SHADER_STAGE_COMPUTE_BIT, kCopyConstants * sizeof(uint32_t),
-                           cache.copy_set_layout_.get());
+                           {&set, 1});
     });
     if (!made) {
         return fail(made.error());
@@ -100,27 +87,15 @@ Result<PipelineCache> PipelineCache::create(const Device& device) {
 }
 
 Result<VkShaderModule> PipelineCache::shader_module(std::span<const uint32_t> code,
-                                                    std::vector<shaders::InputChange> changes,
-                                                    std::vector<uint32_t> modes,
-                                                    shaders::Ending ending,
-                                                    shaders::OutputChange outputs) {
-    std::tuple key(code.data(), std::move(changes), std::move(modes), ending, std::move(outputs));
+                                                    ShaderChanges changes) {
+    std::tuple key(code.data(), std::move(changes));
     const auto found = modules_.find(key);
     if (found != modules_.end()) {
         return found->second.get();
     }
-    auto changed = shaders::change_inputs(code, std::get<1>(key));
-    if (changed && !std::get<2>(key).empty()) {
-        changed = shaders::with_modes(*changed, std::get<2>(key));
-    }
-    if (changed && ending != shaders::Ending::kill) {
-        changed = shaders::with_ending(*changed, ending);
-    }
-    if (changed) {
-        changed = shaders::with_outputs(*changed, std::get<4>(key));
-    }
+    auto changed = changed_code(code, std::get<1>(key));
     if (!changed) {
-        return fail(Stage::shader, changed.error());
+        return fail(changed.error());
     }
     VkShaderModuleCreateInfo info = Typed{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
     info.codeSize = changed->size() * sizeof(uint32_t);
@@ -186,9 +161,9 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
     if (!vertex) {
         return fail(vertex.error());
     }
-    auto fragment = shader_module(shaders::capture_fragment(fragment_variant(key)),
-                                  input_changes(key, device_->capabilities().info.has_primitive_id),
-                                  execution_modes(key), ending_of(key), output_change(key));
+    auto fragment =
+        shader_module(shaders::capture_fragment(fragment_variant(key)),
+                      fragment_changes(key, device_->capabilities().info.has_primitive_id));
     if (!fragment) {
         return fail(fragment.error());
     }
@@ -267,7 +242,7 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
     info.pDepthStencilState = &depth;
     info.pColorBlendState = &color.info;
     info.pDynamicState = &dynamic;
-    info.layout = layout_.get();
+    info.layout = key.way.pulled ? pulled_layout_.get() : layout_.get();
     switch (key.made) {
         case PipelineWay::usual:
             break;

@@ -4,16 +4,21 @@
 // Graphics pipelines by the state that cannot be dynamic; pipelines that read single samples.
 #pragma once
 
+#include <array>
 #include <map>
 #include <span>
 #include <tuple>
 #include <vector>
 
 #include "shaders/spirv_variant.hpp"
+#include "vk_harness/pipeline/clear_pipeline.hpp"
 #include "vk_harness/pipeline/pipeline_key.hpp"
+#include "vk_harness/pipeline/shader_stage.hpp"
 #include "vk_harness/target/attachments.hpp"
 
 namespace vk_harness {
+
+using ShaderPair = std::array<ShaderObject, 2>;
 
 class PipelineCache {
   public:
@@ -23,24 +28,31 @@ class PipelineCache {
     Result<VkPipeline> get(const PipelineKey& key);
     // The render pass of that key, made at the first call.
     Result<VkRenderPass> get_pass(const PassKey& key);
+    // The shaders of that key as objects, made at the first call: vertex, fragment.
+    Result<ShaderPair> get_objects(const PipelineKey& key);
+    // The pipeline that writes positions and attributes by transform feedback, interleaved as they
+    // are read.
+    Result<VkPipeline> get_feedback(uint32_t attribute_count);
+    // The pipeline that clears by a draw, made at the first call.
+    Result<VkPipeline> get_clear(const ClearKey& key);
     // The compute pipeline that copies the samples of an attachment to a buffer.
     Result<VkPipeline> get_copy(const Attachment& attachment);
 
     VkPipelineLayout layout() const { return layout_.get(); }
     // Set 0 of a draw: binding 0, the texture whose level of detail is asked for.
     VkDescriptorSetLayout texture_set_layout() const { return texture_set_layout_.get(); }
+    // Of a vertex shader that reads its inputs from set kPulledSet; what is bound or
+    // pushed with layout() stays in force.
+    VkPipelineLayout pulled_layout() const { return pulled_layout_.get(); }
+    VkDescriptorSetLayout pulled_set_layout() const { return pulled_set_layout_.get(); }
     VkPipelineLayout copy_layout() const { return copy_layout_.get(); }
     VkDescriptorSetLayout copy_set_layout() const { return copy_set_layout_.get(); }
 
   private:
     explicit PipelineCache(const Device& device) : device_(&device) {}
-    // The module `code`, embedded in the program, with changes to its inputs and outputs, with more
-    // execution modes, and with another instruction that discards.
+    // The module `code`, embedded in the program, with changes.
     Result<VkShaderModule> shader_module(std::span<const uint32_t> code,
-                                         std::vector<shaders::InputChange> changes = {},
-                                         std::vector<uint32_t> modes = {},
-                                         shaders::Ending ending = shaders::Ending::kill,
-                                         shaders::OutputChange outputs = {});
+                                         ShaderChanges changes = {});
     Result<Handle<VkPipeline>> make_graphics(const PipelineKey& key);
     // As PipelineKey::made asks for, of what describes a usual pipeline; the first of one for
     // dynamic rendering, which is all that its pNext names.
@@ -48,6 +60,11 @@ class PipelineCache {
     Result<Handle<VkPipeline>> make_derived(const PipelineKey& key,
                                             VkGraphicsPipelineCreateInfo info);
     Result<Handle<VkPipeline>> make_cached(const VkGraphicsPipelineCreateInfo& info);
+    Result<Handle<ShaderObject>> make_object(VkShaderStageFlagBits stage,
+                                             std::span<const uint32_t> code,
+                                             const VkSpecializationInfo* specialization);
+    Result<Handle<VkPipeline>> make_feedback(uint32_t attribute_count);
+    Result<Handle<VkPipeline>> make_clear(const ClearKey& key);
     Result<Handle<VkPipeline>> create(const VkGraphicsPipelineCreateInfo& info,
                                       VkPipelineCache cache);
 
@@ -55,15 +72,16 @@ class PipelineCache {
     Handle<VkPipelineCache> cache_;
     Handle<VkDescriptorSetLayout> texture_set_layout_;
     Handle<VkPipelineLayout> layout_;
+    Handle<VkDescriptorSetLayout> pulled_set_layout_;
+    Handle<VkPipelineLayout> pulled_layout_;
     Handle<VkDescriptorSetLayout> copy_set_layout_;
     Handle<VkPipelineLayout> copy_layout_;
-    // By the embedded code's address, the changes, the execution modes, the instruction and the
-    // outputs.
-    std::map<std::tuple<const uint32_t*, std::vector<shaders::InputChange>, std::vector<uint32_t>,
-                        shaders::Ending, shaders::OutputChange>,
-             Handle<VkShaderModule>>
-        modules_;
+    // By the embedded code's address and the changes.
+    std::map<std::tuple<const uint32_t*, ShaderChanges>, Handle<VkShaderModule>> modules_;
     std::map<PassKey, Handle<VkRenderPass>> passes_;
+    std::map<ClearKey, Handle<VkPipeline>> clears_;
+    std::map<uint32_t, Handle<VkPipeline>> feedbacks_;  // by attributes
+    std::map<PipelineKey, std::array<Handle<ShaderObject>, 2>> objects_;
     std::map<PipelineKey, Handle<VkPipeline>> pipelines_;
     std::vector<Handle<VkPipeline>> libraries_;             // of those that are linked
     std::map<const uint32_t*, Handle<VkPipeline>> copies_;  // by the embedded code's address

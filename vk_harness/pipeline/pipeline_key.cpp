@@ -67,6 +67,42 @@ ColorKey color_key(const cases::ColorTarget& target, const cases::ColorOutput& o
     return key;
 }
 
+// Whether no attachment of the rendering has depth, and none stencil, in whatever image.
+bool tests_nothing(const PipelineKey& key) {
+    return !key.has_depth && !key.has_stencil;
+}
+
+// State that is on and changes nothing; what of it is dynamic draw_state() switches on. Sources,
+// all Vulkan specification: without an attachment the coverage is left as it is ("Stencil Test"),
+// the test skipped ("Depth Test") or passed ("Depth Bounds Test"). "Blend Operations": ONE and ZERO
+// add up to the source where no destination is infinite or no number. "Logical Operations": COPY is
+// the source, formats that take no such operations get the colour unmodified, and blending counts
+// as off while they are on, for all attachments.
+void switch_on_unused(PipelineKey& key) {
+    key.unused_tests = true;
+    const TargetLayout::Unused& device = key.layout.unused;
+    const bool may_copy = device.logic && !key.instruments && !key.logic &&
+                          std::none_of(key.colors.begin(), key.colors.end(),
+                                       [](const ColorKey& color) { return color.blends; });
+    // A lone colour that can be blended is, else bits are copied.
+    const bool copies = may_copy && (device.blends == 0 || key.colors.size() > 1);
+    for (uint32_t k = 0; k < key.colors.size(); ++k) {
+        ColorKey& color = key.colors[k];
+        if (!color.blends && (device.blends >> k & 1U) != 0) {
+            const bool is_off = key.logic.has_value() || copies;
+            const auto destination =
+                static_cast<uint8_t>(is_off ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_ZERO);
+            color.blends = true;
+            color.equation = {VK_BLEND_FACTOR_ONE, destination, VK_BLEND_OP_ADD,
+                              VK_BLEND_FACTOR_ONE, destination, VK_BLEND_OP_ADD};
+        }
+    }
+    if (copies && !key.colors.empty()) {
+        key.logic = cases::LogicOp::copy;
+    }
+    key.unused_bounds = device.bounds && tests_nothing(key) && !key.tests_bounds;
+}
+
 }  // namespace
 
 PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw,
@@ -138,14 +174,17 @@ PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw,
         key.logic = draw.color.logic;
         key.alpha_to_one = draw.color.alpha_to_one;
     }
+    if (c.variation.door == cases::Door::state_unused) {
+        switch_on_unused(key);
+    }
     return key;
 }
 
 shaders::VertexVariant vertex_variant(const PipelineKey& key) {
     // The last stage before rasterization chooses layer and viewport.
     const bool is_last = key.stages == StageWay::vertex;
-    return {key.attribute_count, key.clip_count, key.cull_count, is_last && key.layer,
-            is_last && key.viewport_index};
+    return {key.attribute_count,           key.clip_count, key.cull_count, is_last && key.layer,
+            is_last && key.viewport_index, key.way.pulled};
 }
 
 shaders::VertexVariant geometry_variant(const PipelineKey& key) {

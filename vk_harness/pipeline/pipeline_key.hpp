@@ -91,6 +91,8 @@ struct PipelineKey {
     std::vector<ColorKey> colors = {};  // by location, the first behind those of the instruments
     std::optional<cases::LogicOp> logic = {};
     bool alpha_to_one = false;
+    // Tests are on of which there is no attachment; so are those of bounds.
+    bool unused_tests = false, unused_bounds = false;
     friend auto operator<=>(const PipelineKey&, const PipelineKey&) = default;
 };
 

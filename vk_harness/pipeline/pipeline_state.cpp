@@ -14,7 +14,9 @@ namespace vk_harness {
 void vertex_input_state(const PipelineKey& key, VertexInputState& state) {
     // Binding and location 0: positions; 1..: attributes; distances. Each is an array of its own,
     // but if all lie together.
-    const Bindings bindings = bindings_of(key.attribute_count, key.clip_count, key.cull_count);
+    const Bindings bindings =
+        key.way.pulled ? Bindings{}
+                       : bindings_of(key.attribute_count, key.clip_count, key.cull_count);
     uint32_t offset = 0;
     for (const uint32_t binding : bindings) {
         const uint32_t size = size_of(key.way, binding);
@@ -144,7 +146,21 @@ VkPipelineDepthStencilStateCreateInfo depth_state(const PipelineKey& key) {
         depth.front = std::bit_cast<VkStencilOpState>(key.fixed->stencil[0]);
         depth.back = std::bit_cast<VkStencilOpState>(key.fixed->stencil[1]);
     }
+    if (key.unused_tests && !key.has_stencil) {
+        // It would fail, and write.
+        depth.stencilTestEnable = VK_TRUE;
+        depth.front = {VK_STENCIL_OP_INVERT, VK_STENCIL_OP_INVERT, VK_STENCIL_OP_INVERT,
+                       VK_COMPARE_OP_NEVER,  cases::kStencilBits,  cases::kStencilBits,
+                       cases::kStencilBits};
+        depth.back = depth.front;
+    }
+    if (key.unused_bounds) {
+        depth.depthBoundsTestEnable = VK_TRUE;
+        depth.minDepthBounds = depth.maxDepthBounds = 0.5F;
+    }
     if (!key.has_depth) {
+        // Beside a stencil there may be depth in the image.
+        depth.depthTestEnable = key.unused_tests && !key.has_stencil ? VK_TRUE : VK_FALSE;
         return depth;
     }
     depth.depthTestEnable = VK_TRUE;  // without the test there is no depth write

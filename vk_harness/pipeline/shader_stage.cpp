@@ -29,6 +29,18 @@ shaders::Choice choice_of(const AttributeKey& attribute) {
 static_assert(static_cast<uint32_t>(cases::Probe::lod) ==
               static_cast<uint32_t>(shaders::Choice::last_probe));
 
+shaders::Ending ending_of(const PipelineKey& key) {
+    switch (key.discard_by) {
+        case cases::DiscardBy::kill:
+            break;
+        case cases::DiscardBy::demote:
+            return shaders::Ending::demote;
+        case cases::DiscardBy::terminate:
+            return shaders::Ending::terminate;
+    }
+    return shaders::Ending::kill;
+}
+
 void add(Specialization& to, uint32_t id, uint32_t word) {
     to.entries.push_back({id, static_cast<uint32_t>(to.words.size() * sizeof word), sizeof word});
     to.words.push_back(word);
@@ -43,6 +55,15 @@ void tie(Specialization& to) {
 }
 
 }  // namespace
+
+VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage, VkShaderModule module) {
+    VkPipelineShaderStageCreateInfo info =
+        Typed{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
+    info.stage = stage;
+    info.module = module;
+    info.pName = "main";
+    return info;
+}
 
 std::vector<shaders::InputChange> input_changes(const PipelineKey& key, bool has_primitive_id) {
     std::vector<shaders::InputChange> changes;
@@ -77,6 +98,29 @@ std::vector<shaders::InputChange> input_changes(const PipelineKey& key, bool has
         }
     }
     return changes;
+}
+
+ShaderChanges fragment_changes(const PipelineKey& key, bool has_primitive_id) {
+    return {input_changes(key, has_primitive_id), execution_modes(key), ending_of(key),
+            output_change(key)};
+}
+
+Result<std::vector<uint32_t>> changed_code(std::span<const uint32_t> code,
+                                           const ShaderChanges& changes) {
+    auto changed = shaders::change_inputs(code, changes.inputs);
+    if (changed && !changes.modes.empty()) {
+        changed = shaders::with_modes(*changed, changes.modes);
+    }
+    if (changed && changes.ending != shaders::Ending::kill) {
+        changed = shaders::with_ending(*changed, changes.ending);
+    }
+    if (changed) {
+        changed = shaders::with_outputs(*changed, changes.outputs);
+    }
+    if (!changed) {
+        return fail(Stage::shader, changed.error());
+    }
+    return std::move(*changed);
 }
 
 void specialize(const PipelineKey& key, Specialization& out) {

@@ -15,9 +15,26 @@
 
 namespace vk_harness {
 
+// A stage of a pipeline, without specialization.
+VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage, VkShaderModule module);
+
 // Interpolation and auxiliary qualifiers of the inputs; the primitive's number if the device has
 // it.
 std::vector<shaders::InputChange> input_changes(const PipelineKey& key, bool has_primitive_id);
+
+// What is changed of a compiled shader: its inputs and outputs, execution modes that are added, and
+// by which instruction it discards.
+struct ShaderChanges {
+    std::vector<shaders::InputChange> inputs;
+    std::vector<uint32_t> modes;
+    shaders::Ending ending = shaders::Ending::kill;
+    shaders::OutputChange outputs;
+    friend auto operator<=>(const ShaderChanges&, const ShaderChanges&) = default;
+};
+// Of the fragment shader.
+ShaderChanges fragment_changes(const PipelineKey& key, bool has_primitive_id);
+Result<std::vector<uint32_t>> changed_code(std::span<const uint32_t> code,
+                                           const ShaderChanges& changes);
 
 // Values of the specialization constants of capture.frag. Must not be moved once it is filled.
 struct Specialization {

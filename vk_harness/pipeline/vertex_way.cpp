@@ -50,7 +50,11 @@ VertexWay vertex_way(const cases::Case& c, const cases::Draw& draw) {
             way.dynamic_stride = true;
             break;
         case cases::Door::interleaved:
+        case cases::Door::transform_feedback:
             way.interleaved = true;
+            break;
+        case cases::Door::vertices_pulled:
+            way.pulled = true;
             break;
         case cases::Door::three_components:
             way.three_components =

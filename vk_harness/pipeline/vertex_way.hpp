@@ -18,9 +18,15 @@ struct VertexWay {
     bool interleaved = false;       // all inputs lie in binding 0
     bool three_components = false;  // positions are three numbers
     bool halves = false;            // positions are of binary16
+    bool pulled = false;            // the shader reads them from a storage buffer
     uint32_t instance_rate = 0;     // bit b: binding b is read once an instance
     friend auto operator<=>(const VertexWay&, const VertexWay&) = default;
 };
+
+// The descriptor set of a vertex shader that reads its inputs, whose binding 0 is a storage buffer:
+// eight words, by binding the number of the first vec4 that would be bound there; then the vec4
+// (capture.vert).
+inline constexpr uint32_t kPulledSet = 1, kPulledWords = 8;
 
 VertexWay vertex_way(const cases::Case& c, const cases::Draw& draw);
 

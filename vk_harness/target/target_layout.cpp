@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "cases/format/color_format.hpp"
 #include "cases/model/derive.hpp"
 #include "vk_harness/target/shader_interface.hpp"
 
@@ -45,6 +46,30 @@ bool ids_fit(const cases::Case& test) {
 
 }  // namespace
 
+namespace {
+
+TargetLayout::Unused unused_state(const Capabilities& c, const cases::Case& test) {
+    TargetLayout::Unused out;
+    if (test.variation.door != cases::Door::state_unused) {
+        return out;
+    }
+    out.bounds = c.depth_bounds;
+    out.logic = c.logic_op;
+    for (uint32_t k = 0; test.target.color && k < test.target.color_count(); ++k) {
+        const cases::ColorFormat format = test.target.color_at(k).format;
+        const cases::ComponentKind kind = cases::row_of(format).kind;
+        // 0 times an infinite destination is no number, and +0 is added to -0: not with floats.
+        const bool is_normalized =
+            kind == cases::ComponentKind::unorm || kind == cases::ComponentKind::srgb;
+        const bool can_blend = has_features(c, static_cast<VkFormat>(cases::row_of(format).vulkan),
+                                            VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT);
+        out.blends |= (is_normalized && can_blend ? 1U : 0U) << k;
+    }
+    return out;
+}
+
+}  // namespace
+
 uint32_t TargetLayout::numbers(uint32_t attribute) const {
     return pairs ? 2U : attribute < components.size() ? components.at(attribute) : 4U;
 }
@@ -59,6 +84,7 @@ cases::DepthFormat depth_beside_stencil(const Capabilities& c, const cases::Targ
 
 TargetLayout target_layout(const Capabilities& c, const cases::Case& test) {
     TargetLayout layout;
+    layout.unused = unused_state(c, test);
     if (test.target.has_stencil) {
         layout.stencil_format = depth_stencil_format(depth_beside_stencil(c, test.target));
     }

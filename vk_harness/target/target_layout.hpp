@@ -27,6 +27,13 @@ struct TargetLayout {
     // 2 or 4 by attribute: numbers that are drawn and read back; the others are 0 at every vertex
     // and 0 in the capture. One number costs as much as two, and would be one shader more.
     std::array<uint8_t, cases::kMaxAttributes> components = {4, 4, 4, 4};
+    // Of the door state_unused: what the device has of state that can be on for nothing.
+    struct Unused {
+        bool bounds = false, logic = false;  // depthBounds, logicOp
+        uint32_t blends = 0;  // bit k: colour k is normalized, and its format can be blended
+        friend auto operator<=>(const Unused&, const Unused&) = default;
+    };
+    Unused unused = {};
 
     // Numbers in an attribute's only attachment, or in either of its pair. 4 beyond the last
     // attribute that a case may have.

@@ -5,6 +5,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <vector>
+
+#include "vk_harness/memory/memory.hpp"
+#include "vk_harness/target/attachments.hpp"
 
 namespace vk_harness {
 
@@ -21,6 +25,12 @@ ImageWay image_way(const cases::Case& c) {
         case cases::Door::image_level:
             way.level = 1;
             break;
+        case cases::Door::image_linear:
+            way.is_linear = true;
+            break;
+        case cases::Door::memory_aliased:
+            way.is_aliased = true;
+            break;
         case cases::Door::image_usages:
             way.all_usages = true;
             break;
@@ -36,6 +46,23 @@ ImageWay image_way(const cases::Case& c) {
     }
     return way;
 }
+
+namespace {
+
+bool has_linear_attachment(const Capabilities& capabilities, const cases::Case& c) {
+    const std::vector<Attachment> attachments = attachments_of(c, target_layout(capabilities, c));
+    return std::any_of(attachments.begin(), attachments.end(), [&](const Attachment& a) {
+        VkImageCreateInfo info = image_info(
+            a.format, {c.target.width, c.target.height},
+            VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                static_cast<VkImageUsageFlags>(a.is_depth_stencil()
+                                                   ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
+                                                   : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT));
+        return has_linear(capabilities.physical, info);
+    });
+}
+
+}  // namespace
 
 std::optional<std::string> missing_images(const Capabilities& capabilities, const cases::Case& c) {
     const ImageWay way = image_way(c);
@@ -54,6 +81,9 @@ std::optional<std::string> missing_images(const Capabilities& capabilities, cons
     }
     if (layers > 1 && c.target.samples > 1 && !capabilities.portability.multisampled_arrays) {
         return "the device lacks the feature multisampleArrayImage (VK_KHR_portability_subset)";
+    }
+    if (way.is_linear && !has_linear_attachment(capabilities, c)) {
+        return fmt::format("the device lacks {}", cases::row_of(c.variation.door).needs);
     }
     return std::nullopt;
 }

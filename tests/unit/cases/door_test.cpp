@@ -76,6 +76,60 @@ TEST(Door, ATriangleTakesAllButWhatNeedsMore) {
     }
 }
 
+// What a fragment shader writes is stored with the bits of a clear where neither is rounded.
+TEST(Door, OnlyExactClearsAreDrawn) {
+    Case c = case_of(door_file("", kDoorTriangle));
+    const auto takes_clear = [&c](ColorFormat format, const glm::vec4& clear) {
+        c.target.color.emplace();
+        c.target.color->format = format;
+        c.target.color->clear = clear;
+        return can_take(Door::clear_draw, c);
+    };
+    EXPECT_TRUE(takes_clear(ColorFormat::rgba8_unorm, {0, 1, 1, 0}));
+    EXPECT_FALSE(takes_clear(ColorFormat::rgba8_unorm, {0, 1, 0.5F, 0}));
+    EXPECT_FALSE(takes_clear(ColorFormat::rgba8_srgb, {0.25F, 1, 0, 0}));
+    EXPECT_TRUE(takes_clear(ColorFormat::r5g6b5_unorm, {0, 1, 0, 0.5F}));  // no alpha
+    EXPECT_TRUE(takes_clear(ColorFormat::rgba16_float, {0.5F, -2, 1024, 0}));
+    EXPECT_FALSE(takes_clear(ColorFormat::rgba16_float, {0.3F, 0, 0, 0}));
+    EXPECT_TRUE(takes_clear(ColorFormat::rgba32_float, {0.3F, -0.0F, 0, 0}));
+    EXPECT_FALSE(takes_clear(ColorFormat::rgba32_float, {0x1p-140F, 0, 0, 0}));
+    EXPECT_FALSE(
+        takes_clear(ColorFormat::rgba32_float, glm::vec4(std::numeric_limits<float>::quiet_NaN())));
+    EXPECT_TRUE(takes_clear(ColorFormat::rgba8_uint, {7, 255, 0, 1}));
+    c.target.depth_format = DepthFormat::d16_unorm;
+    c.target.depth_clear = 0.5F;
+    EXPECT_FALSE(can_take(Door::clear_draw, c));
+    c.target.depth_clear = 1;
+    EXPECT_TRUE(can_take(Door::clear_draw, c));
+    c.target.layers = 2;
+    EXPECT_FALSE(can_take(Door::clear_draw, c));
+    EXPECT_FALSE(can_take(Door::image_linear, c));
+}
+
+TEST(Door, NoDynamicStateAsksForSamplesToBeShaded) {
+    Case c = case_of(door_file("", kDoorTriangle));
+    EXPECT_TRUE(can_take(Door::shader_objects, c));
+    c.draws.front().multisample.min_sample_shading = 0.5F;
+    EXPECT_FALSE(can_take(Door::shader_objects, c));
+}
+
+TEST(Door, WhatIsWrittenByFeedbackKeepsItsNumbers) {
+    Case c = case_of(door_file("", kDoorTriangle));
+    EXPECT_TRUE(can_take(Door::transform_feedback, c));
+    c.draws.front().indices = {{0, 1, 2}};
+    EXPECT_FALSE(can_take(Door::transform_feedback, c));
+    EXPECT_FALSE(can_take(Door::transform_feedback, case_of(door_file("", kStrip))));
+}
+
+// The module that pulls vertices is built with distances of one kind.
+TEST(Door, PulledVerticesHaveOneKindOfDistances) {
+    Case c = case_of(door_file("", kDoorTriangle));
+    c.draws.front().distances.clip_count = 1;
+    EXPECT_TRUE(can_take(Door::vertices_pulled, c));
+    c.draws.front().distances.cull_count = 1;
+    EXPECT_FALSE(can_take(Door::vertices_pulled, c));
+}
+
 TEST(Door, OnlyNumbersOfBinary16GoThroughHalves) {
     using Positions = std::vector<glm::vec4>;
     EXPECT_TRUE(are_half_floats(Positions{{-0.0F, 0.5F, -65504.0F, 0x1p-14F}, {1, 2, 3, 4}}));

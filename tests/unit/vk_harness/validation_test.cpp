@@ -82,6 +82,9 @@ TEST(Validation, NothingToSayAboutAnyDoor) {
         c.draws.push_back(c.draws[0]);
         c.draws[1].topology = cases::Topology::triangle_strip;
         c.draws[1].indices = {{0, 1, 2}};
+        if (row.door == cases::Door::transform_feedback) {
+            c.draws.pop_back();  // no strips
+        }
         c.variation.door = row.door;
         batch.push_back(c);
     }

@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "vk_harness/pipeline/clear_pipeline.hpp"
+
+#include <algorithm>
+
+#include "cases/format/color_format.hpp"
+#include "cases/model/sample.hpp"
+#include "shaders/shaders.hpp"
+#include "vk_harness/pipeline/pipeline_cache.hpp"
+#include "vk_harness/pipeline/pipeline_state.hpp"
+#include "vk_harness/pipeline/shader_stage.hpp"
+
+namespace vk_harness {
+
+namespace {
+
+bool is_integer_format(VkFormat format) {
+    return std::any_of(cases::kColorFormats.begin(), cases::kColorFormats.end(),
+                       [format](const cases::ColorFormatRow& row) {
+                           return row.vulkan == uint32_t{format} && cases::is_integer(row.format);
+                       });
+}
+
+constexpr VkStencilOpState kReplace = {VK_STENCIL_OP_REPLACE,
+                                       VK_STENCIL_OP_REPLACE,
+                                       VK_STENCIL_OP_REPLACE,
+                                       VK_COMPARE_OP_ALWAYS,
+                                       cases::kStencilBits,
+                                       cases::kStencilBits,
+                                       0};
+
+}  // namespace
+
+std::vector<ClearKey> clear_keys(const cases::Target& target,
+                                 const std::vector<Attachment>& attachments) {
+    ClearKey key;
+    key.samples = target.samples;
+    key.sample_locations = target.sample_locations;
+    for (const Attachment& a : attachments) {
+        if (a.is_resolved()) {
+            continue;
+        }
+        if (a.role == Role::depth) {
+            key.depth_format = a.format;
+            key.has_depth = true;
+        } else if (a.role == Role::stencil) {
+            key.stencil_format = a.format;
+            key.has_stencil = true;
+        } else {
+            key.colors.push_back(a.format);
+        }
+    }
+    std::vector<ClearKey> keys;
+    for (uint32_t k = 0; k < key.colors.size(); ++k) {
+        keys.push_back(key);
+        keys.back().location = k;
+        keys.back().is_integer = is_integer_format(key.colors[k]);
+    }
+    if (key.has_depth || key.has_stencil) {
+        keys.push_back(key);
+    }
+    return keys;
+}
+
+VkClearValue other_clear(const Attachment& attachment) {
+    VkClearValue out{};
+    if (attachment.is_depth_stencil()) {
+        out.depthStencil = {attachment.clear.depthStencil.depth > 0.5F ? 0.0F : 1.0F,
+                            attachment.clear.depthStencil.stencil ^ cases::kStencilBits};
+        return out;
+    }
+    const auto& own = attachment.clear.color.uint32;
+    const bool has_zero = std::find(std::begin(own), std::end(own), 0U) != std::end(own);
+    if (has_zero && is_integer_format(attachment.format)) {
+        std::fill(std::begin(out.color.uint32), std::end(out.color.uint32), 0x5aU);
+    } else if (has_zero) {
+        std::fill(std::begin(out.color.float32), std::end(out.color.float32), 0.8125F);
+    }
+    return out;
+}
+
+Result<VkPipeline> PipelineCache::get_clear(const ClearKey& key) {
+    const auto found = clears_.find(key);
+    if (found != clears_.end()) {
+        return found->second.get();
+    }
+    auto pipeline = make_clear(key);
+    if (!pipeline) {
+        return fail(pipeline.error());
+    }
+    return clears_.emplace(key, std::move(*pipeline)).first->second.get();
+}
+
+Result<Handle<VkPipeline>> PipelineCache::make_clear(const ClearKey& key) {
+    const bool is_depth = !key.location;
+    auto vertex = shader_module(shaders::clear_vertex());
+    auto fragment = shader_module(is_depth ? shaders::clear_depth()
+                                           : shaders::clear_color(*key.location, key.is_integer));
+    if (!vertex || !fragment) {
+        return fail(!vertex ? vertex.error() : fragment.error());
+    }
+    const std::array<VkPipelineShaderStageCreateInfo, 2> stages = {
+        stage_info(VK_SHADER_STAGE_VERTEX_BIT, *vertex),
+        stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, *fragment)};
+    const VkPipelineVertexInputStateCreateInfo inputs =
+        Typed{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+    VkPipelineInputAssemblyStateCreateInfo assembly =
+        Typed{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
+    assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    VkPipelineViewportStateCreateInfo viewport =
+        Typed{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
+    viewport.viewportCount = viewport.scissorCount = 1;
+    VkPipelineRasterizationStateCreateInfo rasterization =
+        Typed{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
+    rasterization.lineWidth = 1;
+    PipelineKey target;
+    target.samples = key.samples;
+    target.sample_locations = key.sample_locations;
+    MultisampleState multisample;
+    multisample_state(target, multisample);
+    VkPipelineDepthStencilStateCreateInfo depth =
+        Typed{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
+    depth.depthCompareOp = VK_COMPARE_OP_ALWAYS;
+    depth.depthTestEnable = depth.depthWriteEnable = is_depth && key.has_depth ? VK_TRUE : VK_FALSE;
+    depth.stencilTestEnable = is_depth && key.has_stencil ? VK_TRUE : VK_FALSE;
+    depth.front = depth.back = kReplace;
+    std::vector<VkPipelineColorBlendAttachmentState> blends(key.colors.size());
+    if (key.location) {
+        blends.at(*key.location).colorWriteMask =
+            VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
+            VK_COLOR_COMPONENT_A_BIT;
+    }
+    VkPipelineColorBlendStateCreateInfo blend =
+        Typed{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
+    blend.attachmentCount = static_cast<uint32_t>(blends.size());
+    blend.pAttachments = blends.data();
+    std::vector<VkDynamicState> states = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+    if (is_depth && key.has_stencil) {
+        states.push_back(VK_DYNAMIC_STATE_STENCIL_REFERENCE);
+    }
+    VkPipelineDynamicStateCreateInfo dynamic =
+        Typed{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
+    dynamic.dynamicStateCount = static_cast<uint32_t>(states.size());
+    dynamic.pDynamicStates = states.data();
+    VkPipelineRenderingCreateInfo rendering =
+        Typed{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
+    rendering.colorAttachmentCount = static_cast<uint32_t>(key.colors.size());
+    rendering.pColorAttachmentFormats = key.colors.data();
+    rendering.depthAttachmentFormat = key.depth_format;
+    rendering.stencilAttachmentFormat = key.stencil_format;
+
+    VkGraphicsPipelineCreateInfo info = Typed{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO};
+    info.pNext = &rendering;
+    info.stageCount = static_cast<uint32_t>(stages.size());
+    info.pStages = stages.data();
+    info.pVertexInputState = &inputs;
+    info.pInputAssemblyState = &assembly;
+    info.pViewportState = &viewport;
+    info.pRasterizationState = &rasterization;
+    info.pMultisampleState = &multisample.info;
+    info.pDepthStencilState = &depth;
+    info.pColorBlendState = &blend;
+    info.pDynamicState = &dynamic;
+    info.layout = layout_.get();
+    return create(info, cache_.get());
+}
+
+}  // namespace vk_harness

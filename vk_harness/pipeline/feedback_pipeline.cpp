@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The pipeline of the door transform_feedback (cases/model/door.hpp): nothing is rasterized.
+#include "vk_harness/pipeline/pipeline_cache.hpp"
+#include "vk_harness/pipeline/pipeline_state.hpp"
+
+namespace vk_harness {
+
+Result<VkPipeline> PipelineCache::get_feedback(uint32_t attribute_count) {
+    const auto found = feedbacks_.find(attribute_count);
+    if (found != feedbacks_.end()) {
+        return found->second.get();
+    }
+    auto pipeline = make_feedback(attribute_count);
+    if (!pipeline) {
+        return fail(pipeline.error());
+    }
+    return feedbacks_.emplace(attribute_count, std::move(*pipeline)).first->second.get();
+}
+
+Result<Handle<VkPipeline>> PipelineCache::make_feedback(uint32_t attribute_count) {
+    auto vertex = shader_module(shaders::feedback_vertex(attribute_count));
+    if (!vertex) {
+        return fail(vertex.error());
+    }
+    const VkPipelineShaderStageCreateInfo stage = stage_info(VK_SHADER_STAGE_VERTEX_BIT, *vertex);
+    PipelineKey key;
+    key.attribute_count = attribute_count;
+    key.way.interleaved = true;
+    VertexInputState inputs;
+    vertex_input_state(key, inputs);
+    VkPipelineInputAssemblyStateCreateInfo assembly =
+        Typed{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
+    assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    VkPipelineRasterizationStateCreateInfo rasterization =
+        Typed{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
+    rasterization.rasterizerDiscardEnable = VK_TRUE;
+    rasterization.lineWidth = 1;
+    const VkPipelineRenderingCreateInfo rendering =
+        Typed{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
+    VkGraphicsPipelineCreateInfo info = Typed{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO};
+    info.pNext = &rendering;
+    info.stageCount = 1;
+    info.pStages = &stage;
+    info.pVertexInputState = &inputs.info;
+    info.pInputAssemblyState = &assembly;
+    info.pRasterizationState = &rasterization;
+    info.layout = layout_.get();
+    return create(info, cache_.get());
+}
+
+}  // namespace vk_harness
