@@ -77,6 +77,23 @@ std::string left_out_files(const fs::path& selector, const fs::path& root) {
                              "selector or by selectors of its cases";
 }
 
+// The suite's folder that an option or variable names. The folder above it has the same cases by
+// other ids, which no expectation file knows.
+OrStop<fs::path> named_root(const fs::path& folder, const std::string& by) {
+    const auto refused = [&](const std::string& why) {
+        return tl::unexpected(Stop{report::kExitInvalidFile,
+                                   {"no suite in '" + folder.string() + "' (" + by + "): " + why}});
+    };
+    if (!is_folder(folder)) {
+        return refused("it is not a folder");
+    }
+    if (is_folder(folder / "suite") && is_folder(folder / "expectations")) {
+        return refused("it holds the suite's folder and its expectation files; name '" +
+                       (folder / "suite").string() + "'");
+    }
+    return folder;
+}
+
 // A leaf of a case file: "FILE.toml:seed=1". The leaf is empty where a selector names none.
 struct LeafOfFile {
     std::string file, leaf;
@@ -275,19 +292,10 @@ std::vector<std::string> LoadedSuite::suite_ids() const {
 
 OrStop<fs::path> find_suite_root(const Program& program, const std::string& option) {
     if (!option.empty()) {
-        if (is_folder(option)) {
-            return fs::path(option);
-        }
-        return tl::unexpected(Stop{report::kExitInvalidFile,
-                                   {"no suite in '" + option + "' (--suite): it is not a folder"}});
+        return named_root(option, "--suite");
     }
     if (const char* value = std::getenv("EDGECASE_SUITE"); value != nullptr && *value != '\0') {
-        if (is_folder(value)) {
-            return fs::path(value);
-        }
-        return tl::unexpected(Stop{
-            report::kExitInvalidFile,
-            {"no suite in '" + std::string(value) + "' (EDGECASE_SUITE): it is not a folder"}});
+        return named_root(value, "EDGECASE_SUITE");
     }
     fs::path folder = fs::path(program.path).parent_path();
     for (int up = 0; up < 5 && folder.has_relative_path(); ++up, folder = folder.parent_path()) {

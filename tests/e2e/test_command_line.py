@@ -254,6 +254,9 @@ class Usage(ProgramTest):
     def test_no_suite(self):
         self.refused(["run", "--suite", "nowhere"], "nowhere", 3)
 
+    def test_the_folder_above_the_suite(self):
+        self.refused(["list", "--suite", str(SOURCE / "cases")], str(SOURCE / "cases/suite"), 3)
+
     def test_resume_takes_no_selector(self):
         self.refused(["run", "fam/c1", "--resume", "x"], "--resume")
 

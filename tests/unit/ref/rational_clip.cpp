@@ -33,7 +33,6 @@ struct Work {
     std::vector<mpq_class> distance, distance_error;
 };
 
-
 // The component that a plane of the view volume bounds; the distance is w + c (low), w - c (high),
 // z (z_low).
 size_t component_of(ClipPlane plane) {
