@@ -54,12 +54,13 @@ std::vector<capture::StrayWrite> stray_writes(const CasePlan& plan,
     return out;
 }
 
-// Whether a rendering gets a submission of its own: a driver that never leaves a pipeline's
-// rasterizer discard or blends no more behind a pipeline without colours (docs/findings), or loses
-// one of several submissions, would spoil other cases, too, and whose fault that is could not be
-// told.
+// Whether a rendering gets a submission of its own. A driver would spoil other cases, too, and
+// whose fault that is could not be told, if it never left a pipeline's rasterizer discard, blended
+// all colours as the first behind a pipeline without any (docs/findings), or lost one of several
+// submissions. The host's memory may be refused.
 bool is_drawn_alone(const cases::Case& c) {
     if (c.variation.door == cases::Door::submissions ||
+        c.variation.door == cases::Door::memory_imported ||
         c.variation.door == cases::Door::transform_feedback) {
         return true;
     }

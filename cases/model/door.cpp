@@ -150,11 +150,23 @@ bool can_be_tessellated(const Case& c) {
            });
 }
 
+// Whether no triangle of a list has two vertices in one place, which a device may drop before they
+// are written ("Transform Feedback").
+bool are_corners_apart(const std::vector<glm::vec4>& p) {
+    for (size_t k = 0; k + 2 < p.size(); k += 3) {
+        if (p[k] == p[k + 1] || p[k + 1] == p[k + 2] || p[k] == p[k + 2]) {
+            return false;
+        }
+    }
+    return true;
+}
+
 // What is written of them has the order of the draw, so that its vertices keep their numbers.
 bool are_plain_lists(const Case& c) {
     return all_draws(c, [](const Draw& draw) {
         return draw.topology == Topology::triangle_list && !draw.indices &&
-               draw.distances.clip_count == 0 && draw.distances.cull_count == 0;
+               draw.distances.clip_count == 0 && draw.distances.cull_count == 0 &&
+               are_corners_apart(draw.positions);
     });
 }
 
@@ -418,7 +430,8 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
      "Vertices are written to a buffer by transform feedback, in a rendering without attachments, "
      "and "
      "drawn from there.",
-     "transformFeedback (VK_EXT_transform_feedback)", "lists without indices, without distances",
+     "transformFeedback (VK_EXT_transform_feedback)",
+     "lists without indices and distances, the corners of each triangle in three places",
      are_plain_lists},
 }};
 

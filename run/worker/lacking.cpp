@@ -10,6 +10,22 @@
 
 namespace run {
 
+namespace {
+
+// The case without doors if it claims more than rules of doors, which a worker is not told: it is
+// drawn without them, too.
+cases::Case without_doors_beside_others(cases::Case c) {
+    const bool is_of_doors = std::ranges::all_of(
+        c.rules, [](const std::string& rule) { return rule.starts_with("door."); });
+    if (!is_of_doors) {
+        std::erase_if(c.relations,
+                      [](const cases::Relation& r) { return r.door != cases::Door::none; });
+    }
+    return c;
+}
+
+}  // namespace
+
 cases::Expected<std::vector<std::string>> ask_what_is_lacking(
     const Command& command, WorkerOptions options, std::chrono::milliseconds timeout,
     const std::vector<const cases::Case*>& asked, SignalFd& signals) {
@@ -19,6 +35,14 @@ cases::Expected<std::vector<std::string>> ask_what_is_lacking(
         return tl::unexpected(client.error());
     }
     std::vector<std::string> reasons(asked.size());  // by index
+    std::vector<cases::Case> copies;
+    copies.reserve(asked.size());
+    std::vector<const cases::Case*> all;
+    for (const cases::Case* c : asked) {
+        const bool has_doors = std::ranges::any_of(
+            c->relations, [](const cases::Relation& r) { return r.door != cases::Door::none; });
+        all.push_back(has_doors ? &copies.emplace_back(without_doors_beside_others(*c)) : c);
+    }
     for (;;) {
         const std::vector<WorkerEvent> events = wait_for_events(*client, signals);
         if (events.empty()) {
@@ -26,7 +50,7 @@ cases::Expected<std::vector<std::string>> ask_what_is_lacking(
         }
         for (const WorkerEvent& event : events) {
             if (std::get_if<vk_harness::DeviceInfo>(&event) != nullptr) {
-                client->render(1, asked, 0);
+                client->render(1, all, 0);
             } else if (const auto* failure = std::get_if<vk_harness::Failure>(&event)) {
                 return cases::failure("{}", failure->message);
             } else if (const auto* result = std::get_if<CaseResult>(&event);

@@ -210,14 +210,12 @@ void render_batch(Backend& backend, const RenderRequest& request, const std::vec
     send(FrameType::batch_done, {});
 }
 
-// What the device lacks for a case. One of doors alone shows nothing on a device that has none of
-// the doors that its file names (lacking_doors in run/judge.cpp says so of a drawn one).
+// What the device lacks for a case, whose relations name doors only if it is of doors alone
+// (ask_what_is_lacking): it shows nothing on a device that has none of them (lacking_doors in
+// run/judge.cpp says so of a drawn one).
 std::string lacking_of(const Backend& backend, const cases::Case& c) {
     std::string reason = backend.lacking(c);
-    const bool is_of_doors =
-        std::all_of(c.rules.begin(), c.rules.end(),
-                    [](const std::string& rule) { return rule.starts_with("door."); });
-    if (!reason.empty() || !is_of_doors) {
+    if (!reason.empty()) {
         return reason;
     }
     for (const cases::Derivation& d : cases::derivations(c)) {

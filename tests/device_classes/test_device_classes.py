@@ -159,7 +159,10 @@ class Suite(ClassTest):
             _, results, printed = of_share(json.dumps(device))
             with self.subTest(device=name):
                 if results is not None:
-                    worse = [c["id"] for c in results["cases"] if c["status"] not in (plain[c["id"]], "unsupported")]
+                    # A class may lack what shows an expected failure: without gl_PrimitiveID nobody sees wrong ones.
+                    better = {"xfail": "xpass"}
+                    worse = [c["id"] for c in results["cases"]
+                             if c["status"] not in (plain[c["id"]], better.get(plain[c["id"]]), "unsupported")]
                     self.assertEqual(worse, [], printed)
                 else:
                     self.assertEqual(device.get("reaches", device["aim"]), 100, printed)

@@ -260,8 +260,16 @@ void clear_by_draws(const Device& device, const PipelineCache& pipelines, VkComm
                     const CasePlan& plan) {
     const VolkDeviceTable& vk = device.vk();
     const cases::Target& target = plan.test->target;
-    const VkViewport viewport = {
-        0, 0, static_cast<float>(target.width), static_cast<float>(target.height), 0, 1};
+    // A pixel further on each side, if the device has room: a sample on the border of the view
+    // volume need not be covered, and some lie on that of their pixel.
+    const auto& most = device.capabilities().limits.maxViewportDimensions;
+    const float margin = target.width + 2 <= most[0] && target.height + 2 <= most[1] ? 1.0F : 0.0F;
+    const VkViewport viewport = {-margin,
+                                 -margin,
+                                 static_cast<float>(target.width) + 2 * margin,
+                                 static_cast<float>(target.height) + 2 * margin,
+                                 0,
+                                 1};
     const VkRect2D scissor = {{0, 0}, {target.width, target.height}};
     for (const ClearDraw& clear : plan.clears) {
         vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, clear.pipeline);

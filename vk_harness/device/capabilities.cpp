@@ -188,6 +188,7 @@ void query_optional_features(Capabilities& c) {
     c.doors = query_door_support(c.physical, has_device_extension);
     c.discard = query_discard_support(c.physical, c.info.api_version, has_device_extension);
     c.clip = query_clip_support(c.physical, has_device_extension);
+    c.doors.feedback = c.doors.feedback && c.clip.feedback_keeps_order;
     c.barycentrics = barycentric.fragmentShaderBarycentric == VK_TRUE;
     if (c.barycentrics) {
         VkPhysicalDeviceFragmentShaderBarycentricPropertiesKHR order =

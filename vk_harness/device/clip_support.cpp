@@ -39,6 +39,9 @@ ClipSupport query_clip_support(VkPhysicalDevice physical, HasExtension has_exten
     out.max_combined = limits.maxCombinedClipAndCullDistances;
     out.depth_clip_control = optional.depth_clip_control.depthClipControl == VK_TRUE;
     out.last_provoking_vertex = optional.provoking.provokingVertexLast == VK_TRUE;
+    out.feedback_keeps_order =
+        out.last_provoking_vertex &&
+        optional.provoking.transformFeedbackPreservesProvokingVertex == VK_TRUE;
     out.provoking_per_pipeline = modes.provokingVertexModePerPipeline == VK_TRUE;
     return out;
 }

@@ -26,6 +26,9 @@ struct ClipSupport {
     bool depth_clip_control = false;                        // VK_EXT_depth_clip_control
     bool last_provoking_vertex = false;   // VK_EXT_provoking_vertex, provokingVertexLast
     bool provoking_per_pipeline = false;  // provokingVertexModePerPipeline
+    // transformFeedbackPreservesProvokingVertex, without which any vertex of a primitive may be
+    // written first; only with last_provoking_vertex.
+    bool feedback_keeps_order = false;
 };
 
 using HasExtension = bool (*)(VkPhysicalDevice, const char*);

@@ -169,6 +169,9 @@ Result<Device> Device::create(const Capabilities& capabilities) {
     DiscardFeatures discard;
     enable_discard_features(capabilities.discard, features, extensions, discard);
     DoorFeatures doors;
+    // It is no feature of a device without transform feedback.
+    clip.provoking.transformFeedbackPreservesProvokingVertex =
+        capabilities.doors.feedback ? VK_TRUE : VK_FALSE;
     enable_door_features(capabilities.doors, features, features12, extensions, doors);
     DepthBiasControlFeatures bias_control;
     enable_depth_bias_control(capabilities.depth_bias, features, extensions, bias_control);

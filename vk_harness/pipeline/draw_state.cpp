@@ -102,9 +102,10 @@ namespace {
 
 // The dynamic part of what pipeline_key() switches on for nothing.
 void switch_on_unused(const cases::Case& c, const cases::Draw& own, DrawState& out) {
-    // "Depth Bias": a sum of products with 0. Without clamping, depth and so the slope is bounded,
-    // and no product is one of infinity.
-    if (!own.depth.bias && !own.depth.clamp) {
+    // "Depth Bias": a sum of products with 0. Where depths are clipped, they and so the slope are
+    // bounded, and no product is one of infinity; without a depth attachment nothing says what the
+    // unit is.
+    if (!own.depth.bias && c.target.has_depth && own.depth.clip.value_or(!own.depth.clamp)) {
         out.has_bias = VK_TRUE;
     }
     // "Drawing": it applies to indexed draws, and to the largest index of 32 bits, which names no
