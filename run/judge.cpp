@@ -67,10 +67,7 @@ std::string lacking_doors(const cases::Case& c, std::span<const cases::Derivatio
         }
         reason = is_own && reason.empty() ? found[k].closed : reason;
     }
-    const bool is_of_doors =
-        std::all_of(c.rules.begin(), c.rules.end(),
-                    [](const std::string& rule) { return rule.starts_with("door."); });
-    return is_of_doors ? reason : std::string();
+    return cases::claims_doors_alone(c) ? reason : std::string();
 }
 
 // A device may keep viewports to its own grid: what is wrong with the viewports as they are is

@@ -554,17 +554,6 @@ std::optional<Rejection> check_case(const Capabilities& capabilities, const case
         if (auto missing = missing_images(capabilities, c)) {
             return unsupported("{}", *missing);
         }
-        // The pipelines of these doors' own have the first vertex as the provoking one.
-        const bool has_own_pipelines = c.variation.door == cases::Door::clear_draw ||
-                                       c.variation.door == cases::Door::transform_feedback;
-        if (has_own_pipelines && !capabilities.clip.provoking_per_pipeline &&
-            std::ranges::any_of(c.draws, [](const cases::Draw& draw) {
-                return draw.provoking == cases::ProvokingVertex::last;
-            })) {
-            return unsupported(
-                "the device lacks provokingVertexModePerPipeline, and the draws' provoking vertex "
-                "is the last");
-        }
     }
     return check_target(capabilities, c);
 }

@@ -23,6 +23,46 @@ bool is_feeding(cases::Door door) {
            (door != cases::Door::none && cases::row_of(door).group == cases::DoorGroup::vertices);
 }
 
+// Whether a draw has state that is on for nothing. The test of a stencil that is not there always
+// is.
+bool has_unused_state(const cases::Case& c, const cases::Draw& draw, const TargetLayout& layout) {
+    cases::Case plain = c;
+    plain.variation.door = cases::Door::none;
+    const PipelineKey with = pipeline_key(c, draw, layout);
+    const PipelineKey without = pipeline_key(plain, draw, layout);
+    const bool restarts = draw.primitive_restart;
+    return !c.target.has_stencil || with.colors != without.colors || with.logic != without.logic ||
+           with.unused_bounds || draw_state(c, draw, restarts) != draw_state(plain, draw, restarts);
+}
+
+// Why nothing of what the door is for has come about; nothing if some has.
+std::optional<std::string> closed_door(const CasePlan& plan, const TargetLayout& layout) {
+    const cases::Case& c = *plan.test;
+    switch (c.variation.door) {
+        case cases::Door::state_unused:
+            if (std::ranges::none_of(c.draws, [&](const cases::Draw& draw) {
+                    return has_unused_state(c, draw, layout);
+                })) {
+                return "the case leaves no state that is on for nothing";
+            }
+            break;
+        case cases::Door::image_linear:
+            if (std::ranges::none_of(plan.images, [](const auto* i) { return i->is_linear(); })) {
+                return "the device has no image of linear tiling for any attachment";
+            }
+            break;
+        case cases::Door::memory_aliased:
+            if (std::ranges::none_of(plan.images,
+                                     [](const auto* i) { return i->alias() != VK_NULL_HANDLE; })) {
+                return "the device has no memory in which another image lies beside an attachment";
+            }
+            break;
+        default:
+            break;
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 // A call that fails is never 'unsupported': what a device does not advertise, check_case has
@@ -106,6 +146,11 @@ bool BatchRenderer::plan(CasePlan& plan, Rendered& result) {
         return false;
     }
     plan.images = std::move(*images);
+    if (auto closed = closed_door(plan, layout)) {
+        result.status = Rendered::Status::unsupported;
+        result.reason = *std::move(closed);
+        return false;
+    }
     if (test.variation.door == cases::Door::clear_draw) {
         if (auto made = plan_clears(plan); !made) {
             reject(result, made.error());

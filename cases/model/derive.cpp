@@ -168,6 +168,11 @@ std::vector<Derivation> derivations(const Case& c) {
     return result;
 }
 
+bool claims_doors_alone(const Case& c) {
+    return std::all_of(c.rules.begin(), c.rules.end(),
+                       [](const std::string& rule) { return rule.starts_with("door."); });
+}
+
 Case derive(const Case& c, const Derivation& derivation) {
     Case derived = c;
     derived.relations.clear();

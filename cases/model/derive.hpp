@@ -24,6 +24,9 @@ struct Derivation {
 // The renderings of all relations of a case, in their order; same-twice and write-masks have two.
 std::vector<Derivation> derivations(const Case& c);
 
+// Whether a case claims rules of doors and no others: without its doors it shows nothing.
+bool claims_doors_alone(const Case& c);
+
 // What is drawn for one of them: the case with the variation, without relations.
 Case derive(const Case& c, const Derivation& derivation);
 

@@ -266,7 +266,8 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
     {Door::separate_buffers, "separate-buffers", kVertices, kSame, rule::door_buffer,
      "Each binding, and the indices, have a buffer and memory of their own.", "", kAny, is_any},
     {Door::memory_imported, "memory-imported", kVertices, kSame, rule::door_buffer,
-     "The same, in memory that the application has allocated itself and the device imports.",
+     "Each binding, and the indices, have a buffer of their own, in memory that the application "
+     "has allocated itself and the device imports.",
      "the import of memory of the host for vertices and indices (VK_EXT_external_memory_host)",
      kAny, is_any},
     {Door::stride_padded, "stride-padded", kVertices, kRight, rule::door_layout,
@@ -413,8 +414,8 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
     {Door::memory_dedicated, "memory-dedicated", kTargets, kRight, rule::door_target,
      "Each attachment has an allocation that is dedicated to it.", "", kAny, is_any},
     {Door::memory_aliased, "memory-aliased", kTargets, kRight, rule::door_target,
-     "The memory of each attachment is that of another image, too, which is cleared to another "
-     "colour just before.",
+     "The memory of each attachment is that of another image, too, where the device has memory for "
+     "both; that image is cleared to another colour just before.",
      "", kAny, is_any},
     {Door::multiview, "multiview", kTargets, kRight, rule::door_target,
      "The second view of two is drawn, alone, to the second layer.", "multiview",

@@ -6,6 +6,7 @@
 #include <map>
 #include <variant>
 
+#include "cases/model/derive.hpp"
 #include "run/worker/worker_client.hpp"
 
 namespace run {
@@ -15,9 +16,7 @@ namespace {
 // The case without doors if it claims more than rules of doors, which a worker is not told: it is
 // drawn without them, too.
 cases::Case without_doors_beside_others(cases::Case c) {
-    const bool is_of_doors = std::ranges::all_of(
-        c.rules, [](const std::string& rule) { return rule.starts_with("door."); });
-    if (!is_of_doors) {
+    if (!cases::claims_doors_alone(c)) {
         std::erase_if(c.relations,
                       [](const cases::Relation& r) { return r.door != cases::Door::none; });
     }

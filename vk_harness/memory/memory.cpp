@@ -390,6 +390,7 @@ Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D ex
         info.tiling = VK_IMAGE_TILING_LINEAR;
     }
     Image image;
+    image.is_linear_ = info.tiling == VK_IMAGE_TILING_LINEAR;
     if (auto made = put(image.image_, make_image(device, info)); !made) {
         return fail(made.error());
     }

@@ -100,10 +100,12 @@ class Image {
     Guard* guard() const { return memory_.guard.get(); }  // may be null
     // Another image in the same memory, which vkCmdClearColorImage clears; null if there is none.
     VkImage alias() const { return alias_.get(); }
+    bool is_linear() const { return is_linear_; }
 
   private:
     ImageMemory memory_;
     Handle<VkImage> image_, alias_;
+    bool is_linear_ = false;
     Handle<VkImageView> view_;
     Handle<VkImageView> bits_view_;
     Handle<VkImageView> stencil_view_;

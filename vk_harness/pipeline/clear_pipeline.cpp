@@ -81,15 +81,7 @@ VkClearValue other_clear(const Attachment& attachment) {
 }
 
 Result<VkPipeline> PipelineCache::get_clear(const ClearKey& key) {
-    const auto found = clears_.find(key);
-    if (found != clears_.end()) {
-        return found->second.get();
-    }
-    auto pipeline = make_clear(key);
-    if (!pipeline) {
-        return fail(pipeline.error());
-    }
-    return clears_.emplace(key, std::move(*pipeline)).first->second.get();
+    return get_or_make(clears_, key, [&] { return make_clear(key); });
 }
 
 Result<Handle<VkPipeline>> PipelineCache::make_clear(const ClearKey& key) {

@@ -8,15 +8,7 @@
 namespace vk_harness {
 
 Result<VkPipeline> PipelineCache::get_feedback(uint32_t attribute_count) {
-    const auto found = feedbacks_.find(attribute_count);
-    if (found != feedbacks_.end()) {
-        return found->second.get();
-    }
-    auto pipeline = make_feedback(attribute_count);
-    if (!pipeline) {
-        return fail(pipeline.error());
-    }
-    return feedbacks_.emplace(attribute_count, std::move(*pipeline)).first->second.get();
+    return get_or_make(feedbacks_, attribute_count, [&] { return make_feedback(attribute_count); });
 }
 
 Result<Handle<VkPipeline>> PipelineCache::make_feedback(uint32_t attribute_count) {

@@ -109,27 +109,11 @@ Result<VkShaderModule> PipelineCache::shader_module(std::span<const uint32_t> co
 }
 
 Result<VkPipeline> PipelineCache::get(const PipelineKey& key) {
-    const auto found = pipelines_.find(key);
-    if (found != pipelines_.end()) {
-        return found->second.get();
-    }
-    auto pipeline = make_graphics(key);
-    if (!pipeline) {
-        return fail(pipeline.error());
-    }
-    return pipelines_.emplace(key, std::move(*pipeline)).first->second.get();
+    return get_or_make(pipelines_, key, [&] { return make_graphics(key); });
 }
 
 Result<VkRenderPass> PipelineCache::get_pass(const PassKey& key) {
-    const auto found = passes_.find(key);
-    if (found != passes_.end()) {
-        return found->second.get();
-    }
-    auto pass = make_render_pass(*device_, key);
-    if (!pass) {
-        return fail(pass.error());
-    }
-    return passes_.emplace(key, std::move(*pass)).first->second.get();
+    return get_or_make(passes_, key, [&] { return make_render_pass(*device_, key); });
 }
 
 Result<VkPipeline> PipelineCache::get_copy(const Attachment& attachment) {

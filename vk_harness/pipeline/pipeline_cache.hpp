@@ -50,6 +50,20 @@ class PipelineCache {
 
   private:
     explicit PipelineCache(const Device& device) : device_(&device) {}
+    // What a map has for the key, else what is made for it, which the map then keeps.
+    template <class Key, class Object, class Make>
+    static Result<Object> get_or_make(std::map<Key, Handle<Object>>& kept, const Key& key,
+                                      const Make& make) {
+        const auto found = kept.find(key);
+        if (found != kept.end()) {
+            return found->second.get();
+        }
+        auto made = make();
+        if (!made) {
+            return fail(made.error());
+        }
+        return kept.emplace(key, std::move(*made)).first->second.get();
+    }
     // The module `code`, embedded in the program, with changes.
     Result<VkShaderModule> shader_module(std::span<const uint32_t> code,
                                          ShaderChanges changes = {});

@@ -121,6 +121,17 @@ TEST(Door, WhatIsWrittenByFeedbackKeepsItsNumbers) {
     EXPECT_FALSE(can_take(Door::transform_feedback, case_of(door_file("", kStrip))));
 }
 
+// A device may drop a triangle with two vertices in one place before they are written.
+TEST(Door, WhatIsWrittenByFeedbackHasItsCornersApart) {
+    const std::string second = "vertices = [[0,0],[8,0],[0,4],[1,1],";
+    EXPECT_TRUE(
+        can_take(Door::transform_feedback, case_of(door_file("", second + "[2,1],[1,2]]"))));
+    EXPECT_FALSE(
+        can_take(Door::transform_feedback, case_of(door_file("", second + "[2,1],[1,1]]"))));
+    EXPECT_FALSE(
+        can_take(Door::transform_feedback, case_of(door_file("", second + "[2,1],[2,1]]"))));
+}
+
 // The module that pulls vertices is built with distances of one kind.
 TEST(Door, PulledVerticesHaveOneKindOfDistances) {
     Case c = case_of(door_file("", kDoorTriangle));

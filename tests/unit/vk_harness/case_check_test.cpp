@@ -52,6 +52,26 @@ void expect_rejected(const Capabilities& capabilities, const cases::Case& c,
     EXPECT_EQ(rejection->reason, reason);
 }
 
+// The harness's own pipelines of some doors have the first vertex as the provoking one.
+TEST(CaseCheck, ProvokingVerticesAreMixedOnlyWhereTheyMayBe) {
+    Capabilities m = made_up();
+    m.clip.last_provoking_vertex = true;
+    m.doors.feedback = true;
+    m.limits.maxImageArrayLayers = 256;
+    cases::Case c = good();
+    c.draws[0].provoking = cases::ProvokingVertex::last;
+    EXPECT_FALSE(check_case(m, c).has_value());
+    for (const cases::Door door : {cases::Door::clear_draw, cases::Door::transform_feedback}) {
+        c.variation.door = door;
+        m.clip.provoking_per_pipeline = false;
+        expect_rejected(m, c, Rendered::Status::unsupported,
+                        "the device has one provoking vertex mode for all draws (not "
+                        "provokingVertexModePerPipeline)");
+        m.clip.provoking_per_pipeline = true;
+        EXPECT_FALSE(check_case(m, c).has_value());
+    }
+}
+
 TEST(CaseCheck, GoodCasesPass) {
     cases::Case c = good();
     EXPECT_FALSE(check_case(made_up(), c).has_value());

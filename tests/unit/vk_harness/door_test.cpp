@@ -89,5 +89,18 @@ TEST(Door, EachDrawsThePlainPicture) {
     }
 }
 
+// With depth and stencil, an own bias, a list and a colour that is not blended for nothing there is
+// no state left that changes nothing.
+TEST(Door, UnusedStateIsToldWhereThereIsNone) {
+    cases::Case c = two_triangles(cases::Door::state_unused);
+    EXPECT_EQ(renderer().render({{c}}, {})[0].status, Rendered::Status::drawn);
+    c.target.has_stencil = true;
+    EXPECT_EQ(renderer().render({{c}}, {})[0].status, Rendered::Status::drawn);
+    c.draws[0].depth.bias = cases::DepthBias{1, 0, 0};
+    const Rendered none = renderer().render({{c}}, {})[0];
+    EXPECT_EQ(none.status, Rendered::Status::unsupported);
+    EXPECT_EQ(none.reason, "the case leaves no state that is on for nothing");
+}
+
 }  // namespace
 }  // namespace vk_harness::testing
