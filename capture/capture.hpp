@@ -76,6 +76,8 @@ struct StrayWrite {
 
 // In place of a count: the query never had a result.
 inline constexpr uint64_t kNotCounted = UINT64_MAX;
+// The same in a derived rendering: its queries of pipeline statistics are not asked.
+inline constexpr uint64_t kNotAsked = UINT64_MAX - 1;
 
 // What was captured, and a plane of each kind; a Store is a vector of entries or a view of them. A
 // plane that the target lacks is empty (for_each_plane says which).
@@ -85,9 +87,9 @@ struct Planes {
     bool has_primitive = false;  // Writer::primitive is meaningful
     bool has_half_hits = false;  // hits were added up in binary16, not in binary32
     uint32_t attribute_count = 0;
-    // What the draws' occlusion queries counted, one number a draw, 0 where a draw has none:
-    // samples where the query is precise, else 0 or 1 for any, kNotCounted where it never had a
-    // result. Empty if no draw of the case has a query.
+    // What the draws' queries counted, one number a draw, 0 where a draw has none: samples where an
+    // occlusion query is precise, else 0 or 1 for any; a statistic; kNotCounted where it never had
+    // a result. Empty if no draw of the case has a query.
     std::vector<uint64_t> counted;
 
     Store<glm::vec4> hits;        // front hits, back hits, kHitGuard, kHitGuard + hits

@@ -10,6 +10,7 @@
 #include "cases/base/number_text.hpp"
 #include "cases/model/rule.hpp"
 #include "cases/model/sample.hpp"
+#include "cases/model/words.hpp"
 #include "diff/verdict.hpp"
 #include "ref/blit/blit.hpp"
 #include "ref/color/color.hpp"
@@ -17,6 +18,7 @@
 #include "ref/expectation/counted.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/expectation/explain.hpp"
+#include "ref/expectation/statistics.hpp"
 #include "ref/reason/reason.hpp"
 #include "ref/stencil/values.hpp"
 #include "report/text/wrap.hpp"
@@ -215,7 +217,8 @@ std::string counted_text(const cases::Case& c, const ref::Expectation& expectati
     const ref::SampleExpectation& sample = expectation.samples[index];
     const std::span<const ref::CountedDraw> counted = expectation.counted_of(sample);
     for (uint32_t draw = 0; draw < c.draws.size(); ++draw) {
-        if (c.draws[draw].query == cases::Query::none) {
+        const cases::Query query = c.draws[draw].query;
+        if (query != cases::Query::occlusion && query != cases::Query::occlusion_precise) {
             continue;
         }
         const auto found = std::ranges::find(counted, draw, &ref::CountedDraw::draw);
@@ -251,6 +254,16 @@ std::string queries_text(const cases::Case& c, const ref::Expectation& expectati
                     : all[draw].least == 0 ? "any number"
                                            : "any number but 0");
                 break;
+            default: {
+                const ref::CountBounds bounds =
+                    ref::statistic_bounds(c, draw, expectation, ref::HitsAt());
+                text += fmt::format("the query of draw {} has to give {}{} {}\n", draw,
+                                    bounds.most == ref::kNoMost ? "at least " : "",
+                                    bounds.most == ref::kNoMost ? fmt::format("{}", bounds.least)
+                                                                : number_text(bounds),
+                                    cases::word_of(c.draws[draw].query));
+                break;
+            }
         }
     }
     return text;

@@ -20,6 +20,7 @@
 #include "cli/prepare/suite.hpp"
 #include "ref/expectation/counted.hpp"
 #include "ref/expectation/expectation.hpp"
+#include "ref/expectation/statistics.hpp"
 #include "ref/value/value.hpp"
 #include "report/record/run.hpp"
 
@@ -104,17 +105,27 @@ Json triangles_json(const ref::Expectation& e) {
     return list;
 }
 
-// What each query counts, and of one that is not precise gives as 0 or any other number.
+// What each query counts, and of one that is not precise gives as 0 or any other number; null is no
+// bound.
 Json queries_json(const Reference& r) {
     Json list = Json::array();
     const std::vector<ref::CountBounds> all =
         ref::count_bounds(r.expectation, r.c.draws.size(), ref::HitsAt());
     for (size_t draw = 0; draw < all.size(); ++draw) {
-        if (r.c.draws[draw].query != cases::Query::none) {
-            list.push_back({{"draw", draw},
-                            {"query", cases::word_of(r.c.draws[draw].query)},
-                            {"counted", {all[draw].least, all[draw].most}}});
+        const cases::Query query = r.c.draws[draw].query;
+        if (query == cases::Query::none) {
+            continue;
         }
+        const ref::CountBounds bounds =
+            cases::is_statistic(query)
+                ? ref::statistic_bounds(r.c, draw, r.expectation, ref::HitsAt())
+                : all[draw];
+        Json counted = {bounds.least, bounds.most};
+        if (bounds.most == ref::kNoMost) {
+            counted[1] = nullptr;
+        }
+        list.push_back(
+            {{"draw", draw}, {"query", cases::word_of(query)}, {"counted", std::move(counted)}});
     }
     return list;
 }

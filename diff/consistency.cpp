@@ -194,6 +194,9 @@ class BitComparison {
     // The same samples pass in both, so that the queries count as many.
     void compare_counts() {
         for (uint32_t k = 0; k < base_.counted.size() && k < counted_.size(); ++k) {
+            if (counted_[k] == capture::kNotAsked) {
+                continue;
+            }
             ++result_.compared;
             if (base_.counted[k] != counted_[k]) {
                 ++result_.different;

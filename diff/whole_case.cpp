@@ -5,13 +5,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "cases/model/rule_ids.hpp"
 #include "cases/model/sample.hpp"
+#include "cases/model/words.hpp"
 #include "diff/consistency.hpp"
 #include "ref/expectation/counted.hpp"
+#include "ref/expectation/statistics.hpp"
 
 namespace diff {
 
@@ -31,23 +35,54 @@ bool has_wrong_hits(const Verdict& verdict) {
 // The bounds of the number that a query gives: of one that is not precise 0 or any other, which is
 // captured as 1.
 CountBounds given(const CountBounds& counted, cases::Query query) {
-    return query == cases::Query::occlusion_precise
-               ? counted
-               : CountBounds{std::min(counted.least, uint64_t{1}),
-                             std::min(counted.most, uint64_t{1})};
+    return query != cases::Query::occlusion ? counted
+                                            : CountBounds{std::min(counted.least, uint64_t{1}),
+                                                          std::min(counted.most, uint64_t{1})};
+}
+
+// What the queries of a case may have counted, by draw.
+std::vector<CountBounds> bounds_of(const cases::Case& c, const ref::Expectation& expectation,
+                                   const ref::HitsAt& hits) {
+    std::vector<CountBounds> out = ref::count_bounds(expectation, c.draws.size(), hits);
+    for (size_t k = 0; k < c.draws.size(); ++k) {
+        if (cases::is_statistic(c.draws[k].query)) {
+            out[k] = ref::statistic_bounds(c, k, expectation, hits);
+        }
+    }
+    return out;
 }
 
 std::string to_text(const CountBounds& bounds, cases::Query query) {
     if (query == cases::Query::occlusion) {
         return bounds.most == 0 ? "0" : bounds.least == 0 ? "any number" : "not 0";
     }
-    return bounds.least == bounds.most ? fmt::format("{}", bounds.least)
-                                       : fmt::format("{} to {}", bounds.least, bounds.most);
+    return bounds.most >= ref::kNoMost   ? fmt::format("at least {}", bounds.least)
+           : bounds.least == bounds.most ? fmt::format("{}", bounds.least)
+                                         : fmt::format("{} to {}", bounds.least, bounds.most);
+}
+
+std::string why_of_statistic(const CountBounds& bounds, cases::Query query) {
+    constexpr std::array<std::string_view, 6> kCounted = {
+        "the vertices that input assembly processes",
+        "the primitives that input assembly processes",
+        "the invocations of the vertex shader",
+        "the primitives that reach clipping",
+        "the primitives that clipping puts out",
+        "the invocations of the fragment shader"};
+    const size_t number =
+        static_cast<size_t>(query) - static_cast<size_t>(cases::Query::input_vertices);
+    return fmt::format("a query of pipeline statistics counts {}: {}", kCounted.at(number),
+                       bounds.most >= ref::kNoMost
+                           ? "never fewer than what the draw must do"
+                           : "as many as the draw must do, and no more than it may");
 }
 
 std::string why_of(uint64_t got, const CountBounds& counted, const cases::Draw& draw) {
     if (got == capture::kNotCounted) {
         return "the query is not available, although its submission has ended";
+    }
+    if (cases::is_statistic(draw.query)) {
+        return why_of_statistic(counted, draw.query);
     }
     return fmt::format(
         "a query counts the samples of the draw's fragments that survive all tests{}; by what the "
@@ -105,8 +140,7 @@ void judge_queries(const cases::Case& c, const capture::CaptureView& capture,
     // hits that are wrong here and right there leave less open there.
     std::vector<bool> is_settled(c.draws.size(), true);
     const bool is_open = has_wrong_hits(verdict);
-    const std::vector<CountBounds> asked =
-        ref::count_bounds(attribution.at(verdict.profile), c.draws.size(), hits);
+    const std::vector<CountBounds> asked = bounds_of(c, attribution.at(verdict.profile), hits);
     for (size_t k = 0; k < c.draws.size(); ++k) {
         is_settled[k] =
             c.draws[k].query == cases::Query::none || (!is_open && is_right(k, asked[k]));
@@ -115,8 +149,7 @@ void judge_queries(const cases::Case& c, const capture::CaptureView& capture,
         if (profile > verdict.profile || std::ranges::find(is_settled, false) == is_settled.end()) {
             break;
         }
-        const std::vector<CountBounds> counted =
-            ref::count_bounds(attribution.at(profile), c.draws.size(), hits);
+        const std::vector<CountBounds> counted = bounds_of(c, attribution.at(profile), hits);
         for (size_t k = 0; k < c.draws.size(); ++k) {
             if (is_settled[k] || is_right(k, counted[k])) {
                 continue;
@@ -126,9 +159,12 @@ void judge_queries(const cases::Case& c, const capture::CaptureView& capture,
             const CountBounds bounds = given(counted[k], query);
             const uint64_t got = capture.counted[k];
             Finding finding = finding_of_case(FindingKind::value);
-            finding.rule = cases::rule::query_occlusion;
+            const bool is_statistic = cases::is_statistic(query);
+            finding.rule =
+                is_statistic ? cases::rule::query_statistics : cases::rule::query_occlusion;
             finding.level = profile;
-            finding.quantity = fmt::format("occlusion query of draw {}", k);
+            finding.quantity = is_statistic ? fmt::format("{} of draw {}", cases::word_of(query), k)
+                                            : fmt::format("occlusion query of draw {}", k);
             finding.expected = to_text(bounds, query);
             const bool is_any = query == cases::Query::occlusion && got == 1;
             finding.got = is_any ? "not 0" : count_text(got);

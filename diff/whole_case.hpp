@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What is wrong with a rendering as a whole and belongs to no sample: memory beside its attachments
-// (rule write.outside), numbers of its queries (query.occlusion).
+// (rule write.outside), numbers of its queries (query.occlusion, query.statistics).
 #pragma once
 
 #include <span>

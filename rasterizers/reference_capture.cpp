@@ -16,6 +16,7 @@
 #include "ref/color/color.hpp"
 #include "ref/expectation/counted.hpp"
 #include "ref/expectation/expectation.hpp"
+#include "ref/expectation/statistics.hpp"
 #include "ref/value/fragment/shading_rate.hpp"
 #include "ref/value/value.hpp"
 
@@ -113,6 +114,9 @@ std::vector<uint64_t> counts_of(const cases::Case& c, const ref::Expectation& ex
         return {};
     }
     std::vector<uint64_t> out(c.draws.size(), 0);
+    const auto hits = [&](size_t index) -> std::optional<uint32_t> {
+        return static_cast<uint32_t>(capture.hits[index].x + capture.hits[index].y);
+    };
     for (size_t index = 0; index < capture.hits.size(); ++index) {
         const auto draws = expectation.counted_of(expectation.samples[index]);
         auto left = static_cast<uint32_t>(capture.hits[index].x + capture.hits[index].y);
@@ -121,12 +125,18 @@ std::vector<uint64_t> counts_of(const cases::Case& c, const ref::Expectation& ex
         }
         for (const ref::CountedDraw& draw : draws) {
             const uint32_t more = std::min(left, draw.shown_most - draw.shown_least);
-            left -= more;
-            out[draw.draw] += draw.shown_least + more + draw.hidden_least;
+            const uint32_t either = std::min(left - more, draw.either_most);
+            left -= more + either;
+            out[draw.draw] +=
+                draw.shown_least + more + draw.hidden_least + std::max(either, draw.either_least);
         }
     }
     for (size_t k = 0; k < out.size(); ++k) {
         const cases::Query query = c.draws[k].query;
+        if (cases::is_statistic(query)) {
+            out[k] = ref::statistic_bounds(c, k, expectation, hits).least;
+            continue;
+        }
         const uint64_t most = query == cases::Query::none        ? 0
                               : query == cases::Query::occlusion ? 1
                                                                  : UINT64_MAX;

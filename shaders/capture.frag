@@ -36,6 +36,7 @@ layout(push_constant) uniform Draw {
     layout(offset = 92) float other_depth;
     layout(offset = 96) uint other_where;  // numbered as cases::Discard
     layout(offset = 100) uint depth_is_coord;
+    layout(offset = 104) uint discarded_by;  // the input whose sign discards
 #if COLOR == 3
     layout(offset = 112) vec4 second;
 #endif
@@ -200,6 +201,24 @@ layout(location = COLOR_LOCATION + 7) out uvec4 out_integer3;
 #endif
 
 #if DISCARD || DEPTH
+// Whether the first component of the input that is asked for is below 0.
+bool is_negative() {
+    float value = 0.0;
+#if ATTRIBUTES > 0 && DISCARD
+    value = draw.discarded_by == 0u ? in_attribute0.x : value;
+#endif
+#if ATTRIBUTES > 1 && DISCARD
+    value = draw.discarded_by == 1u ? in_attribute1.x : value;
+#endif
+#if ATTRIBUTES > 2 && DISCARD
+    value = draw.discarded_by == 2u ? in_attribute2.x : value;
+#endif
+#if ATTRIBUTES > 3 && DISCARD
+    value = draw.discarded_by == 3u ? in_attribute3.x : value;
+#endif
+    return value < 0.0;
+}
+
 // Whether cases::Discard of this number picks the fragment.
 bool is_picked(uint which) {
     uvec2 pixel = uvec2(gl_FragCoord.xy);
@@ -209,7 +228,8 @@ bool is_picked(uint which) {
         case 2u: return pixel.y % 2u == 1u;
         case 3u: return (pixel.x + pixel.y) % 2u == 1u;
         case 4u: return gl_FrontFacing;
-        default: return !gl_FrontFacing;
+        case 5u: return !gl_FrontFacing;
+        default: return is_negative();
     }
 }
 #endif

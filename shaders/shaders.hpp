@@ -92,7 +92,8 @@ struct DrawConstants {
     float depth = 0, other_depth = 0;
     uint32_t other_where = 0;
     uint32_t depth_is_coord = 0;
-    uint32_t unused_too[2] = {};
+    uint32_t discarded_by = 0;  // the input whose sign discards (Discard::negative)
+    uint32_t unused_too = 0;
     float second[4] = {};  // the second colour, if the shader writes one
 };
 // maxPushConstantsSize is at least 128.

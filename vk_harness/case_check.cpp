@@ -404,6 +404,9 @@ std::optional<Rejection> check_draw(const Capabilities& c, const cases::Draw& dr
     if (draw.query == cases::Query::occlusion_precise && !c.precise_queries) {
         return unsupported("the device lacks the feature occlusionQueryPrecise");
     }
+    if (cases::is_statistic(draw.query) && !c.pipeline_statistics) {
+        return unsupported("the device lacks the feature pipelineStatisticsQuery");
+    }
     if (auto rejection = check_conservative(c.info, draw)) {
         return rejection;
     }
@@ -500,7 +503,7 @@ std::optional<Rejection> check_case(const Capabilities& capabilities, const case
             return invalid("a draw writes to {} colour targets of {}", draw.other_colors.size() + 1,
                            c.target.color_count());
         }
-        const std::vector<uint32_t> colored = cases::colored_attributes(c.target, draw);
+        const std::vector<uint32_t> colored = cases::drawn_attributes(c.target, draw);
         if (std::any_of(colored.begin(), colored.end(),
                         [&](uint32_t k) { return k >= draw.attributes.size(); })) {
             return invalid("a draw's colour comes from an attribute that it does not have");

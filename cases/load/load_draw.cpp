@@ -14,6 +14,7 @@
 #include "cases/load/color.hpp"
 #include "cases/load/parts.hpp"
 #include "cases/load/transform.hpp"
+#include "cases/model/sample.hpp"
 
 namespace cases {
 
@@ -34,15 +35,43 @@ class DrawLoader {
     // Once: what is loaded is moved out.
     Draw load(const std::string& name, std::vector<std::string>& notes) {
         context_.known_keys(table_, "[[draw]]",
-                            {"topology",      "space",       "vertices",     "generate",
-                             "indices",       "viewport",    "scissor",      "viewport_index",
-                             "layer",         "cull",        "front_face",   "rasterizer_discard",
-                             "provoking",     "depth",       "depth_volume", "clip_distance",
-                             "cull_distance", "attribute",   "mirror",       "rotate",
-                             "offset",        "winding",     "first",        "order",
-                             "color",         "sample_mask", "shader_mask",  "min_sample_shading",
-                             "stencil",       "discard",     "early_tests",  "frag_depth",
-                             "query",         "discard_by",  "conservative", "conservative_extra"});
+                            {"topology",
+                             "space",
+                             "vertices",
+                             "generate",
+                             "indices",
+                             "viewport",
+                             "scissor",
+                             "viewport_index",
+                             "layer",
+                             "cull",
+                             "front_face",
+                             "rasterizer_discard",
+                             "provoking",
+                             "depth",
+                             "depth_volume",
+                             "clip_distance",
+                             "cull_distance",
+                             "attribute",
+                             "mirror",
+                             "rotate",
+                             "offset",
+                             "winding",
+                             "first",
+                             "order",
+                             "color",
+                             "sample_mask",
+                             "shader_mask",
+                             "min_sample_shading",
+                             "stencil",
+                             "discard",
+                             "early_tests",
+                             "frag_depth",
+                             "query",
+                             "discard_by",
+                             "conservative",
+                             "conservative_extra",
+                             "discard_attribute"});
         draw_.where = table_.where;
         context_.read(table_, "topology", draw_.topology);
         context_.read(table_, "cull", draw_.cull);
@@ -84,6 +113,7 @@ class DrawLoader {
         check_space(name, notes);
         if (!draw_.positions.empty()) {
             refuse_with_surface();
+            read_discard_attribute();
             check_shader();
             check_written_depth();
             return std::move(draw_);
@@ -96,6 +126,7 @@ class DrawLoader {
         if (const TomlValue* value = table_.find("attribute")) {
             draw_.attributes = read_attributes(context_, *value, source);
         }
+        read_discard_attribute();
         check_shader();
         read_color();
         if (!context_.errors().empty()) {
@@ -126,6 +157,35 @@ class DrawLoader {
         return value == nullptr ? 0 : context_.word(*value, key, words).value_or(0);
     }
 
+    // By the value of which attribute the shader discards: by default of the first one.
+    void read_discard_attribute() {
+        const TomlValue* value = table_.find("discard_attribute");
+        if (!discards_by_value(draw_)) {
+            if (value != nullptr) {
+                context_.error(value->where,
+                               "discard_attribute needs discard = \"negative\"; leave it out");
+            }
+            return;
+        }
+        if (!context_.errors().empty()) {
+            return;
+        }
+        if (draw_.attributes.empty()) {
+            context_.error(table_.find("discard")->where,
+                           "discard = \"negative\" needs an attribute whose values it tests; write "
+                           "[[draw.attribute]]");
+            return;
+        }
+        if (value != nullptr) {
+            std::vector<std::string_view> names;
+            for (const Attribute& attribute : draw_.attributes) {
+                names.emplace_back(attribute.name);
+            }
+            draw_.discard_attribute = static_cast<uint32_t>(
+                context_.word(*value, "discard_attribute", names).value_or(0));
+        }
+    }
+
     // Every fragment that is counted must show, or "some implementations may kill" it ("Occlusion
     // Queries"): it adds to the hits. With early tests the sample mask "should" be tested before
     // samples are counted, "but may instead be performed after" ("Fragment Operations").
@@ -138,7 +198,8 @@ class DrawLoader {
             context_.error(table_.find("query")->where,
                            "a query needs the attachments that count hits; leave attachments "
                            "out of [target]");
-        } else if (draw_.early_tests && draw_.multisample.sample_mask != 0xffffffffU) {
+        } else if (draw_.early_tests && draw_.multisample.sample_mask != 0xffffffffU &&
+                   !is_statistic(draw_.query)) {
             context_.error(table_.find("query")->where,
                            "with early tests a device may count what the sample mask takes away; "
                            "leave out query, early_tests or sample_mask");

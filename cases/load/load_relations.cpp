@@ -80,8 +80,10 @@ std::string objection(const Relation& relation, const Case& c) {
     if (!c.target.has_instruments) {
         return "needs the attachments that attributes are written to; leave out attachments = ...";
     }
-    if (any_draw([&c](const Draw& draw) { return !colored_attributes(c.target, draw).empty(); })) {
-        return "does not go with a colour that is an attribute; leave it out";
+    if (any_draw([&c](const Draw& draw) { return !drawn_attributes(c.target, draw).empty(); })) {
+        return "does not go with a colour that is an attribute, nor with a discard by one; leave "
+               "it "
+               "out";
     }
     return {};
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "cases/model/rule_ids.hpp"
+#include "cases/model/sample.hpp"
 #include "cases/model/words.hpp"
 
 namespace cases {
@@ -108,13 +109,17 @@ glm::vec4 blend_constants(const Draw& draw) {
     return blended == draw.other_colors.end() ? glm::vec4(0) : blended->blend->constants;
 }
 
-std::vector<uint32_t> colored_attributes(const Target& target, const Draw& draw) {
+std::vector<uint32_t> drawn_attributes(const Target& target, const Draw& draw) {
     std::vector<uint32_t> out;
     for (uint32_t location = 0; location < target.color_count(); ++location) {
         const int32_t attribute = output_at(target, draw, location).attribute;
         if (attribute >= 0 && std::find(out.begin(), out.end(), attribute) == out.end()) {
             out.push_back(static_cast<uint32_t>(attribute));
         }
+    }
+    const auto discards = static_cast<int32_t>(draw.discard_attribute);
+    if (discards_by_value(draw) && std::find(out.begin(), out.end(), discards) == out.end()) {
+        out.push_back(draw.discard_attribute);
     }
     return out;
 }

@@ -37,8 +37,9 @@ uint32_t attributes_of(const Case& c);
 const ColorOutput& output_at(const Target& target, const Draw& draw, uint32_t location);
 // The blend constants, which a device has once for all targets: those of an output that blends.
 glm::vec4 blend_constants(const Draw& draw);
-// The attributes that are colours, each once, in the order of the locations.
-std::vector<uint32_t> colored_attributes(const Target& target, const Draw& draw);
+// The attributes that are drawn without instruments, each once: those that are colours, in the
+// order of the locations, then the one whose sign discards.
+std::vector<uint32_t> drawn_attributes(const Target& target, const Draw& draw);
 
 // The word of a relation in a case file.
 std::string_view to_string(RelationKind kind);

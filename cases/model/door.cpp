@@ -177,7 +177,7 @@ bool is_constant(const std::vector<glm::vec4>& values) {
            });
 }
 
-// Without instruments the only attributes that are drawn are colours.
+// Without instruments the only attributes that are drawn are colours and what discards.
 bool has_constant_input(const Case& c) {
     return any_draw(c, [&c](const Draw& draw) {
         const auto& attributes = draw.attributes;
@@ -185,10 +185,9 @@ bool has_constant_input(const Case& c) {
             return true;
         }
         if (!c.target.has_instruments) {
-            return std::ranges::any_of(
-                colored_attributes(c.target, draw), [&attributes](uint32_t k) {
-                    return k < attributes.size() && is_constant(attributes[k].values);
-                });
+            return std::ranges::any_of(drawn_attributes(c.target, draw), [&attributes](uint32_t k) {
+                return k < attributes.size() && is_constant(attributes[k].values);
+            });
         }
         return std::any_of(attributes.begin(), attributes.end(),
                            [](const Attribute& a) { return is_constant(a.values); });

@@ -25,16 +25,27 @@ enum class Interpolation : uint8_t { smooth, noperspective, flat };
 enum class Auxiliary : uint8_t { none, centroid, sample };
 enum class ProvokingVertex : uint8_t { first, last };
 // Which of a draw's fragments the fragment shader discards: those in every second column, row or
-// both, pixel (0, 0) not among them, or those of one face.
-enum class Discard : uint8_t { none, odd_columns, odd_rows, checker, front, back };
+// both, pixel (0, 0) not among them, those of one face, or those of which the first component of an
+// attribute is below 0.
+enum class Discard : uint8_t { none, odd_columns, odd_rows, checker, front, back, negative };
 // By which instruction: OpKill, OpDemoteToHelperInvocation or OpTerminateInvocation.
 enum class DiscardBy : uint8_t { kill, demote, terminate };
 // Whether a draw covers pixels by area instead of by samples: every one that a triangle touches, or
 // those that it fills (VK_EXT_conservative_rasterization).
 enum class Conservative : uint8_t { none, overestimate, underestimate };
-// The occlusion query that counts a draw's samples; one that is not precise tells only whether any
-// passed.
-enum class Query : uint8_t { none, occlusion, occlusion_precise };
+// The query around a draw: one that counts its samples, or, not precise, tells only whether any
+// passed; or one of pipeline statistics that counts what a stage does.
+enum class Query : uint8_t {
+    none,
+    occlusion,
+    occlusion_precise,
+    input_vertices,  // the first of the statistics
+    input_primitives,
+    vertex_invocations,
+    clipping_invocations,
+    clipping_primitives,
+    fragment_invocations
+};
 // What a fragment shader promises of the depth that it writes, beside the fragment's own.
 enum class DepthLayout : uint8_t { any, greater, less, unchanged };
 // How the depth test and the stencil test compare.
@@ -292,6 +303,7 @@ struct Draw {
     Conservative conservative = Conservative::none;
     float conservative_extra = 0;     // extraPrimitiveOverestimationSize, pixels; overestimate
     Discard discard = Discard::none;  // by the fragment shader
+    uint32_t discard_attribute = 0;   // Discard::negative: number of the attribute
     DiscardBy discard_by = DiscardBy::kill;
     // EarlyFragmentTests: depth and stencil are tested and stored before the fragment shader, and
     // what it discards has been stored.
@@ -323,6 +335,7 @@ struct Draw {
         visit("conservative", d.conservative...);
         visit("conservative_extra", d.conservative_extra...);
         visit("discard", d.discard...);
+        visit("discard_attribute", d.discard_attribute...);
         visit("discard_by", d.discard_by...);
         visit("early_tests", d.early_tests...);
         visit("frag_depth", d.frag_depth...);

@@ -92,6 +92,13 @@ constexpr std::array kRules = {
         "It changes no colour, no depth and no stencil, unless depth and stencil are tested before "
         "the shader; its neighbours, and the same pixel's other fragments, are drawn as ever.",
         "fragops-shader", "", "cases/model/sample.hpp"},
+    Rule{rule::discard_value, Profile::vulkan,
+         "A shader that discards where a value is negative discards where it must be, and there "
+         "alone",
+         "The fragment is gone where every number that the value may be there is below 0, and is "
+         "drawn where none is; -0 and 0 are not below it. In between either is right, but what is "
+         "drawn shows no negative value: the shader has one value, which it tests and writes.",
+         "fragops-shader", "", "ref/value/sign.hpp"},
     Rule{rule::discard_early_tests, Profile::vulkan,
          "With early tests a discarded fragment has stored its depth and stencil",
          "EarlyFragmentTests: depth and stencil are tested and stored before the fragment shader "
@@ -488,6 +495,15 @@ constexpr std::array kRules = {
          "0, and not 0 where it is not. What the shader discards after early tests is counted at "
          "practice and direct3d, and may be at vulkan.",
          "fragops-samplecount", "", "ref/expectation/counted.hpp"},
+    Rule{rule::query_statistics, Profile::vulkan,
+         "Pipeline statistics count no less than what a draw must do",
+         "Vertices and primitives that are assembled, vertices that are shaded, primitives that "
+         "reach clipping and that leave it, fragments that are shaded: never fewer than there "
+         "must be, from practice on also of samples that are shaded one by one and of fragments "
+         "that are discarded after early tests. How many more is free but at direct3d, where "
+         "vertices and primitives of lists and strips are counted exactly and the others lie "
+         "between two numbers.",
+         "queries-pipestats", "20.4.7", "ref/expectation/statistics.hpp"},
     Rule{rule::resolve_select, Profile::vulkan, "Resolving by selection takes a sample as it is",
          "SAMPLE_ZERO, MIN and MAX leave one of the pixel's samples, bit for bit.",
          "renderpass-resolve-operations", "", "diff/resolve.hpp"},

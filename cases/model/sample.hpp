@@ -67,11 +67,11 @@ std::string sample_text(const Target& target, const SampleId& id);
 // Fragments that the fragment shader discards. Source: Vulkan specification, "Fragment Shading" and
 // "Early Fragment Test Mode"; SPIR-V specification, OpKill and EarlyFragmentTests; docs/rules.md.
 //
-// A discarded fragment has no effect on any attachment. Which are discarded is exact: by the pixel,
-// whose integer coordinates the shader takes from gl_FragCoord, or by the face. So where the tests
-// come after the shader, or nothing is tested, the draw covers fewer samples. With early tests such
-// a fragment covers its sample, and is tested and stored like any other; no hit and no value shows
-// it.
+// A discarded fragment has no effect on any attachment. Which are discarded is exact by the pixel,
+// whose integer coordinates the shader takes from gl_FragCoord, and by the face; by an attribute it
+// is as sure as the attribute's value is (ref/value/sign.hpp). So where the tests come after the
+// shader, or nothing is tested, the draw covers fewer samples. With early tests such a fragment
+// covers its sample, and is tested and stored like any other; no hit and no value shows it.
 
 inline bool discards_pixel(Discard discard, uint32_t x, uint32_t y) {
     switch (discard) {
@@ -89,6 +89,15 @@ inline bool discards_pixel(Discard discard, uint32_t x, uint32_t y) {
 inline bool discards_face(Discard discard, bool front) {
     return discard == (front ? Discard::front : Discard::back);
 }
+
+inline bool discards_by_value(const Draw& draw) {
+    return draw.discard == Discard::negative;
+}
+inline bool discards_by_value(const Case& c) {
+    return std::ranges::any_of(c.draws, [](const Draw& draw) { return discards_by_value(draw); });
+}
+// Numbers nearer to 0 may be taken for 0 ("Denormalized values": a device may flush them).
+inline constexpr float kLeastNormal = 0x1p-126F;
 
 // Whether what a draw discards has been tested and stored before.
 inline bool stores_discarded(const Draw& draw) {
@@ -128,22 +137,39 @@ inline bool tests_bounds(const Case& c) {
            });
 }
 
-// Whether some draw has an occlusion query.
+// Whether some draw has a query.
 inline bool asks_queries(const Case& c) {
     return std::ranges::any_of(c.draws, [](const Draw& draw) { return draw.query != Query::none; });
+}
+inline bool is_statistic(Query query) {
+    return query >= Query::input_vertices;
+}
+// Whether what a query gives depends on what becomes of fragments at each sample, and whether some
+// draw has such a one.
+inline bool counts_fragments(Query query) {
+    return query == Query::occlusion || query == Query::occlusion_precise ||
+           query == Query::fragment_invocations;
+}
+inline bool counts_fragments(const Case& c) {
+    return std::ranges::any_of(c.draws,
+                               [](const Draw& draw) { return counts_fragments(draw.query); });
 }
 
 // Whether a fragment is as if it had never been.
 inline bool takes_away_pixel(const Draw& draw, uint32_t x, uint32_t y) {
     return !draw.early_tests && discards_pixel(draw.discard, x, y);
 }
+inline bool takes_away_by_value(const Draw& draw) {
+    return !draw.early_tests && discards_by_value(draw);
+}
 inline bool takes_away_face(const Draw& draw, bool front) {
     return !draw.early_tests && discards_face(draw.discard, front);
 }
-// Whether some fragments of some draw are taken away by their pixel.
+// Whether some fragments of some draw are taken away by their pixel, or by a value there.
 inline bool takes_away_pixels(const Case& c) {
     return std::ranges::any_of(c.draws, [](const Draw& draw) {
-        return takes_away_pixel(draw, 1, 0) || takes_away_pixel(draw, 0, 1);
+        return takes_away_pixel(draw, 1, 0) || takes_away_pixel(draw, 0, 1) ||
+               takes_away_by_value(draw);
     });
 }
 

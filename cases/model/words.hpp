@@ -40,14 +40,22 @@ inline constexpr WordList<4> kWords<CullMode> = {"none", "front", "back", "front
 template <>
 inline constexpr WordList<2> kWords<FrontFace> = {"counter-clockwise", "clockwise"};
 template <>
-inline constexpr WordList<6> kWords<Discard> = {"none",    "odd-columns", "odd-rows",
-                                                "checker", "front",       "back"};
+inline constexpr WordList<7> kWords<Discard> = {"none",  "odd-columns", "odd-rows", "checker",
+                                                "front", "back",        "negative"};
 template <>
 inline constexpr WordList<3> kWords<DiscardBy> = {"kill", "demote", "terminate"};
 template <>
 inline constexpr WordList<3> kWords<Conservative> = {"none", "overestimate", "underestimate"};
 template <>
-inline constexpr WordList<3> kWords<Query> = {"none", "occlusion", "occlusion-precise"};
+inline constexpr WordList<9> kWords<Query> = {"none",
+                                              "occlusion",
+                                              "occlusion-precise",
+                                              "input-vertices",
+                                              "input-primitives",
+                                              "vertex-invocations",
+                                              "clipping-invocations",
+                                              "clipping-primitives",
+                                              "fragment-invocations"};
 template <>
 inline constexpr WordList<4> kWords<DepthLayout> = {"any", "greater", "less", "unchanged"};
 template <>
@@ -131,9 +139,9 @@ constexpr bool ends_with(Enum last) {
 }  // namespace detail
 static_assert(detail::ends_with(Topology::triangle_fan) &&
               detail::ends_with(CullMode::front_and_back) &&
-              detail::ends_with(FrontFace::clockwise) && detail::ends_with(Discard::back) &&
+              detail::ends_with(FrontFace::clockwise) && detail::ends_with(Discard::negative) &&
               detail::ends_with(DepthLayout::unchanged) &&
-              detail::ends_with(Query::occlusion_precise) &&
+              detail::ends_with(Query::fragment_invocations) &&
               detail::ends_with(Interpolation::flat) && detail::ends_with(Auxiliary::sample) &&
               detail::ends_with(ProvokingVertex::last) && detail::ends_with(CompareOp::always) &&
               detail::ends_with(DepthFormat::d16_unorm) &&

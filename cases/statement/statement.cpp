@@ -326,9 +326,17 @@ constexpr Statement kStatements[] = {
     {120, "discarded fragments", exact, exact,
      "What the fragment shader discards leaves no trace; with early tests its depth and stencil are stored.",
      {"discard.fragment", "discard.early-tests"}, ""},
+    {128, "fragments discarded by the sign of an attribute", tolerance, tolerance,
+     "Discarded where the attribute must be negative, drawn where it cannot be; free where its error bound holds 0, but "
+     "never drawn with a negative value.",
+     {"discard.value"}, ""},
     {123, "occlusion queries", exact, not_spoken,
      "A precise one counts the samples that survive all tests; any other is 0 or not as that is.",
      {"query.occlusion"}, ""},
+    {129, "pipeline statistics", tolerance, tolerance,
+     "Never less than the draw must do; how much more is bounded at direct3d alone, where assembled vertices and "
+     "primitives of lists and strips are exact.",
+     {"query.statistics"}, ""},
     {121, "depth bounds", exact, exact,
      "The bounds belong to what lies in them; what fails changes neither depth nor stencil. On D16 and D24 a stored "
      "depth within a step of a bound is open.",

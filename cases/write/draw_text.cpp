@@ -10,6 +10,7 @@
 #include "cases/load/color.hpp"
 #include "cases/model/derive.hpp"
 #include "cases/model/float_bits.hpp"
+#include "cases/model/sample.hpp"
 #include "cases/model/words.hpp"
 #include "cases/write/toml_text.hpp"
 #include "cases/write/vertex_text.hpp"
@@ -365,6 +366,10 @@ std::string draw_text(const Draw& draw, const Target& target) {
     add_word(table, "conservative", draw.conservative, usual.conservative);
     add_number(table, "conservative_extra", draw.conservative_extra, usual.conservative_extra);
     add_word(table, "discard", draw.discard, usual.discard);
+    if (discards_by_value(draw) && draw.discard_attribute != usual.discard_attribute) {
+        table.add("discard_attribute",
+                  string_toml(draw.attributes.at(draw.discard_attribute).name));
+    }
     add_word(table, "discard_by", draw.discard_by, usual.discard_by);
     table.add_flag("early_tests", draw.early_tests, usual.early_tests);
     if (draw.frag_depth) {

@@ -172,9 +172,11 @@ Words change_query(Document& document, Dice& dice) {
             erase(*color, "logic");
         }
     });
-    const std::string_view kind = dice.one_in(3) ? "occlusion" : "occlusion-precise";
+    const auto& kinds = cases::kWords<cases::Query>;
+    const std::string_view kind =
+        dice.one_in(3) ? kinds.at(1 + dice.below(kinds.size() - 1)) : "occlusion-precise";
     set(*draw, "query", text(std::string(kind)));
-    return fmt::format("{}an {} query", words, kind);
+    return fmt::format("{}the query {}", words, kind);
 }
 
 }  // namespace fuzz

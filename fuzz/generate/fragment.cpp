@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "cases/format/depth_format.hpp"
+#include "cases/model/words.hpp"
 
 namespace fuzz {
 
@@ -159,7 +160,30 @@ std::string query_of(const Pose& pose, size_t number, size_t draws, Dice& dice) 
         return {};
     }
     const bool is_other = number + 1 < draws && dice.one_in(4);
-    return pose.is("query", "occlusion") == is_other ? "occlusion-precise" : "occlusion";
+    const bool is_precise = pose.is("query", "occlusion") == is_other;
+    if (!is_precise && dice.one_in(2)) {
+        const auto& words = cases::kWords<cases::Query>;
+        constexpr auto kFirst = static_cast<size_t>(cases::Query::input_vertices);
+        return std::string(words.at(kFirst + dice.below(words.size() - kFirst)));
+    }
+    return is_precise ? "occlusion-precise" : "occlusion";
+}
+
+std::string discard_of(const Pose& pose, Dice& dice) {
+    if (pose.is_default("discard")) {
+        return {};
+    }
+    const bool has_values = !pose.is_default("attributes") && pose.is_default("source") &&
+                            pose.is_default("probe") && pose.is_default("shader-mask") &&
+                            !pose.value("relation").ends_with("-attributes");
+    if (!has_values || !dice.one_in(3)) {
+        return fmt::format("discard = \"{}\"\n", pose.value("discard"));
+    }
+    // Behind the one that is a colour.
+    const bool has_color = !pose.is_default("color-from") && !pose.is_default("color");
+    const size_t count = pose.is("attributes", "one") ? 1 : pose.is("attributes", "two") ? 2 : 3;
+    return fmt::format("discard = \"negative\"\ndiscard_attribute = \"attribute{}\"\n",
+                       dice.below(count) + (has_color ? 1 : 0));
 }
 
 }  // namespace fuzz

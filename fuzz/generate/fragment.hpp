@@ -46,6 +46,10 @@ std::string frag_depth_of(const Pose& pose, size_t number, size_t draws,
                           std::array<double, 2> viewport, StoredDepths& stored, Dice& state,
                           Dice& dice);
 
+// The keys of what the draw's shader discards, each line with its end; empty if it discards
+// nothing.
+std::string discard_of(const Pose& pose, Dice& dice);
+
 // The word of the draw's query; empty without one.
 std::string query_of(const Pose& pose, size_t number, size_t draws, Dice& dice);
 

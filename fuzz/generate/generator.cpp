@@ -195,9 +195,9 @@ class CaseWriter {
             }
         }
         const bool is_last = number + 1 == draws_;
-        if (is_last || !state_.one_in(3)) {
-            word("discard", "discard");
-        }
+        const std::string discard =
+            is_last || !state_.one_in(3) ? discard_of(pose_, state_) : std::string();
+        text_ += discard;
         if (number == 0 && !pose_.is_default("rasterizer-discard")) {
             line("rasterizer_discard = true");
         }
@@ -217,7 +217,8 @@ class CaseWriter {
         write_color(number);
         const size_t vertices = write_vertices();
         text_ += distances_of(pose_, vertices, dice_);
-        text_ += attributes_of(pose_, vertices, state_, dice_);
+        const bool has_sign = discard.starts_with("discard = \"negative\"");
+        text_ += attributes_of(pose_, vertices, has_sign, state_, dice_);
     }
 
     void write_depth(size_t number) {

@@ -28,12 +28,12 @@ std::string interpolation_of(const Pose& pose, size_t attribute) {
     return mode == "smooth" ? "" : fmt::format("interpolation = \"{}\"\n", mode);
 }
 
-std::string values_of(size_t vertices, size_t components, Dice& dice) {
+std::string values_of(size_t vertices, size_t components, bool has_sign, Dice& dice) {
     std::vector<std::string> values;
     for (size_t v = 0; v < vertices; ++v) {
         std::vector<std::string> one;
         for (size_t c = 0; c < components; ++c) {
-            one.push_back(fmt::format("{}", dice.fraction(0, 32, 32)));
+            one.push_back(fmt::format("{}", dice.fraction(has_sign ? -32 : 0, 32, 32)));
         }
         values.push_back(list_of(one));
     }
@@ -96,7 +96,8 @@ std::string distances_of(const Pose& pose, size_t vertices, Dice& dice) {
     return text;
 }
 
-std::string attributes_of(const Pose& pose, size_t vertices, Dice& state, Dice& dice) {
+std::string attributes_of(const Pose& pose, size_t vertices, bool has_sign, Dice& state,
+                          Dice& dice) {
     std::string text;
     if (!pose.is_default("color-from") && !pose.is_default("color")) {
         text += color_attribute(pose, vertices, dice);
@@ -119,7 +120,7 @@ std::string attributes_of(const Pose& pose, size_t vertices, Dice& state, Dice& 
             text += keys;
             components = of_probe;
         }
-        text += values_of(vertices, components, dice);
+        text += values_of(vertices, components, has_sign, dice);
     }
     return text;
 }

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <utility>
 
+#include "rasterizers/software/statistics.hpp"
+
 namespace software {
 
 namespace {
@@ -119,10 +121,12 @@ DrawCommand::DrawCommand(const cases::Case& c, uint32_t number, const Device& de
 }
 
 void DrawCommand::run() {
+    const std::vector<Primitive> primitives = assemble_primitives(draw_, device_.fault);
+    count_assembled(draw_, number_, primitives, device_, attachments_.queries);
     if (draw_.rasterizer_discard && device_.fault != Fault::discard_ignored) {
         return;
     }
-    for (const Primitive& primitive : assemble_primitives(draw_, device_.fault)) {
+    for (const Primitive& primitive : primitives) {
         const int times = device_.fault == Fault::draw_doubled ? 2 : 1;
         for (int k = 0; k < times; ++k) {
             rasterize(primitive);
@@ -131,6 +135,10 @@ void DrawCommand::run() {
 }
 
 void DrawCommand::rasterize(const Primitive& primitive) {
+    const bool counts_late = device_.fault == Fault::statistics_without_culled;
+    if (!counts_late) {
+        attachments_.queries.add(number_, cases::Query::clipping_invocations, 1);
+    }
     if (is_distance_culled(primitive)) {
         ++culled_;
         return;
@@ -167,6 +175,7 @@ void DrawCommand::rasterize(const Primitive& primitive) {
     }
     const ClippedPolygon polygon = clip_triangle(triangle, draw_, device_);
     tests_depth_ = polygon.tests_depth;
+    attachments_.queries.count_clipped(number_, polygon.vertices.size(), polygon.was_cut);
     std::vector<WindowVertex> window;
     largest_z_ = 0;
     for (const ClipVertex& v : polygon.vertices) {
@@ -277,6 +286,9 @@ void DrawCommand::rasterize_polygon(const Primitive& primitive,
     if (is_culled(front)) {
         ++culled_;
         return;
+    }
+    if (device_.fault == Fault::statistics_without_culled) {
+        attachments_.queries.add(number_, cases::Query::clipping_invocations, 1);
     }
     // Planes of the whole triangle where binary32 holds its snapped positions, else of each piece.
     const bool projectable = std::all_of(whole.begin(), whole.end(), [&](const ClipVertex& v) {

@@ -71,7 +71,13 @@ class DrawCommand {
     void shade(const Primitive& primitive, const TrianglePlanes& planes, const WindowVertex& first,
                bool front, int64_t i, int64_t j, uint32_t s, uint32_t covered);
     // The same in one layer of the target.
-    bool is_discarded(int64_t i, int64_t j, uint32_t s, bool front) const;
+    bool is_discarded(const TrianglePlanes& planes, const WindowVertex& first,
+                      const Invocation& invocation, int64_t i, int64_t j, uint32_t s,
+                      bool front) const;
+    bool is_negative(const TrianglePlanes& planes, const WindowVertex& first,
+                     const Invocation& invocation, int64_t i, int64_t j) const;
+    glm::vec4 attribute_value(const TrianglePlanes& planes, const WindowVertex& first,
+                              const Invocation& invocation, size_t a, int64_t i, int64_t j) const;
     std::optional<float> written_depth(const TrianglePlanes& planes, const Invocation& invocation,
                                        int64_t i, int64_t j, uint32_t s) const;
     bool is_in_bounds(float z, size_t at) const;

@@ -131,8 +131,86 @@ size_t DrawCommand::index_in(uint32_t layer, int64_t i, int64_t j, uint32_t s) c
     return (row * target.width + static_cast<size_t>(i)) * target.samples + s;
 }
 
+// What the shader has of attribute a.
+glm::vec4 DrawCommand::attribute_value(const TrianglePlanes& planes, const WindowVertex& first,
+                                       const Invocation& invocation, size_t a, int64_t i,
+                                       int64_t j) const {
+    const Fault fault = device_.fault;
+    const float corner = fault == Fault::values_at_corner ? -0.5F : 0.0F;
+    const float x = invocation.centre.x + corner;
+    const float y = invocation.centre.y + corner;
+    const float inverse_w = planes.inverse_w(x, y);
+    bool flat = draw_.attributes[a].interpolation == cases::Interpolation::flat;
+    if (fault == Fault::flat_smooth) {
+        flat = false;
+    }
+    if (fault == Fault::smooth_flat &&
+        draw_.attributes[a].interpolation == cases::Interpolation::smooth) {
+        flat = true;
+    }
+    const bool is_sample = draw_.attributes[a].auxiliary == cases::Auxiliary::sample;
+    const bool is_centroid = draw_.attributes[a].auxiliary == cases::Auxiliary::centroid;
+    Place place{x, y};
+    if (samples_.size() > 1 && (is_sample || is_centroid)) {
+        place = is_sample ? invocation.sample : invocation.centroid;
+    }
+    glm::vec4 value = flat ? first.values[a]
+                           : probe(draw_, device_, planes, samples_, a, i, j, place, invocation);
+    if (fault == Fault::one_over_w_cached && !flat && !interpolates(draw_.attributes[a].probe) &&
+        draw_.attributes[a].interpolation == cases::Interpolation::smooth) {
+        value *= planes.inverse_w(place.x, place.y) / inverse_w;
+    }
+    switch (draw_.attributes[a].source) {
+        case cases::Source::sample_mask_in:
+            value = glm::vec4(static_cast<float>(invocation.mask_in), 0, 0, 0);
+            break;
+        case cases::Source::sample_id:
+            value = glm::vec4(static_cast<float>(invocation.sample_id), 0, 0, 0);
+            break;
+        case cases::Source::sample_position:
+            value = {invocation.sample_position.x, invocation.sample_position.y, 0, 0};
+            break;
+        case cases::Source::vertex:
+        case cases::Source::barycentric:
+            break;
+    }
+    if (fault == Fault::values_clamped) {
+        value = glm::clamp(value, 0.0F, 1.0F);
+    }
+    if (fault == Fault::components_rotated) {
+        value = {value.y, value.z, value.w, value.x};
+    }
+    if (fault == Fault::values_half && !flat) {
+        for (int k = 0; k < 4; ++k) {
+            value[k] = to_half_precision(value[k]);
+        }
+    }
+    return value;
+}
+
+// Whether the shader discards by the sign of an attribute.
+bool DrawCommand::is_negative(const TrianglePlanes& planes, const WindowVertex& first,
+                              const Invocation& invocation, int64_t i, int64_t j) const {
+    const Fault fault = device_.fault;
+    const size_t a = fault == Fault::discard_value_of_first ? 0 : draw_.discard_attribute;
+    if (a >= draw_.attributes.size()) {
+        return false;
+    }
+    Invocation seen = invocation;
+    if (fault == Fault::discard_value_at_centre) {
+        seen.sample = seen.centroid = {static_cast<float>(i) + 0.5F, static_cast<float>(j) + 0.5F};
+    }
+    const glm::vec4 value = fault == Fault::discard_value_of_vertex
+                                ? first.values[a]
+                                : attribute_value(planes, first, seen, a, i, j);
+    const float tested = fault == Fault::discard_value_of_second ? value.y : value.x;
+    return fault == Fault::discard_value_or_zero ? tested <= 0 : tested < 0;
+}
+
 // Whether the fragment shader discards the fragment.
-bool DrawCommand::is_discarded(int64_t i, int64_t j, uint32_t s, bool front) const {
+bool DrawCommand::is_discarded(const TrianglePlanes& planes, const WindowVertex& first,
+                               const Invocation& invocation, int64_t i, int64_t j, uint32_t s,
+                               bool front) const {
     const Fault fault = device_.fault;
     if (fault == Fault::discard_fragment_ignored ||
         (fault == Fault::discard_sample_zero && s != 0)) {
@@ -160,6 +238,8 @@ bool DrawCommand::is_discarded(int64_t i, int64_t j, uint32_t s, bool front) con
             return front != is_turned;
         case cases::Discard::back:
             return front == is_turned;
+        case cases::Discard::negative:
+            return is_negative(planes, first, invocation, i, j) != is_turned;
         case cases::Discard::none:
             break;
     }
@@ -221,13 +301,17 @@ void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const Tri
     Invocation invocation = invoke(draw_, device_, samples_, i, j, s, covered);
     const auto end = [&](Ending ending) {
         const bool is_first = (covered & ((1U << s) - 1)) == 0;
-        attachments_.queries.count(number_, ending, is_first);
+        attachments_.queries.count(number_, ending, is_first, {i >> 1, j >> 1, primitive.id});
     };
     if (!invocation.is_written) {
         end(Ending::masked);
         return;
     }
-    const bool discarded = is_discarded(i, j, s, front);
+    for (Place* place : {&invocation.centre, &invocation.sample, &invocation.centroid}) {
+        place->x += device_.place_x;
+        place->y += device_.place_y;
+    }
+    const bool discarded = is_discarded(planes, first, invocation, i, j, s, front);
     const bool is_early =
         fault == Fault::discard_tests_early  ? true
         : fault == Fault::discard_tests_late ? false
@@ -237,10 +321,6 @@ void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const Tri
     if (discarded && !is_early) {
         end(Ending::discarded);
         return;
-    }
-    for (Place* place : {&invocation.centre, &invocation.sample, &invocation.centroid}) {
-        place->x += device_.place_x;
-        place->y += device_.place_y;
     }
     const size_t at = index_in(layer, i, j, s);
     const float unit = std::ldexp(1.0F, -device_.subpixel_bits);
@@ -316,53 +396,7 @@ void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const Tri
     out_.frag_coord[at] = attachments_.color.beside(number_, out_.frag_coord[at], older_frag_coord);
 
     for (size_t a = 0; a < draw_.attributes.size(); ++a) {
-        bool flat = draw_.attributes[a].interpolation == cases::Interpolation::flat;
-        if (fault == Fault::flat_smooth) {
-            flat = false;
-        }
-        if (fault == Fault::smooth_flat &&
-            draw_.attributes[a].interpolation == cases::Interpolation::smooth) {
-            flat = true;
-        }
-        const bool is_sample = draw_.attributes[a].auxiliary == cases::Auxiliary::sample;
-        const bool is_centroid = draw_.attributes[a].auxiliary == cases::Auxiliary::centroid;
-        Place place{x, y};
-        if (samples_.size() > 1 && (is_sample || is_centroid)) {
-            place = is_sample ? invocation.sample : invocation.centroid;
-        }
-        glm::vec4 value = flat
-                              ? first.values[a]
-                              : probe(draw_, device_, planes, samples_, a, i, j, place, invocation);
-        if (fault == Fault::one_over_w_cached && !flat &&
-            !interpolates(draw_.attributes[a].probe) &&
-            draw_.attributes[a].interpolation == cases::Interpolation::smooth) {
-            value *= planes.inverse_w(place.x, place.y) / inverse_w;
-        }
-        switch (draw_.attributes[a].source) {
-            case cases::Source::sample_mask_in:
-                value = glm::vec4(static_cast<float>(invocation.mask_in), 0, 0, 0);
-                break;
-            case cases::Source::sample_id:
-                value = glm::vec4(static_cast<float>(invocation.sample_id), 0, 0, 0);
-                break;
-            case cases::Source::sample_position:
-                value = {invocation.sample_position.x, invocation.sample_position.y, 0, 0};
-                break;
-            case cases::Source::vertex:
-            case cases::Source::barycentric:
-                break;
-        }
-        if (fault == Fault::values_clamped) {
-            value = glm::clamp(value, 0.0F, 1.0F);
-        }
-        if (fault == Fault::components_rotated) {
-            value = {value.y, value.z, value.w, value.x};
-        }
-        if (fault == Fault::values_half && !flat) {
-            for (int k = 0; k < 4; ++k) {
-                value[k] = to_half_precision(value[k]);
-            }
-        }
+        const glm::vec4 value = attribute_value(planes, first, invocation, a, i, j);
         const size_t location =
             fault == Fault::attributes_swapped && draw_.attributes.size() > 1 && a < 2 ? 1 - a : a;
         out_.attributes[location][at] = value;

@@ -46,6 +46,12 @@ bool can_matter(Fault fault, const cases::Case& c) {
     if (is_between(Fault::query_before_mask, Fault::query_always_any)) {
         return cases::asks_queries(c);
     }
+    if (is_between(Fault::statistics_vertices_by_primitive, Fault::statistics_fragments_by_pixel)) {
+        return any_draw([](const cases::Draw& d) { return cases::is_statistic(d.query); });
+    }
+    if (is_between(Fault::discard_value_or_zero, Fault::discard_value_at_centre)) {
+        return cases::discards_by_value(c);
+    }
     if (is_between(Fault::resolve_one_sample, Fault::resolve_ignored)) {
         return capture::resolves_color(c.target) || capture::resolves_depth(c.target);
     }

@@ -378,10 +378,11 @@ DepthResolution DepthTest::resolve(const FixedPoint& p,
             continue;
         }
         // A triangle that was drawn before, passed and wrote its depth covers the sample as well:
-        // what was stored before that is gone.
+        // what was stored before that is gone. Not so where a value may have taken it away.
         int since = kClear;
         for (size_t k = 0; k < m; ++k) {
-            if (!candidates[k].is_absent && out.outcomes[k] == DepthOutcome::passes &&
+            if (!takes_away_by_value(impl_->draw_of(candidates[k].triangle)) &&
+                !candidates[k].is_absent && out.outcomes[k] == DepthOutcome::passes &&
                 impl_->draw_of(candidates[k].triangle).depth.write &&
                 impl_->relation(candidates[k].triangle, now.triangle).is_same) {
                 since = static_cast<int>(k);

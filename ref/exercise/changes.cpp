@@ -143,6 +143,12 @@ bool draw_what_is_discarded(Case& c) {
     return change_draws(c, [](Draw& draw) { return set(draw.rasterizer_discard, false); });
 }
 
+bool discard_no_value(Case& c) {
+    return change_draws(c, [](Draw& draw) {
+        return discards_by_value(draw) && set(draw.discard, cases::Discard::none);
+    });
+}
+
 bool discard_nothing(Case& c) {
     return change_draws(c, [](Draw& draw) { return set(draw.discard, cases::Discard::none); });
 }

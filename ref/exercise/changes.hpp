@@ -31,6 +31,7 @@ bool move_samples_to_first(cases::Case& c);
 
 // Fragments that their shader discards.
 bool discard_nothing(cases::Case& c);
+bool discard_no_value(cases::Case& c);
 bool test_late(cases::Case& c);
 
 // Whatever a query must not count: draws that have one lose their tests, discards, masks and

@@ -63,8 +63,15 @@ bool is_counted_by_stencil(const View& view, std::string_view) {
 
 bool is_counted_by_query(const View& view, std::string_view) {
     return std::ranges::any_of(view.sample.counted, [&](const CountedDraw& counted) {
-        return view.of().draws[counted.draw].query != cases::Query::none &&
-               counted.shown_least + counted.hidden_least > 0;
+        const cases::Query query = view.of().draws[counted.draw].query;
+        return query != cases::Query::none && !cases::is_statistic(query) &&
+               counted.shown_least + counted.hidden_least + counted.either_least > 0;
+    });
+}
+
+bool is_of_statistics(const View& view, std::string_view) {
+    return std::ranges::any_of(view.sample.hits, [&](const Hit& hit) {
+        return cases::is_statistic(view.facts.draw_of(hit.triangle).query);
     });
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "cases/model/sample.hpp"
 #include "ref/exercise/changes.hpp"
 
 namespace ref {
@@ -68,7 +69,7 @@ bool pass_every_stencil(Case& c) {
 bool show_all_to_queries(Case& c) {
     bool has_any = false;
     for (cases::Draw& draw : c.draws) {
-        if (draw.query == cases::Query::none) {
+        if (draw.query == cases::Query::none || cases::is_statistic(draw.query)) {
             continue;
         }
         has_any = true;

@@ -57,6 +57,7 @@ bool is_clamped(const View& view, std::string_view rule);
 bool has_coord_depth(const View& view, std::string_view rule);
 bool is_counted_by_stencil(const View& view, std::string_view rule);
 bool is_counted_by_query(const View& view, std::string_view rule);
+bool is_of_statistics(const View& view, std::string_view rule);
 
 // Values and what is stored of them (value_tests.cpp).
 bool has_value(const View& view, std::string_view rule);

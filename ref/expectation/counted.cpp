@@ -10,7 +10,7 @@ namespace ref {
 
 void add_counted(Expectation& out, const cases::Case& c, std::span<const Hit> hits,
                  std::span<const stencil::Fate> fates, SampleExpectation& sample) {
-    if (!asks_queries(c)) {
+    if (!counts_fragments(c)) {
         return;
     }
     sample.counted_begin = static_cast<uint32_t>(out.counted.size());
@@ -28,28 +28,57 @@ void add_counted(Expectation& out, const cases::Case& c, std::span<const Hit> hi
         CountedDraw& counted = out.counted.back();
         const bool is_sure =
             !fate.fails && !fate.fails_depth && !fate.fails_bounds && !fate.is_absent;
-        counted.shown_least += is_sure && !fate.is_discarded ? 1 : 0;
-        counted.shown_most += fate.passes ? 1 : 0;
-        counted.hidden_least += is_sure && !fate.passes ? 1 : 0;
-        counted.hidden_most += fate.is_discarded ? 1 : 0;
+        const bool is_either = fate.passes && fate.is_discarded;
+        uint32_t& least = is_either     ? counted.either_least
+                          : fate.passes ? counted.shown_least
+                                        : counted.hidden_least;
+        uint32_t& most = is_either     ? counted.either_most
+                         : fate.passes ? counted.shown_most
+                                       : counted.hidden_most;
+        least += is_sure ? 1 : 0;
+        most += 1;
     }
     sample.counted_count = static_cast<uint32_t>(out.counted.size()) - sample.counted_begin;
 }
 
-CountBounds counted_at(std::span<const CountedDraw> draws, size_t k, uint32_t least, uint32_t most,
-                       cases::Profile profile) {
+namespace {
+
+uint32_t beyond(uint32_t n, uint32_t taken) {
+    return n > taken ? n - taken : 0;
+}
+
+// How many fragments of the k-th draw show at least, and at most, where those of all draws are
+// between `least` and `most`.
+CountBounds shown_at(std::span<const CountedDraw> draws, size_t k, uint32_t least, uint32_t most) {
     uint32_t others_least = 0;
     uint32_t others_most = 0;
     for (size_t other = 0; other < draws.size(); ++other) {
-        others_least += other == k ? 0 : draws[other].shown_least;
-        others_most += other == k ? 0 : draws[other].shown_most;
+        const CountedDraw& d = draws[other];
+        others_least += other == k ? 0 : d.shown_least;
+        others_most += other == k ? 0 : d.shown_most + d.either_most;
     }
-    const auto beyond = [](uint32_t n, uint32_t taken) { return n > taken ? n - taken : 0; };
     const CountedDraw& d = draws[k];
-    const bool is_hidden_sure = profile != cases::Profile::vulkan;
-    return {uint64_t{std::max(d.shown_least, beyond(least, others_most))} +
-                (is_hidden_sure ? d.hidden_least : 0),
-            uint64_t{std::min(d.shown_most, beyond(most, others_least))} + d.hidden_most};
+    return {std::max(d.shown_least, beyond(least, others_most)),
+            std::min(d.shown_most + d.either_most, beyond(most, others_least))};
+}
+
+}  // namespace
+
+CountBounds counted_at(std::span<const CountedDraw> draws, size_t k, uint32_t least, uint32_t most,
+                       cases::Profile profile) {
+    const CountBounds shown = shown_at(draws, k, least, most);
+    const CountedDraw& d = draws[k];
+    return {profile == cases::Profile::vulkan ? shown.least : passed_least(draws, k, least, most),
+            std::min(uint64_t{d.shown_most}, shown.most) + d.either_most + d.hidden_most};
+}
+
+uint64_t passed_least(std::span<const CountedDraw> draws, size_t k, uint32_t least, uint32_t most) {
+    const uint64_t shown = shown_at(draws, k, least, most).least;
+    const CountedDraw& d = draws[k];
+    // Of those that show some may be fragments that could have been discarded.
+    const uint64_t others = shown > d.either_most ? shown - d.either_most : 0;
+    return std::max(shown, std::max(uint64_t{d.shown_least}, others) + d.either_least) +
+           d.hidden_least;
 }
 
 std::vector<CountBounds> count_bounds(const Expectation& expectation, size_t draws,

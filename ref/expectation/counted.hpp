@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What occlusion queries may count: "the occlusion query sample counter increments by one for each
-// sample with a coverage value of 1 in each fragment that survives all the per-fragment tests"
-// (Vulkan specification, "Sample Counting").
+// What queries of fragments may count. Occlusion queries: "the occlusion query sample counter
+// increments by one for each sample with a coverage value of 1 in each fragment that survives all
+// the per-fragment tests" (Vulkan specification, "Sample Counting").
 //
 // With early tests, fragment shading "should" come after the counting, "but may be performed
 // before" ("Fragment Operations"): what is discarded then may be counted at profile vulkan, and is
@@ -39,6 +39,9 @@ struct CountBounds {
 // and `most` fragments of all draws show.
 CountBounds counted_at(std::span<const CountedDraw> draws, size_t k, uint32_t least, uint32_t most,
                        cases::Profile profile);
+
+// How many of them pass all tests at least, whether they are then discarded or not.
+uint64_t passed_least(std::span<const CountedDraw> draws, size_t k, uint32_t least, uint32_t most);
 
 // The hits of a device at a sample; nothing where they are not known.
 using HitsAt = std::function<std::optional<uint32_t>(size_t index)>;

@@ -155,12 +155,13 @@ Scene::Scene(const cases::Case& the_case, const Limits& the_limits, cases::Profi
       triangles(assemble(c)),
       setups(c, triangles, limits, profile, is_told),
       spans(scan_all(c, triangles, setups)),
+      discards(c, limits, profile, false),
       depth(DepthTest::is_needed(c)
                 ? std::make_optional<DepthTest>(c, triangles, limits, profile, false)
                 : std::nullopt),
       narrowing(c, profile, triangles, setups,
                 {fast::is_in_hull, fast::winding, fast::is_inside_whole, stencil::resolve},
-                depth ? &*depth : nullptr) {}
+                depth ? &*depth : nullptr, discards) {}
 
 Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile profile,
                    Onlooker* onlooker) {
@@ -229,7 +230,8 @@ class RowJudge {
                     continue;
                 }
                 for (uint32_t x = run.x0; x < run.x1; ++x) {
-                    keep(index_of(row, x, s), 1, number_at({x, row, s}, left_of(hits, x, row)));
+                    keep(index_of(row, x, s), 1,
+                         number_at({x, row, s}, left_of(hits, {x, row, s})));
                 }
             }
         }
@@ -249,7 +251,7 @@ class RowJudge {
                 }
                 const bool is_touched = next[s] < runs.size() && runs[next[s]].x0 <= x;
                 const std::span<const Hit> hits =
-                    is_touched ? left_of(runs_[s].hits_of(runs[next[s]]), x, row)
+                    is_touched ? left_of(runs_[s].hits_of(runs[next[s]]), {x, row, s})
                                : std::span<const Hit>();
                 if (hits.empty() && onlooker_ == nullptr) {
                     continue;
@@ -270,16 +272,22 @@ class RowJudge {
         return sample_position(at.x, at.row % target_.height, at.s, target_);
     }
 
-    // The hits whose fragments are not taken away by their pixel; until the next call.
-    std::span<const Hit> left_of(std::span<const Hit> hits, uint32_t x, uint32_t row) {
+    // The hits whose fragments are not taken away by their pixel or a value; until the next call.
+    std::span<const Hit> left_of(std::span<const Hit> hits, const Place& at) {
         if (!is_thinned_) {
             return hits;
         }
         left_.clear();
-        std::ranges::copy_if(hits, std::back_inserter(left_), [&](const Hit& hit) {
+        const cases::SampleId id{at.x, at.row % target_.height, at.s, at.row / target_.height};
+        for (const Hit& hit : hits) {
             const cases::Draw& draw = scene_.c.draws[scene_.triangles[hit.triangle].draw];
-            return !takes_away_pixel(draw, x, row % target_.height);
-        });
+            const Sign sign = takes_away_by_value(draw) ? scene_.discards.at(hit.triangle, id)
+                                                        : Sign::not_negative;
+            if (sign != Sign::negative && !takes_away_pixel(draw, id.x, id.y)) {
+                left_.push_back(
+                    {hit.triangle, sign == Sign::open ? Coverage::either : hit.coverage});
+            }
+        }
         return left_;
     }
 

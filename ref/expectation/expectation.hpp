@@ -35,12 +35,13 @@ struct HitBounds {
     friend bool operator==(const HitBounds&, const HitBounds&) = default;
 };
 
-// How many fragments of one draw's triangles occlusion queries may count at a sample: those that
-// show, and those that the shader discards when depth and stencil have been tested.
+// How many fragments of one draw's triangles queries may count at a sample: those that show, those
+// that the shader discards when depth and stencil have been tested, and those that may do either.
 struct CountedDraw {
     uint32_t draw = 0;
     uint32_t shown_least = 0, shown_most = 0;
     uint32_t hidden_least = 0, hidden_most = 0;
+    uint32_t either_least = 0, either_most = 0;
     friend bool operator==(const CountedDraw&, const CountedDraw&) = default;
 };
 

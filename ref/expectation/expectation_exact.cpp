@@ -23,9 +23,10 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
     if (DepthTest::is_needed(c)) {
         depth.emplace(c, out.triangles, limits, profile, true);
     }
+    ValueDiscards discards(c, limits, profile, true);
     Narrowing narrowing(c, profile, out.triangles, setups,
                         {is_in_hull, winding, is_inside_whole, stencil::exact::resolve},
-                        depth ? &*depth : nullptr);
+                        depth ? &*depth : nullptr, discards);
     for (uint32_t row = 0; row < c.target.rows(); ++row) {
         const uint32_t j = row % c.target.height;
         const uint32_t layer = row / c.target.height;
@@ -40,8 +41,14 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
                         continue;
                     }
                     const Decision decision = decide(setups[t], p, false);
-                    if (decision.coverage != Coverage::must_not) {
-                        hits.push_back({t, decision.coverage});
+                    if (decision.coverage == Coverage::must_not) {
+                        continue;
+                    }
+                    const Sign sign = takes_away_by_value(draw) ? discards.at(t, {i, j, s, layer})
+                                                                : Sign::not_negative;
+                    if (sign != Sign::negative) {
+                        hits.push_back(
+                            {t, sign == Sign::open ? Coverage::either : decision.coverage});
                         hits.insert(hits.end(), decision.further, {t, Coverage::either});
                     }
                 }

@@ -148,6 +148,18 @@ Decision Explainer::decide(uint32_t t, const FixedPoint& p, cases::SampleId samp
     if (takes_away_pixel(draw, sample.x, sample.y) || is_taken_away_by_face(t)) {
         refuse(out, ReasonKind::fragment_discarded);
     }
+    const bool is_by_value = takes_away_by_value(draw) && out.coverage != Coverage::must_not;
+    const Sign sign = is_by_value ? scene_.discards.at(t, sample) : Sign::not_negative;
+    if (sign == Sign::negative) {
+        refuse(out, ReasonKind::value_discarded);
+    } else if (sign == Sign::open) {
+        if (out.coverage == Coverage::must) {
+            out.coverage = Coverage::either;
+            out.reasons.clear();
+        }
+        out.reasons.push_back({ReasonKind::near_zero});
+        std::sort(out.reasons.begin(), out.reasons.end());
+    }
     if (draw.layer != sample.layer) {
         refuse(out, ReasonKind::other_layer);
     }

@@ -49,16 +49,11 @@ void add_set(HitBounds& b, uint32_t front, uint32_t back, uint32_t least, uint32
         static_cast<int32_t>(front_max) - static_cast<int32_t>(beyond(least, front_max));
 }
 
-bool is_taken_away(const cases::Draw& draw, const FixedPoint& p) {
-    return takes_away_pixel(draw, static_cast<uint32_t>(p.x >> kFixedBits),
-                            static_cast<uint32_t>(p.y >> kFixedBits));
-}
-
 }  // namespace
 
 Narrowing::Narrowing(const cases::Case& c, cases::Profile profile,
                      const std::vector<cases::Triangle>& triangles, TriangleSetups& setups,
-                     Predicates predicates, DepthTest* depth)
+                     Predicates predicates, DepthTest* depth, ValueDiscards& discards)
     : case_(c),
       profile_(profile),
       triangles_(triangles),
@@ -66,9 +61,19 @@ Narrowing::Narrowing(const cases::Case& c, cases::Profile profile,
       predicates_(predicates),
       complements_(complements_of(c, triangles)),
       depth_(depth),
+      discards_(discards),
       follows_courses_(follows_courses(c)),
       stores_discarded_(stores_discarded(c)),
       vertex_numbers_(c) {}
+
+bool Narrowing::may_be_taken_away(uint32_t t, const FixedPoint& p) {
+    const cases::Draw& draw = case_.draws[triangles_[t].draw];
+    const auto x = static_cast<uint32_t>(p.x >> kFixedBits);
+    const auto y = static_cast<uint32_t>(p.y >> kFixedBits);
+    return takes_away_pixel(draw, x, y) ||
+           (takes_away_by_value(draw) &&
+            discards_.at(t, {x, y, sample_, draw.layer}) != Sign::not_negative);
+}
 
 bool Narrowing::add_sides(const FixedPoint& p, const Hit& hit, uint32_t member,
                           std::vector<Side>& sides) {
@@ -77,7 +82,7 @@ bool Narrowing::add_sides(const FixedPoint& p, const Hit& hit, uint32_t member,
     // "Coverage is set for all fragments generated from shared edges" of a conservative draw.
     if (setup.area.is_on() || setup.kind != TriangleSetup::Kind::outlines ||
         setup.orientation == 0 || setup.may_be_culled || !setup.window.may_write(sample_) ||
-        !setup.window.must_touch(p) || is_taken_away(case_.draws[triangle.draw], p)) {
+        !setup.window.must_touch(p) || may_be_taken_away(hit.triangle, p)) {
         return false;
     }
     const bool is_literal = profile_ == cases::Profile::vulkan;

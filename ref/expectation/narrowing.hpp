@@ -37,13 +37,15 @@
 #include "ref/coverage/triangle_setups.hpp"
 #include "ref/depth/outcome.hpp"
 #include "ref/expectation/complement.hpp"
+#include "ref/expectation/discards.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/expectation/vertex_numbers.hpp"
 #include "ref/stencil/outcome.hpp"
 
 namespace ref {
 
-// A triangle that must or may cover the sample at hand.
+// A triangle that must or may cover the sample at hand. Fragments that their shader takes away are
+// no hits, and where it may do so the triangle may cover the sample.
 struct Hit {
     uint32_t triangle = 0;
     Coverage coverage = Coverage::either;
@@ -91,7 +93,7 @@ struct Predicates {
 // the stencil of each fragment or the depth that is stored chooses, or some store depth or stencil
 // and do not show, or queries count what becomes of each.
 inline bool follows_courses(const cases::Case& c) {
-    return stencil::is_needed(c) || stores_discarded(c) || tests_bounds(c) || asks_queries(c);
+    return stencil::is_needed(c) || stores_discarded(c) || tests_bounds(c) || counts_fragments(c);
 }
 
 // Keeps the hits of a sample for the colour target, if the case has one. `fates`: of each hit, if
@@ -131,7 +133,7 @@ class Narrowing {
   public:
     Narrowing(const cases::Case& c, cases::Profile profile,
               const std::vector<cases::Triangle>& triangles, TriangleSetups& setups,
-              Predicates predicates, DepthTest* depth);
+              Predicates predicates, DepthTest* depth, ValueDiscards& discards);
 
     // Bounds for sample `s` of a pixel, at p, from the triangles that must or may cover it, in
     // drawing order; appends to `lists` what it says of them. Fills `reasons`, unless it is null.
@@ -161,6 +163,8 @@ class Narrowing {
     // Pairs of triangles with complementary clip distances; their members are marked.
     std::vector<Fixed> complementary_pairs(const FixedPoint& p, std::span<const Hit> hits,
                                            std::vector<bool>& is_paired) const;
+    // Whether the fragment of a triangle at p may be as if it had never been.
+    bool may_be_taken_away(uint32_t t, const FixedPoint& p);
     // Whether a triangle covers p but for its clip distances, whatever the device's freedom, and no
     // edge of the triangle or border of the viewport is near.
     bool is_inside_whole(const FixedPoint& p, const TriangleSetup& setup) const;
@@ -219,6 +223,7 @@ class Narrowing {
     uint32_t sample_ = 0;                  // of the pixel, the one at hand
     std::vector<Complement> complements_;  // by triangle, or empty
     DepthTest* depth_;                     // null: every fragment passes and writes
+    ValueDiscards& discards_;
     bool follows_courses_;
     bool stores_discarded_;
     std::vector<stencil::Fate> fates_;  // of the hits at hand

@@ -51,8 +51,12 @@ std::vector<Narrowing::Fixed> Narrowing::complementary_pairs(const FixedPoint& p
                 continue;
             }
             const auto is_must = [&](uint32_t k) { return hits[k].coverage == Coverage::must; };
+            const auto is_kept = [&](uint32_t k) {
+                return !takes_away_by_value(case_.draws[triangles_[hits[k].triangle].draw]);
+            };
             const bool is_hit = is_must(m) || is_must(n) ||
-                                (c.fills && is_inside_whole(p, setups_[hits[m].triangle]) &&
+                                (c.fills && is_kept(m) && is_kept(n) &&
+                                 is_inside_whole(p, setups_[hits[m].triangle]) &&
                                  is_inside_whole(p, setups_[hits[n].triangle]));
             out.push_back({{m, n}, 1, is_hit ? 1U : 0U, true});
             is_paired[m] = is_paired[n] = true;
@@ -69,8 +73,9 @@ bool Narrowing::add_whole_sides(const FixedPoint& p, uint32_t whole, uint32_t me
     for (const uint32_t t : {whole, complements_[whole].partner}) {
         const TriangleSetup& setup = setups_[t];
         if (setup.kind != TriangleSetup::Kind::outlines || setup.orientation == 0 ||
-            setup.may_be_culled || setup.tested_unclipped < 0 || !setup.window.may_write(sample_) ||
-            !setup.window.must_touch(p) ||
+            setup.may_be_culled || setup.tested_unclipped < 0 ||
+            takes_away_by_value(case_.draws[triangles_[t].draw]) ||
+            !setup.window.may_write(sample_) || !setup.window.must_touch(p) ||
             (is_literal && setup.tested_clipped != setup.tested_unclipped)) {
             return false;
         }

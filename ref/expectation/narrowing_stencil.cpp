@@ -82,13 +82,18 @@ stencil::Question Narrowing::stencil_question(const FixedPoint& p, std::span<con
                                    hits[m].coverage == Coverage::must, faces.front, faces.back,
                                    draw.depth.write};
         if (stores_discarded(draw)) {
-            const bool is_discarded =
-                discards_pixel(draw.discard, static_cast<uint32_t>(p.x >> kFixedBits),
-                               static_cast<uint32_t>(p.y >> kFixedBits));
+            const auto x = static_cast<uint32_t>(p.x >> kFixedBits);
+            const auto y = static_cast<uint32_t>(p.y >> kFixedBits);
+            const Sign sign = discards_by_value(draw) ? discards_.at(t, {x, y, sample_, draw.layer})
+                                                      : Sign::not_negative;
+            const bool is_discarded = discards_pixel(draw.discard, x, y) || sign == Sign::negative;
+            fragment.is_discard_open = sign == Sign::open;
             fragment.is_discarded_front = is_discarded || discards_face(draw.discard, true);
             fragment.is_discarded_back = is_discarded || discards_face(draw.discard, false);
         }
-        for (size_t k = 0; depth_ != nullptr && k < m && fragment.twin < 0; ++k) {
+        // One that may be taken away by a value is not there whenever the same one was before.
+        const bool has_twins = depth_ != nullptr && !takes_away_by_value(draw);
+        for (size_t k = 0; has_twins && k < m && fragment.twin < 0; ++k) {
             if (depth_->is_same(hits[k].triangle, t)) {
                 fragment.twin = static_cast<int>(k);
             }

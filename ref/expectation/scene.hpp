@@ -13,6 +13,7 @@
 #include "ref/coverage/fast/fast.hpp"
 #include "ref/coverage/triangle_setups.hpp"
 #include "ref/depth/outcome.hpp"
+#include "ref/expectation/discards.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/expectation/narrowing.hpp"
 #include "ref/position/limits.hpp"
@@ -34,6 +35,7 @@ struct Scene {
     // The samples that the triangles must or may cover, in drawing order; y counts the rows of the
     // stacked layers.
     std::vector<fast::Span> spans;
+    ValueDiscards discards;
     std::optional<DepthTest> depth;  // if the case needs one
     Narrowing narrowing;
 };

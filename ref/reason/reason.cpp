@@ -64,6 +64,9 @@ constexpr std::array kRows = {
     Row{discarded, rule::discard_rasterizer, "the draw has rasterizer discard"},
     Row{fragment_discarded, rule::discard_fragment,
         "the fragment shader of the draw discards {discarded}"},
+    Row{value_discarded, rule::discard_value,
+        "the fragment shader of the draw discards where attribute {attribute} is negative, as it "
+        "is here"},
     Row{discarded_late, rule::discard_fragment,
         "the fragment shader of the draw discards {discarded}, once depth and stencil are stored"},
     Row{outside, rule::cover_outside, "{edge}: outside that edge", rule::snap_nearest},
@@ -91,6 +94,9 @@ constexpr std::array kRows = {
         "of the clipped polygon may lie"},
     Row{flushed, rule::number_undefined,
         "a denormal z may be taken for 0, which lies inside the view volume"},
+    Row{near_zero, rule::discard_value,
+        "the fragment shader of the draw discards where attribute {attribute} is negative, which "
+        "is 0 here within its error"},
     Row{near_distance, rule::clip_distance,
         "inside the triangle, but clip distance {number} is 0 within its error at the sample"},
     Row{near_plane, rule::clip_volume,
@@ -193,6 +199,8 @@ constexpr std::array kRows = {
     Row{value_exact, {}, "the sample and its pixel leave these exact numbers only"},
     Row{value_coord_depth, rule::depth_written,
         "the fragment shader wrote gl_FragCoord.z to gl_FragDepth, and another depth is stored"},
+    Row{value_not_discarded, rule::discard_value,
+        "the fragment shader discards where this value is negative, and the fragment is drawn"},
     Row{value_clamped_depth, rule::depth_clamp,
         "the depth of its plane is outside the viewport's range, to which it is clamped"},
     Row{value_biased_depth, rule::depth_bias,

@@ -33,7 +33,8 @@ enum class ReasonKind : uint8_t {
     viewport,            // it lies outside the viewport
     discarded,           // the draw has rasterizer discard
     fragment_discarded,  // the fragment shader discards the fragment
-    discarded_late,      // the same, and depth and stencil have been tested and stored before
+    value_discarded,     // the same, since an attribute is negative
+    discarded_late,      // it does, and depth and stencil have been tested and stored before
     outside,             // it lies outside an edge, wherever its ends may lie; the edge, 0 to 2
     outside_hull,        // it lies outside all that the positions of the vertices span
     no_area,             // it lies on a triangle that has no area once it is snapped
@@ -49,6 +50,7 @@ enum class ReasonKind : uint8_t {
     undefined,        // a vertex is beyond what the profile promises anything of
     unbounded,        // a vertex of the clipped polygon may be anywhere
     flushed,          // a denormal z may be taken for 0
+    near_zero,        // the shader discards by a value that is 0 within its error
     near_distance,    // a clip distance is 0 within its error; its number
     near_plane,       // its depth is at a depth plane within its error; a ClipPlane
     open_facing,      // the triangle is culled or not, as its vertices snap
@@ -109,6 +111,7 @@ enum class ReasonKind : uint8_t {
     value_other_weight,   // it is the barycentric of another vertex
     value_exact,          // it is none of a few exact numbers
     value_coord_depth,    // it is not the gl_FragCoord.z that the shader wrote
+    value_not_discarded,  // the shader ought to have discarded the fragment for it
     value_clamped_depth,  // the depth ought to have been clamped
     value_biased_depth,   // the depth ought to have been biased
     value_stored_depth    // a fixed-point format does not make that of it

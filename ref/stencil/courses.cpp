@@ -153,15 +153,19 @@ class Courses {
         if (depth != DepthOutcome::fails) {
             const bool is_discarded =
                 front ? fragment.is_discarded_front : fragment.is_discarded_back;
-            (is_discarded ? fate.is_discarded : fate.passes) = true;
             next.value = updated(face.pass, face, course.value);
             next.stored = fragment.writes_depth ? static_cast<int>(m) : course.stored;
-            if (!is_discarded) {
+            if (is_discarded || fragment.is_discard_open) {
+                fate.is_discarded = true;
+                now_.insert(next);
+            }
+            if (!is_discarded || fragment.is_discard_open) {
+                fate.passes = true;
                 next.last = static_cast<int>(m);
                 next.front += front ? 1 : 0;
                 next.back += front ? 0 : 1;
+                now_.insert(std::move(next));
             }
-            now_.insert(std::move(next));
         }
     }
 

@@ -187,11 +187,15 @@ class Walk {
             if (depth == DepthOutcome::passes || depth == DepthOutcome::open) {
                 const bool is_discarded =
                     front ? fragment.is_discarded_front : fragment.is_discarded_back;
-                go_on(is_discarded ? Deed::discarded
-                      : front      ? Deed::passed_front
-                                   : Deed::passed_back,
-                      written(face.pass, face, value),
-                      fragment.writes_depth ? static_cast<int>(m) : stored);
+                for (const bool discards : {false, true}) {
+                    if (discards == is_discarded || fragment.is_discard_open) {
+                        go_on(discards ? Deed::discarded
+                              : front  ? Deed::passed_front
+                                       : Deed::passed_back,
+                              written(face.pass, face, value),
+                              fragment.writes_depth ? static_cast<int>(m) : stored);
+                    }
+                }
             }
         }
     }

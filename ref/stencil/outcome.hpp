@@ -35,7 +35,8 @@ struct Fragment {
     bool writes_depth = false;
     // What is discarded after it has been tested and stored: it is no hit.
     bool is_discarded_front = false, is_discarded_back = false;
-    int set = -1;   // the set that it belongs to, or -1
+    bool is_discard_open = false;  // whichever face it shows: it is discarded so, or it is a hit
+    int set = -1;                  // the set that it belongs to, or -1
     int twin = -1;  // an earlier fragment without which it is not there, nor that one without it
 };
 

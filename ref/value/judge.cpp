@@ -75,6 +75,24 @@ void ValueReference::Impl::judge_coord_depth(uint32_t t, const FragmentValues& d
     }
 }
 
+// One invocation has one value of an input: where it is negative, the fragment was discarded.
+void ValueReference::Impl::judge_sign(uint32_t t, const FragmentValues& device,
+                                      FragmentVerdict& out) {
+    const cases::Draw& draw = c.draws[triangles[t].draw];
+    if (!discards_by_value(draw) || part == FragmentPart::depth ||
+        !selection.attributes.at(draw.discard_attribute)) {
+        return;
+    }
+    const float got = device.attributes.at(draw.discard_attribute).x;
+    if (got <= -cases::kLeastNormal) {
+        const QuantityId id = QuantityId::of_attribute(draw.discard_attribute, 0);
+        const auto found = std::ranges::find(quantities_of(t), id, &Quantity::id);
+        add_mismatch(
+            value::mismatch_of(*found, ReasonKind::value_not_discarded, Profile::vulkan), got,
+            [] { return std::string("0 or more"); }, out);
+    }
+}
+
 namespace {
 
 void tell_worst(const value::WorstError& worst, FragmentVerdict& out) {
@@ -134,6 +152,7 @@ FragmentVerdict ValueReference::Impl::judge(uint32_t t, cases::SampleId id,
     }
     judge_samples(t, id, device, exact_only, out);
     judge_coord_depth(t, device, out);
+    judge_sign(t, device, out);
     const bool is_decided = !exact_only && part == FragmentPart::all &&
                             is_plain_depth(triangle.primitive) && filter(t, id, device, out);
     // Accepted, but above one budget: another basis may explain it better.

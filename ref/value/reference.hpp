@@ -392,6 +392,7 @@ struct ValueReference::Impl {
     void judge_samples(uint32_t t, cases::SampleId id, const FragmentValues& device,
                        bool exact_only, FragmentVerdict& out);
     void judge_coord_depth(uint32_t t, const FragmentValues& device, FragmentVerdict& out);
+    void judge_sign(uint32_t t, const FragmentValues& device, FragmentVerdict& out);
     std::vector<Profile> levels_of(uint32_t t, cases::SampleId id, const FragmentValues& device,
                                    const std::vector<size_t>& failing);
     void describe(uint32_t t, cases::SampleId id, const FragmentValues& device,

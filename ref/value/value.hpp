@@ -83,6 +83,9 @@ struct ValueRange {
     double biased_low = 0, biased_high = 0;
 };
 
+// Whether a value is below 0: surely, surely not, or as a device computes it. -0 is not.
+enum class Sign : uint8_t { negative, not_negative, open };
+
 // The values that somebody delivered; the others of a FragmentValues mean nothing then.
 struct ValueSelection {
     bool frag_coord = true, depth = true;
@@ -142,6 +145,9 @@ class ValueReference {
     ValueRange range(uint32_t t, cases::SampleId sample, const QuantityId& id);
     // The same of all components of an attribute, in less time than one after another.
     std::array<ValueRange, 4> ranges(uint32_t t, cases::SampleId sample, size_t attribute);
+    // The sign of what a draw's shader discards by (cases::Discard::negative). `exact_only`: for
+    // the oracle, by rationals alone.
+    Sign sign(uint32_t t, cases::SampleId sample, bool exact_only = false);
 
   private:
     void add_ranges(uint32_t t, cases::SampleId sample, std::span<const QuantityId> ids,

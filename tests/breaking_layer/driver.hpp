@@ -82,6 +82,7 @@ namespace breaking {
     X(BeginCommandBuffer) \
     X(CmdExecuteCommands) \
     X(CmdClearAttachments) \
+    X(CreateQueryPool) \
     X(CmdBeginQuery) \
     X(CmdResetQueryPool) \
     X(GetQueryPoolResults)

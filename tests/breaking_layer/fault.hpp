@@ -164,6 +164,7 @@ struct Clears {
 // What is read of a query.
 struct QueryResult {
     uint64_t count = 0;
+    VkQueryPipelineStatisticFlags statistics = 0;  // that its pool counts; 0: of occlusion
     bool is_precise = false;
     bool in_secondary = false;  // it was begun in a secondary command buffer
     uint64_t before = 0;        // what the queries counted that were read before it, since a reset

@@ -26,6 +26,7 @@ FOCUS = [  # families that are about the faults whose names match
     ("alpha-to-one", ["alpha-to-one/**", "combination/**"]),
     ("sample|centroid", ["multisample/**", "interpolate-at/**", "derivative/**"]),
     ("query", ["query/**", "combination/**", "large/query*"]),
+    ("statistics", ["statistics/**", "combination/**"]),
     ("frag-depth", ["frag-depth/**", "combination/**"]),
     ("fragment-(discard|demote|terminate)|early-tests", ["discard/**", "combination/**"]),
     ("resolve", ["resolve/**"]),

@@ -21,6 +21,19 @@ struct Begun {
 std::mutex mutex;
 std::map<std::pair<VkQueryPool, uint32_t>, Begun> begun;
 std::map<VkQueryPool, uint64_t> counted;  // by the queries of the pool that were read
+std::map<VkQueryPool, VkQueryPipelineStatisticFlags> statistics_of;
+
+VKAPI_ATTR VkResult VKAPI_CALL create_query_pool(VkDevice device, const VkQueryPoolCreateInfo* info,
+                                                 const VkAllocationCallbacks* allocator,
+                                                 VkQueryPool* pool) {
+    const VkResult result = driver_of_handle(device).CreateQueryPool(device, info, allocator, pool);
+    if (result == VK_SUCCESS) {
+        const std::lock_guard lock(mutex);
+        statistics_of[*pool] =
+            info->queryType == VK_QUERY_TYPE_PIPELINE_STATISTICS ? info->pipelineStatistics : 0;
+    }
+    return result;
+}
 
 VKAPI_ATTR void VKAPI_CALL begin_query(VkCommandBuffer commands, VkQueryPool pool, uint32_t query,
                                        VkQueryControlFlags flags) {
@@ -55,6 +68,7 @@ VKAPI_ATTR VkResult VKAPI_CALL get_query_pool_results(VkDevice device, VkQueryPo
         QueryResult own;
         std::memcpy(&own.count, at, sizeof own.count);
         const Begun& how = begun[{pool, first + k}];
+        own.statistics = statistics_of[pool];
         own.is_precise = (how.flags & VK_QUERY_CONTROL_PRECISE_BIT) != 0;
         own.in_secondary = how.in_secondary;
         own.before = counted[pool];
@@ -66,6 +80,7 @@ VKAPI_ATTR VkResult VKAPI_CALL get_query_pool_results(VkDevice device, VkQueryPo
 }
 
 const OwnCommand kCommands[] = {
+    BREAKING_OWN(CreateQueryPool, create_query_pool),
     BREAKING_OWN(CmdBeginQuery, begin_query),
     BREAKING_OWN(CmdResetQueryPool, reset_query_pool),
     BREAKING_OWN(GetQueryPoolResults, get_query_pool_results),

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Occlusion queries: what is read of them.
+// Queries: what is read of them.
 #include <algorithm>
 #include <array>
 
@@ -32,11 +32,25 @@ constexpr std::array kFaults = {
           "A query that is not precise tells of samples where none passed.",
           {.query_result =
                [](QueryResult& q) {
-                   return !q.is_precise && change(q.count, std::max(q.count, uint64_t{1}));
+                   return !q.is_precise && q.statistics == 0 &&
+                          change(q.count, std::max(q.count, uint64_t{1}));
                }}},
     Fault{"query-not-reset",
           "A query goes on from what the queries before it counted.",
           {.query_result = [](QueryResult& q) { return change(q.count, q.count + q.before); }}},
+    Fault{"statistics-one-less",
+          "A query of pipeline statistics that counted anything gives one less.",
+          {.query_result =
+               [](QueryResult& q) {
+                   return q.statistics != 0 && change(q.count, q.count - (q.count > 0 ? 1 : 0));
+               }}},
+    Fault{"statistics-clipping-nothing",
+          "No primitive comes out of clipping, by the pipeline statistics.",
+          {.query_result =
+               [](QueryResult& q) {
+                   return q.statistics == VK_QUERY_PIPELINE_STATISTIC_CLIPPING_PRIMITIVES_BIT &&
+                          change(q.count, 0);
+               }}},
     Fault{"door-query-lost",
           "Queries in secondary command buffers count nothing.",
           {.query_result = [](QueryResult& q) { return q.in_secondary && change(q.count, 0); }}},

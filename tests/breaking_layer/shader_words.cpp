@@ -28,6 +28,9 @@ enum Op : uint32_t {
     kOpDecorate = 71,
     kOpMemberDecorate = 72,
     kOpFNegate = 127,
+    kOpFOrdLessThan = 184,
+    kOpFOrdGreaterThan = 186,
+    kOpFOrdLessThanEqual = 188,
     kOpKill = 252,
     kOpReturn = 253,
     kOpTerminateInvocation = 4416,
@@ -268,6 +271,30 @@ bool ShaderWords::lose_early_tests() {
         }
     }
     return false;
+}
+
+bool ShaderWords::compare_by(uint32_t op) {
+    const auto code = instructions();
+    if (std::none_of(code.begin(), code.end(),
+                     [](const Instruction& i) { return i.op == kOpKill; })) {
+        return false;
+    }
+    bool is_changed = false;
+    for (const Instruction& i : code) {
+        if (i.op == kOpFOrdLessThan) {
+            words_[i.at] = first_word(op, static_cast<uint32_t>(i.words.size()));
+            is_changed = true;
+        }
+    }
+    return is_changed;
+}
+
+bool ShaderWords::discard_equal() {
+    return compare_by(kOpFOrdLessThanEqual);
+}
+
+bool ShaderWords::discard_greater() {
+    return compare_by(kOpFOrdGreaterThan);
 }
 
 bool ShaderWords::test_early() {

@@ -40,6 +40,9 @@ class ShaderWords {
     bool discard_nothing();
     bool demote_nothing();
     bool terminate_nothing();
+    // The comparison of two numbers by which a fragment shader discards, a < b, is a <= b or a > b.
+    bool discard_equal();
+    bool discard_greater();
     // A fragment shader loses the execution mode EarlyFragmentTests, or one that discards gets it.
     bool lose_early_tests();
     bool test_discards_early();
@@ -48,6 +51,7 @@ class ShaderWords {
 
   private:
     bool test_early();
+    bool compare_by(uint32_t op);
     struct Instruction {
         size_t at = 0;  // word
         uint32_t op = 0;

@@ -99,6 +99,8 @@ std::vector<LegalDevice> legal_devices() {
             d.overestimation = software::Overestimation::half_pixel;
             d.mitres_corners = true;
         });
+    add("counts_most", "pipeline statistics count all that they may", Profile::direct3d,
+        [](Device& d) { d.counts_most = true; });
     add("odd_quads", "quads of derivatives begin at odd pixels", Profile::direct3d,
         [](Device& d) { d.odd_quads = true; });
     add("blend_in_binary32", "bytes are blended in binary32", Profile::direct3d,

@@ -78,6 +78,7 @@ void push_constants(const Device& device, const PipelineCache& pipelines, VkComm
     }
     constants.sample_mask = draw.multisample.shader_mask.value_or(0xffffffffU);
     constants.discarded = static_cast<uint32_t>(draw.discard);
+    constants.discarded_by = input_of_discard(test, draw);
     if (draw.frag_depth) {
         constants.depth = draw.frag_depth->value;
         constants.other_depth = draw.frag_depth->other;

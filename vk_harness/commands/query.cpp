@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "capture/capture.hpp"
+#include "cases/model/sample.hpp"
 
 namespace vk_harness {
 
@@ -42,29 +43,77 @@ Result<uint64_t> read_one(const Device& device, VkQueryPool pool, uint32_t query
 
 }  // namespace
 
+namespace {
+
+// The bit of a statistic; of the kinds of pools 0 is that of occlusion queries.
+VkQueryPipelineStatisticFlags statistic_of(Query query) {
+    switch (query) {
+        case Query::none:
+        case Query::occlusion:
+        case Query::occlusion_precise:
+            break;
+        case Query::input_vertices:
+            return VK_QUERY_PIPELINE_STATISTIC_INPUT_ASSEMBLY_VERTICES_BIT;
+        case Query::input_primitives:
+            return VK_QUERY_PIPELINE_STATISTIC_INPUT_ASSEMBLY_PRIMITIVES_BIT;
+        case Query::vertex_invocations:
+            return VK_QUERY_PIPELINE_STATISTIC_VERTEX_SHADER_INVOCATIONS_BIT;
+        case Query::clipping_invocations:
+            return VK_QUERY_PIPELINE_STATISTIC_CLIPPING_INVOCATIONS_BIT;
+        case Query::clipping_primitives:
+            return VK_QUERY_PIPELINE_STATISTIC_CLIPPING_PRIMITIVES_BIT;
+        case Query::fragment_invocations:
+            return VK_QUERY_PIPELINE_STATISTIC_FRAGMENT_SHADER_INVOCATIONS_BIT;
+    }
+    return 0;
+}
+
+}  // namespace
+
+// A pool has one kind of queries, and all that a case asks are as long as it has draws: those of
+// other draws are not used.
 Result<Queries> Queries::create(const Device& device, const cases::Case& c) {
     Queries queries(device, c);
-    VkQueryPoolCreateInfo info = Typed{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
-    info.queryType = VK_QUERY_TYPE_OCCLUSION;
-    info.queryCount = static_cast<uint32_t>(c.draws.size());
-    if (auto made = put(queries.pool_,
-                        make(device, Stage::memory, "vkCreateQueryPool",
-                             device.vk().vkCreateQueryPool, device.vk().vkDestroyQueryPool, info));
-        !made) {
-        return fail(made.error());
+    for (const cases::Draw& draw : c.draws) {
+        if (!queries.is_asked(draw.query) || queries.pools_.contains(statistic_of(draw.query))) {
+            continue;
+        }
+        VkQueryPoolCreateInfo info = Typed{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
+        info.pipelineStatistics = statistic_of(draw.query);
+        info.queryType = info.pipelineStatistics == 0 ? VK_QUERY_TYPE_OCCLUSION
+                                                      : VK_QUERY_TYPE_PIPELINE_STATISTICS;
+        info.queryCount = static_cast<uint32_t>(c.draws.size());
+        if (auto made =
+                put(queries.pools_[info.pipelineStatistics],
+                    make(device, Stage::memory, "vkCreateQueryPool", device.vk().vkCreateQueryPool,
+                         device.vk().vkDestroyQueryPool, info));
+            !made) {
+            return fail(made.error());
+        }
     }
     return queries;
 }
 
+bool Queries::is_asked(Query query) const {
+    return query != Query::none &&
+           (!cases::is_statistic(query) || case_->variation == cases::Variation{});
+}
+
+VkQueryPool Queries::pool_of(Query query) const {
+    return pools_.at(statistic_of(query)).get();
+}
+
 void Queries::reset(VkCommandBuffer commands) const {
-    device_->vk().vkCmdResetQueryPool(commands, pool_.get(), 0,
-                                      static_cast<uint32_t>(case_->draws.size()));
+    for (const auto& [statistic, pool] : pools_) {
+        device_->vk().vkCmdResetQueryPool(commands, pool.get(), 0,
+                                          static_cast<uint32_t>(case_->draws.size()));
+    }
 }
 
 void Queries::begin(VkCommandBuffer commands, uint32_t draw) const {
     const Query query = case_->draws[draw].query;
-    if (query != Query::none) {
-        device_->vk().vkCmdBeginQuery(commands, pool_.get(), draw,
+    if (is_asked(query)) {
+        device_->vk().vkCmdBeginQuery(commands, pool_of(query), draw,
                                       query == Query::occlusion_precise
                                           ? VkQueryControlFlags{VK_QUERY_CONTROL_PRECISE_BIT}
                                           : VkQueryControlFlags{0});
@@ -72,8 +121,8 @@ void Queries::begin(VkCommandBuffer commands, uint32_t draw) const {
 }
 
 void Queries::end(VkCommandBuffer commands, uint32_t draw) const {
-    if (case_->draws[draw].query != Query::none) {
-        device_->vk().vkCmdEndQuery(commands, pool_.get(), draw);
+    if (const Query query = case_->draws[draw].query; is_asked(query)) {
+        device_->vk().vkCmdEndQuery(commands, pool_of(query), draw);
     }
 }
 
@@ -82,10 +131,11 @@ Result<std::vector<uint64_t>> Queries::read() const {
     const auto end = std::chrono::steady_clock::now() + kLongestWait;  // of all of them
     for (uint32_t k = 0; k < counted.size(); ++k) {
         const Query query = case_->draws[k].query;
-        if (query == Query::none) {
+        if (!is_asked(query)) {
+            counted[k] = query == Query::none ? 0 : capture::kNotAsked;
             continue;
         }
-        auto result = read_one(*device_, pool_.get(), k, end);
+        auto result = read_one(*device_, pool_of(query), k, end);
         if (!result) {
             return fail(result.error());
         }

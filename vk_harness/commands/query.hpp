@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Occlusion queries around the draws of a case.
+// Queries around the draws of a case, of occlusion and of pipeline statistics. The latter are asked
+// in the case's own rendering alone: through a door a draw may be other vertices.
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "cases/model/case.hpp"
@@ -31,8 +33,10 @@ class Queries {
   private:
     Queries(const Device& device, const cases::Case& c) : device_(&device), case_(&c) {}
     const Device* device_;
+    bool is_asked(cases::Query query) const;
+    VkQueryPool pool_of(cases::Query query) const;
     const cases::Case* case_;
-    Handle<VkQueryPool> pool_;
+    std::map<VkQueryPipelineStatisticFlags, Handle<VkQueryPool>> pools_;  // 0: occlusion
 };
 
 }  // namespace vk_harness

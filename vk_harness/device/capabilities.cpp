@@ -174,6 +174,7 @@ void query_optional_features(Capabilities& c) {
     c.alpha_to_one = features.features.alphaToOne == VK_TRUE;
     c.dual_source = features.features.dualSrcBlend == VK_TRUE;
     c.precise_queries = features.features.occlusionQueryPrecise == VK_TRUE;
+    c.pipeline_statistics = features.features.pipelineStatisticsQuery == VK_TRUE;
     c.depth_clip_enable = depth_clip.depthClipEnable == VK_TRUE;
     c.depth_bias = query_depth_bias_support(c.physical, has_device_extension);
     c.has_sample_shading = features.features.sampleRateShading == VK_TRUE;

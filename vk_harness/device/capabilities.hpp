@@ -57,8 +57,9 @@ struct Capabilities {
     bool depth_bounds = false;
     bool logic_op = false;
     bool alpha_to_one = false;
-    bool dual_source = false;      // dualSrcBlend
-    bool precise_queries = false;  // occlusionQueryPrecise
+    bool dual_source = false;          // dualSrcBlend
+    bool precise_queries = false;      // occlusionQueryPrecise
+    bool pipeline_statistics = false;  // pipelineStatisticsQuery
     DepthBiasSupport depth_bias;
     PortabilitySupport portability;
     CoreSupport core;

@@ -162,6 +162,8 @@ Result<Device> Device::create(const Capabilities& capabilities) {
     features.features.logicOp = capabilities.logic_op ? VK_TRUE : VK_FALSE;
     features.features.depthBounds = capabilities.depth_bounds ? VK_TRUE : VK_FALSE;
     features.features.occlusionQueryPrecise = capabilities.precise_queries ? VK_TRUE : VK_FALSE;
+    features.features.pipelineStatisticsQuery =
+        capabilities.pipeline_statistics ? VK_TRUE : VK_FALSE;
     features.features.geometryShader = capabilities.info.has_primitive_id ? VK_TRUE : VK_FALSE;
 
     ClipFeatures clip;

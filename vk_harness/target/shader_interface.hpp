@@ -19,6 +19,8 @@ const cases::Attribute* input_attribute(const cases::Case& c, const cases::Draw&
 
 // The input that a draw's colour at a location comes from, or -1.
 int32_t input_of_color(const cases::Case& c, const cases::Draw& draw, uint32_t location);
+// The input whose sign a draw's shader discards by, if it does.
+uint32_t input_of_discard(const cases::Case& c, const cases::Draw& draw);
 
 // Ids are written as binary32 (shaders/capture.frag): integers below 2^24 are exact.
 inline constexpr uint32_t kMaxId = 1U << 24;

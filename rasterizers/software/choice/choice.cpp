@@ -19,8 +19,8 @@ namespace {
                                   enlarges, counts_borders, mitres_corners, covers_by_piece,
                                   rasterizes_degenerates, unorm, narrow_through_eight, blend,
                                   multiply, half_toward_zero, resolve_truncates,
-                                  srgb_resolved_encoded, blit_edge, blit_steps, fault, place_x,
-                                  place_y] = device;
+                                  srgb_resolved_encoded, blit_edge, blit_steps, counts_most, fault,
+                                  place_x, place_y] = device;
 }
 
 template <auto Field>
@@ -89,6 +89,7 @@ const std::vector<Choice>& all_choices() {
         flag<&Device::srgb_resolved_encoded>("srgb-resolved-encoded"),
         {"blit-edge", {"image", "region"}, set_word<&Device::blit_edge>},
         flag<&Device::blit_steps>("blit-steps"),
+        flag<&Device::counts_most>("counts-most"),
     };
     return kChoices;
 }

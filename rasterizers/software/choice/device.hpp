@@ -94,6 +94,9 @@ struct Device {
     bool srgb_resolved_encoded = false;  // averages of sRGB are taken of the codes
     BlitEdge blit_edge = BlitEdge::image;
     bool blit_steps = false;  // coordinates of a blit are summed up from texel to texel
+    // Pipeline statistics: vertices of incomplete primitives, each vertex of each primitive, whole
+    // quads of fragments, whatever becomes of them. Else as little as must be counted.
+    bool counts_most = false;
     Fault fault = Fault::none;
     // An error with a size: depths and inputs are evaluated so many pixels right of and below where
     // they should be.

@@ -338,6 +338,11 @@ enum class Fault : uint16_t {
     demote_stores_depth,
     terminate_ignored,
     terminate_by_quad,
+    discard_value_or_zero,
+    discard_value_of_first,
+    discard_value_of_second,
+    discard_value_of_vertex,
+    discard_value_at_centre,
     // depths that the fragment shader writes
     frag_depth_ignored,
     frag_depth_of_first_draw,
@@ -414,6 +419,17 @@ enum class Fault : uint16_t {
     query_in_16_bits,
     query_precise_as_any,
     query_always_any,
+    // pipeline statistics
+    statistics_vertices_by_primitive,
+    statistics_vertices_cached,
+    statistics_primitives_of_list,
+    statistics_restarts_counted,
+    statistics_shades_primitives,
+    statistics_without_culled,
+    statistics_clipping_lossless,
+    statistics_clipping_uncut,
+    statistics_fragments_by_quad,
+    statistics_fragments_by_pixel,
 };
 
 // One line of the table of faults.

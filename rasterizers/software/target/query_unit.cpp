@@ -16,9 +16,16 @@ QueryUnit::QueryUnit(const cases::Case& c, const Device& device) : case_(c), dev
     }
 }
 
-void QueryUnit::count(uint32_t draw, Ending ending, bool is_first) {
+void QueryUnit::count(uint32_t draw, Ending ending, bool is_first, const Quad& quad) {
     const Fault fault = device_.fault;
-    if (counts_.empty() || (fault == Fault::query_counts_pixels && !is_first)) {
+    if (counts_.empty()) {
+        return;
+    }
+    if (cases::is_statistic(case_.draws[draw].query)) {
+        count_fragment(draw, ending, is_first, quad);
+        return;
+    }
+    if (fault == Fault::query_counts_pixels && !is_first) {
         return;
     }
     bool is_counted = ending == Ending::shown || ending == Ending::hidden;
@@ -45,6 +52,59 @@ void QueryUnit::count(uint32_t draw, Ending ending, bool is_first) {
             break;
     }
     counts_[draw] += is_counted ? 1 : 0;
+}
+
+namespace {
+
+// Whether each sample of the draw has an invocation of its own.
+bool is_shaded_by_sample(const cases::Draw& draw) {
+    return draw.multisample.min_sample_shading.has_value() ||
+           std::ranges::any_of(draw.attributes, [](const cases::Attribute& a) {
+               return a.auxiliary == cases::Auxiliary::sample ||
+                      a.source == cases::Source::sample_id ||
+                      a.source == cases::Source::sample_position;
+           });
+}
+
+}  // namespace
+
+void QueryUnit::count_fragment(uint32_t draw, Ending ending, bool is_first, const Quad& quad) {
+    is_fragment_done_ = is_fragment_done_ && !is_first;
+    const Fault fault = device_.fault;
+    if (quads_draw_ != draw) {
+        quads_draw_ = draw;
+        quads_.clear();
+    }
+    const bool by_sample =
+        is_shaded_by_sample(case_.draws[draw]) && fault != Fault::statistics_fragments_by_pixel;
+    const bool is_shaded = device_.counts_most || ending == Ending::discarded ||
+                           ending == Ending::hidden || ending == Ending::shown;
+    if (!is_shaded || (is_fragment_done_ && !by_sample)) {
+        return;
+    }
+    is_fragment_done_ = true;
+    uint64_t more = 1;
+    if (device_.counts_most || fault == Fault::statistics_fragments_by_quad) {
+        const uint64_t samples = by_sample ? case_.target.samples : 1;
+        more = !quads_.insert(quad).second ? 0 : device_.counts_most ? 4 * samples : 1;
+    }
+    add(draw, Query::fragment_invocations, more);
+}
+
+void QueryUnit::count_clipped(uint32_t draw, size_t corners, bool was_cut) {
+    uint64_t more = corners < 3 ? 0 : corners - 2;
+    if (device_.fault == Fault::statistics_clipping_lossless) {
+        more = std::max(more, uint64_t{1});
+    } else if (device_.fault == Fault::statistics_clipping_uncut && was_cut) {
+        more = 0;
+    }
+    add(draw, Query::clipping_primitives, more);
+}
+
+void QueryUnit::add(uint32_t draw, Query statistic, uint64_t more) {
+    if (!counts_.empty() && case_.draws[draw].query == statistic) {
+        counts_[draw] += more;
+    }
 }
 
 std::vector<uint64_t> QueryUnit::results() const {

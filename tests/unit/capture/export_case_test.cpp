@@ -90,8 +90,8 @@ std::vector<Change> draw_changes() {
     [[maybe_unused]] const auto& [topology, positions, indices, primitive_restart, attributes,
                                   viewport, scissor, cull, front_face, provoking,
                                   rasterizer_discard, conservative, conservative_extra, discard,
-                                  discard_by, early_tests, frag_depth, query, depth, stencil,
-                                  distances, multisample, color,
+                                  discard_attribute, discard_by, early_tests, frag_depth, query,
+                                  depth, stencil, distances, multisample, color,
                                   other_colors,  // not told
                                   layer, viewport_index, where] = cases::Draw{};
     [[maybe_unused]] const auto& [x, y, width, height, min_depth, max_depth] = cases::Viewport{};
@@ -123,6 +123,11 @@ std::vector<Change> draw_changes() {
          [](Case& c) { draw(c).conservative = cases::Conservative::underestimate; }},
         {"conservative_extra", [](Case& c) { draw(c).conservative_extra = 0.5F; }},
         {"discard", [](Case& c) { draw(c).discard = cases::Discard::odd_rows; }},
+        {"discard_attribute",
+         [](Case& c) {
+             draw(c).discard = cases::Discard::negative;
+             draw(c).discard_attribute = 1;
+         }},
         {"discard_by", [](Case& c) { draw(c).discard_by = cases::DiscardBy::demote; }},
         {"early_tests", [](Case& c) { draw(c).early_tests = true; }},
         {"frag_depth", [](Case& c) { draw(c).frag_depth = cases::FragDepth{}; }},

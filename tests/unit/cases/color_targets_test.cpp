@@ -110,11 +110,11 @@ TEST(ColorTargets, WhatTargetsShareIsFoundInAnyOfThem) {
     EXPECT_EQ(blend_constants(c.draws[0]), glm::vec4(0));
     c.draws[0].other_colors[1].blend->constants = {1, 2, 3, 4};
     EXPECT_EQ(blend_constants(c.draws[0]), glm::vec4(1, 2, 3, 4));
-    EXPECT_EQ(colored_attributes(c.target, c.draws[0]), std::vector<uint32_t>{0});
+    EXPECT_EQ(drawn_attributes(c.target, c.draws[0]), std::vector<uint32_t>{0});
     c.draws[0].color.attribute = 2;
-    EXPECT_EQ(colored_attributes(c.target, c.draws[0]), (std::vector<uint32_t>{2, 0}));
+    EXPECT_EQ(drawn_attributes(c.target, c.draws[0]), (std::vector<uint32_t>{2, 0}));
     c.draws[0].color.attribute = 0;  // for both
-    EXPECT_EQ(colored_attributes(c.target, c.draws[0]), std::vector<uint32_t>{0});
+    EXPECT_EQ(drawn_attributes(c.target, c.draws[0]), std::vector<uint32_t>{0});
 }
 
 TEST(ColorTargets, MistakesAreNamed) {

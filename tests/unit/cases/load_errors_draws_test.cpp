@@ -129,7 +129,7 @@ vertices = [[0,0],[8,0],[0,8]])~"),
          "query = \"occlusion\"\ncolor = { value = [0, 0, 0, 1] }\n",
      R"~(f:10:9: error: a query needs the attachments that count hits; leave attachments out of [target])~"},
     {triangle(R"~(query = "precise")~"),
-     R"~(f:8:9: error: query is "precise"; write "none", "occlusion" or "occlusion-precise")~"},
+     R"~(f:8:9: error: query is "precise"; write "none", "occlusion", "occlusion-precise", "input-vertices", "input-primitives", "vertex-invocations", "clipping-invocations", "clipping-primitives" or "fragment-invocations")~"},
     {triangle(R"~(query = "occlusion"
 early_tests = true
 sample_mask = 1)~"),

@@ -128,7 +128,7 @@ size = [8, 8]
 [[draw]]
 vertices = [[0,0],[8,0],[0,8]]
 )~"),
-     R"~(f:3:10: error: no rule is called "discard.test"; there are discard.rasterizer, discard.fragment, discard.early-tests
+     R"~(f:3:10: error: no rule is called "discard.test"; there are discard.rasterizer, discard.fragment, discard.value, discard.early-tests
 f:3:26: error: no rule is called "tie.topleft"; did you mean "tie.top-left"?
 f:3:41: error: no rule is called "covr.inside"; did you mean "cover.inside"?
 f:3:56: error: no rule is called "wrong"; docs/rules.md lists all)~"},
@@ -409,6 +409,41 @@ vertices = [[0,0],[8,0],[0,8]]
 discard_by = "demote"
 )~"),
      R"~(f:8:14: error: discard_by without discard means nothing; leave it out)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [2, 1]
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+discard = "front"
+discard_attribute = "a"
+)~"),
+     R"~(f:9:21: error: discard_attribute needs discard = "negative"; leave it out)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [2, 1]
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+discard = "negative"
+)~"),
+     R"~(f:8:11: error: discard = "negative" needs an attribute whose values it tests; write [[draw.attribute]])~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [2, 1]
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+discard = "negative"
+discard_attribute = "b"
+[[draw.attribute]]
+name = "a"
+constant = 1
+)~"),
+     R"~(f:9:21: error: discard_attribute is "b"; write "a")~"},
     {whole(R"~(format = 1
 description = "d"
 rules = ["cover.inside"]

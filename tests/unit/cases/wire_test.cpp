@@ -41,7 +41,8 @@ Case sample() {
     draw.rasterizer_discard = true;
     draw.conservative = cases::Conservative::overestimate;
     draw.conservative_extra = 0.75F;
-    draw.discard = cases::Discard::checker;
+    draw.discard = cases::Discard::negative;
+    draw.discard_attribute = 1;
     draw.discard_by = cases::DiscardBy::terminate;
     draw.early_tests = true;
     draw.frag_depth = FragDepth{false, 0.25F, 0.5F, Discard::odd_rows, DepthLayout::less};
@@ -151,6 +152,7 @@ TEST(Wire, RoundTripKeepsEveryBit) {
         EXPECT_EQ(a.discard, b.discard);
         EXPECT_EQ(a.conservative, b.conservative);
         EXPECT_EQ(a.conservative_extra, b.conservative_extra);
+        EXPECT_EQ(a.discard_attribute, b.discard_attribute);
         EXPECT_EQ(a.discard_by, b.discard_by);
         EXPECT_EQ(a.early_tests, b.early_tests);
         EXPECT_EQ(a.frag_depth, b.frag_depth);

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Wrong numbers planted in what occlusion queries counted.
+// Wrong numbers planted in what queries counted.
 #include <gtest/gtest.h>
 
 #include "cases/model/rule_ids.hpp"
+#include "cases/model/words.hpp"
 #include "diff/consistency.hpp"
 #include "diff/verdict.hpp"
 #include "rasterizers/captures.hpp"
@@ -110,6 +111,55 @@ TEST(QueryJudge, AnyNumberButZeroTellsOfSamples) {
     EXPECT_EQ(finding_with(c, 0, 0).expected, "not 0");
     EXPECT_EQ(finding_with(c, 1, 1).expected, "0");
     EXPECT_EQ(finding_with(c, 1, 1).got, "not 0");
+}
+
+// One triangle of 10 pixels and 3 vertices. All of these lie on borders of the clip volume: whether
+// one is inside of it only Direct3D says.
+TEST(QueryJudge, StatisticsHaveALeastAndAtDirect3DAMost) {
+    struct Row {
+        Query query;
+        uint64_t least, most;
+    };
+    for (const Row& row : {Row{Query::input_vertices, 3, 3},
+                           {Query::input_primitives, 1, 1},
+                           {Query::vertex_invocations, 3, 3},
+                           {Query::clipping_invocations, 1, 1},
+                           {Query::clipping_primitives, 1, 1},
+                           {Query::fragment_invocations, 10, 36}}) {
+        const cases::Case c = asked(row.query);
+        const std::string name = std::string(cases::word_of(row.query)) + " of draw 0";
+        capture::Capture capture = rasterizers::draw_by_reference(c);
+        EXPECT_TRUE(verdict_of(c, capture).ok()) << name;
+        EXPECT_EQ(capture.counted[0], row.least) << name;
+        const Finding less = finding_with(c, 0, row.least - 1);
+        EXPECT_EQ(less.rule, "query.statistics");
+        const bool is_clipped = row.query == Query::clipping_primitives;
+        EXPECT_EQ(less.level, is_clipped ? Profile::direct3d : Profile::vulkan) << name;
+        EXPECT_EQ(less.quantity, name);
+        EXPECT_EQ(less.expected, (is_clipped ? "" : "at least ") + std::to_string(row.least));
+        EXPECT_TRUE(less.of_case);
+        const Finding more = finding_with(c, 0, row.most + 1);
+        EXPECT_EQ(more.level, Profile::direct3d) << name;
+        EXPECT_EQ(more.got, std::to_string(row.most + 1));
+        capture.counted[0] = row.most;
+        EXPECT_TRUE(verdict_of(c, capture).ok()) << name;
+        capture.counted[0] = 1000000;
+        EXPECT_TRUE(verdict_of(c, capture, Profile::practice).ok()) << name;
+        capture.counted[0] = capture::kNotCounted;
+        EXPECT_EQ(verdict_of(c, capture, Profile::vulkan).findings.at(0).got, "no result");
+    }
+}
+
+TEST(QueryJudge, StatisticsThatWereNotAskedAreNotCompared) {
+    cases::Case c = asked(Query::vertex_invocations);
+    c.relations = {{cases::RelationKind::same_twice, {}}};
+    const capture::Capture base = rasterizers::draw_by_reference(c);
+    capture::Capture derived = base;
+    derived.counted.assign(3, capture::kNotAsked);
+    const std::vector<cases::Derivation> derivations = cases::derivations(c);
+    EXPECT_EQ(compare_bits(base, derived, derivations[0]).different, 0U);
+    derived.counted[1] = 77;
+    EXPECT_EQ(compare_bits(base, derived, derivations[0]).different, 1U);
 }
 
 TEST(QueryJudge, DrawsWithoutQueriesAreNotJudged) {

@@ -151,6 +151,17 @@ TEST(Counted, WhatIsDiscardedEarlyIsCountedFromPracticeOn) {
     EXPECT_EQ(at(Profile::vulkan).most, 36U);
 }
 
+// Two fragments of draw 0 that may show or be discarded once they passed, and one of draw 1.
+TEST(Counted, WhatShowsOrIsDiscardedCountsOnce) {
+    const std::vector<CountedDraw> draws = {{0, 0, 0, 0, 0, 2, 2}, {1, 1, 1, 0, 0, 0, 0}};
+    for (const uint32_t hits : {1U, 2U, 3U}) {
+        EXPECT_EQ(counted_at(draws, 0, hits, hits, Profile::practice), (CountBounds{2, 2}));
+        EXPECT_EQ(counted_at(draws, 0, hits, hits, Profile::vulkan), (CountBounds{hits - 1, 2}));
+        EXPECT_EQ(passed_least(draws, 0, hits, hits), 2U);
+        EXPECT_EQ(counted_at(draws, 1, hits, hits, Profile::practice), (CountBounds{1, 1}));
+    }
+}
+
 TEST(Counted, OthersHitsLeaveLess) {
     const std::vector<CountedDraw> draws = {{0, 0, 2, 0, 0}, {1, 1, 3, 0, 1}};
     EXPECT_EQ(counted_at(draws, 0, 1, 5, Profile::vulkan), (CountBounds{0, 2}));

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Fragments that their shader discards: random cases against the oracle, and against cases without
-// discards that must come to the same.
+// Fragments that their shader discards by pixel or face: random cases against the oracle, and
+// against cases without discards that must come to the same. By values: discard_value_test.cpp.
 #include <gtest/gtest.h>
 
 #include "cases/model/sample.hpp"

@@ -21,6 +21,7 @@
 #include "ref/expectation/expectation.hpp"
 #include "ref/expectation/explain.hpp"
 #include "ref/expectation/reason_text.hpp"
+#include "ref/value/value.hpp"
 #include "tests/share.hpp"
 
 namespace ref::test {
@@ -51,7 +52,18 @@ Scene scene_of(const cases::Case& c, const cases::Triangle& t, Profile profile) 
     const cases::Draw all = d;
     d.topology = cases::Topology::triangle_list;
     d.indices.reset();
-    d.attributes.clear();
+    if (cases::discards_by_value(d)) {
+        d.attributes = {all.attributes[all.discard_attribute]};
+        d.attributes[0].values.clear();
+        d.discard_attribute = 0;
+        for (const uint32_t v : t.vertex) {
+            const bool is_flat = d.attributes[0].interpolation == cases::Interpolation::flat;
+            d.attributes[0].values.push_back(
+                all.attributes[all.discard_attribute].values[is_flat ? t.provoking : v]);
+        }
+    } else {
+        d.attributes.clear();
+    }
     d.positions.clear();
     d.distances.clip.clear();
     d.distances.cull.clear();
@@ -99,7 +111,7 @@ TriangleSetup set_up(const Scene& s, bool is_told) {
                        is_told);
 }
 
-Coverage answer(const Scene& s, cases::SampleId at) {
+Coverage answer_of_place(const Scene& s, cases::SampleId at) {
     const cases::Draw& draw = s.c.draws[0];
     const FixedPoint p = sample_position(at.x, at.y, at.sample, s.c.target);
     if (draw.layer != at.layer || !cases::is_in_mask(draw.multisample, at.sample) ||
@@ -123,6 +135,22 @@ Coverage answer(const Scene& s, cases::SampleId at) {
         }
     }
     return is_any ? Coverage::must : Coverage::either;
+}
+
+Coverage answer(const Scene& s, cases::SampleId at) {
+    const Coverage of_place = answer_of_place(s, at);
+    if (of_place == Coverage::must_not || !cases::takes_away_by_value(s.c.draws[0])) {
+        return of_place;
+    }
+    switch (ValueReference(s.c, Limits{}, s.profile).sign(0, at)) {
+        case Sign::negative:
+            return Coverage::must_not;
+        case Sign::not_negative:
+            return of_place;
+        case Sign::open:
+            break;
+    }
+    return Coverage::either;
 }
 
 // Whether p is on the inner side of all edges of some outline, for some choice of their ends, but
@@ -240,6 +268,8 @@ void take_away(Scene& s, Reason reason, int orientation) {
             draw.rasterizer_discard = false;
             return;
         case ReasonKind::fragment_discarded:
+        case ReasonKind::value_discarded:
+        case ReasonKind::near_zero:
         case ReasonKind::discarded_late:
             draw.discard = cases::Discard::none;
             return;
@@ -384,7 +414,10 @@ class LeafReasons {
                               cases::is_in_mask(draw.multisample, at.sample) &&
                               !cases::takes_away_pixel(draw, at.x, at.y) && !is_discarded_late;
         const FixedPoint p = sample_position(at.x, at.y, at.sample, case_.target);
-        const Coverage fast = is_drawn ? fast::classify(setup, p) : Coverage::must_not;
+        Coverage fast = is_drawn ? fast::classify(setup, p) : Coverage::must_not;
+        if (fast != Coverage::must_not && cases::takes_away_by_value(draw)) {
+            fast = answer(scene_of(case_, t.triangle, profile_), at);
+        }
         EXPECT_EQ(t.decision.coverage, fast) << where << ": " << words(t);
         EXPECT_TRUE(decides(case_, t, profile_, at)) << where << ": " << words(t);
         EXPECT_TRUE(std::is_sorted(t.decision.reasons.begin(), t.decision.reasons.end())) << where;

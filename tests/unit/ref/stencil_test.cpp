@@ -93,6 +93,8 @@ class RandomQuestions : public value_test::Random {
             states[m] = state();
             stencil::Fragment fragment{&states[m], one_in(2), !one_in(3), false, !one_in(3)};
             fragment.can_be_back = !fragment.can_be_front || one_in(3);
+            fragment.is_discarded_front = one_in(6);
+            fragment.is_discard_open = one_in(6);
             if (m > 0 && one_in(5)) {
                 fragment.twin = static_cast<int>(below(m));
                 fragment.is_sure = out.fragments[static_cast<size_t>(fragment.twin)].is_sure;

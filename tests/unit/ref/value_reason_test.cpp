@@ -72,6 +72,9 @@ std::optional<cases::Case> without(const cases::Case& c, const cases::Triangle& 
         case ReasonKind::value_coord_depth:
             draw.frag_depth.reset();
             return out;
+        case ReasonKind::value_not_discarded:
+            draw.discard = cases::Discard::none;
+            return out;
         case ReasonKind::value_set_up:
         case ReasonKind::value_hull:
         case ReasonKind::value_flat:

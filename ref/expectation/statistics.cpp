@@ -1,0 +1,312 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ref/expectation/statistics.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "cases/model/sample.hpp"
+#include "ref/position/clip.hpp"
+#include "ref/value/fragment/shading_rate.hpp"
+
+namespace ref {
+
+using cases::Draw;
+using cases::Profile;
+using cases::Query;
+using cases::Topology;
+
+namespace {
+
+// What a draw hands to the input assembly.
+struct Assembly {
+    uint64_t vertices = 0;    // of complete primitives,
+    uint64_t distinct = 0;    // each once,
+    uint64_t leftover = 0;    // and of incomplete ones
+    uint64_t restarts = 0;    // indices that restart
+    uint64_t primitives = 0;  // complete ones
+    uint64_t incomplete = 0;
+};
+
+Assembly assembly_of(const Draw& draw) {
+    Assembly out;
+    std::vector<uint32_t> all(draw.positions.size());
+    std::iota(all.begin(), all.end(), 0U);
+    all = draw.indices.value_or(all);
+    std::set<uint32_t> distinct;
+    const bool is_list = draw.topology == Topology::triangle_list;
+    const auto add_piece = [&](std::span<const uint32_t> piece) {
+        const size_t n = piece.size();
+        const size_t used = is_list ? n - n % 3 : n < 3 ? 0 : n;
+        out.vertices += used;
+        out.leftover += n - used;
+        out.primitives += is_list ? used / 3 : used < 3 ? 0 : used - 2;
+        out.incomplete += n > used ? 1 : 0;
+        distinct.insert(piece.begin(), piece.begin() + static_cast<std::ptrdiff_t>(used));
+    };
+    size_t begin = 0;
+    for (size_t k = 0; k < all.size(); ++k) {
+        if (draw.primitive_restart && draw.indices && all[k] == cases::kRestartIndex) {
+            add_piece(std::span(all).subspan(begin, k - begin));
+            begin = k + 1;
+            ++out.restarts;
+        }
+    }
+    add_piece(std::span(all).subspan(begin));
+    out.distinct = distinct.size();
+    return out;
+}
+
+// Of one triangle and the clip volume.
+struct Clipped {
+    bool is_inside = false;       // as a whole
+    bool has_vertex = false;      // a vertex lies inside, and on no plane
+    bool is_beyond_depth = false; // all of it lies beyond a depth plane
+    uint64_t planes = 0;          // that may cut it
+    bool is_known = true;         // its positions are numbers
+};
+
+// How far a vertex lies inside a plane, exactly but for what binary64 rounds: sums of two binary32
+// keep their sign.
+double inside_of(ClipPlane plane, const glm::vec4& at, const glm::vec4& distance) {
+    const auto x = static_cast<double>(at.x);
+    const auto y = static_cast<double>(at.y);
+    const auto z = static_cast<double>(at.z);
+    const auto w = static_cast<double>(at.w);
+    switch (plane) {
+        case ClipPlane::x_low:
+            return w + x;
+        case ClipPlane::x_high:
+            return w - x;
+        case ClipPlane::y_low:
+            return w + y;
+        case ClipPlane::y_high:
+            return w - y;
+        case ClipPlane::z_low:
+            return z;
+        case ClipPlane::z_high:
+            return w - z;
+        case ClipPlane::z_low_symmetric:
+            return w + z;
+        default:
+            return static_cast<double>(
+                distance[static_cast<glm::vec4::length_type>(user_index(plane))]);
+    }
+}
+
+Clipped clipped_of(const Draw& draw, const cases::Triangle& triangle) {
+    const ClipInput input(draw, triangle.vertex);
+    const ClipVolume volume = clip_volume_of(draw);
+    Clipped out;
+    out.is_inside = true;
+    std::array<bool, 3> is_within{true, true, true};
+    for (const glm::vec4& at : input.clip) {
+        for (int k = 0; k < 4; ++k) {
+            out.is_known = out.is_known && std::isfinite(at[k]);
+        }
+    }
+    for (const ClipPlane plane : volume.all()) {
+        size_t outside = 0;
+        for (size_t v = 0; v < 3; ++v) {
+            const double inside = inside_of(plane, input.clip.at(v), input.distance.at(v));
+            outside += inside < 0 ? 1 : 0;
+            is_within.at(v) = is_within.at(v) && inside > 0;
+        }
+        const auto depth = volume.depth();
+        const bool is_depth = std::find(depth.begin(), depth.end(), plane) != depth.end();
+        out.is_beyond_depth = out.is_beyond_depth || (is_depth && outside == 3);
+        out.planes += outside > 0 ? 1 : 0;
+        out.is_inside = out.is_inside && outside == 0;
+    }
+    for (size_t v = 0; v < 3; ++v) {
+        const bool is_before = input.clip.at(v).w > 0;
+        out.has_vertex = out.has_vertex || (is_within.at(v) && is_before);
+        out.is_inside = out.is_inside && is_before;
+        out.planes += is_before ? 0 : 1;
+    }
+    return out;
+}
+
+// Where a vertex lies, for bounds that need not be tight.
+std::array<double, 2> pixel_of(const Draw& draw, uint32_t vertex) {
+    const glm::vec4& at = draw.positions[vertex];
+    const cases::Viewport& v = draw.viewport;
+    const auto w = static_cast<double>(at.w);
+    return {static_cast<double>(v.x) +
+                (static_cast<double>(at.x) / w + 1) / 2 * static_cast<double>(v.width),
+            static_cast<double>(v.y) +
+                (static_cast<double>(at.y) / w + 1) / 2 * static_cast<double>(v.height)};
+}
+
+// Whether a triangle before the eye has an area that snapping does not take: more than a pixel.
+bool has_area(const Draw& draw, const cases::Triangle& t) {
+    const auto a = pixel_of(draw, t.vertex[0]);
+    const auto b = pixel_of(draw, t.vertex[1]);
+    const auto c = pixel_of(draw, t.vertex[2]);
+    const double area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    const double span = std::max({std::fabs(b[0] - a[0]), std::fabs(c[0] - a[0]),
+                                  std::fabs(b[1] - a[1]), std::fabs(c[1] - a[1])});
+    return std::fabs(area) > 2 && std::fabs(area) > span / 8;
+}
+
+// The triangles that must cover a sample: those that alone may have written one that is hit.
+std::vector<bool> must_cover(const Expectation& expectation) {
+    std::vector<bool> out(expectation.triangles.size(), false);
+    for (size_t index = 0; index < expectation.samples.size(); ++index) {
+        const SampleExpectation& sample = expectation.samples[index];
+        if (sample.hits.total_min > 0 && sample.writers_count == 1) {
+            out[expectation.writers_of(sample).front()] = true;
+        }
+    }
+    return out;
+}
+
+CountBounds clipping_primitives(const Draw& draw, size_t number, const Assembly& assembly,
+                                const Expectation& expectation) {
+    const bool is_direct3d = expectation.profile == Profile::direct3d;
+    const std::vector<bool> covers = must_cover(expectation);
+    CountBounds out{0, assembly.incomplete};
+    for (size_t t = 0; t < expectation.triangles.size(); ++t) {
+        const cases::Triangle& triangle = expectation.triangles[t];
+        if (triangle.draw != number) {
+            continue;
+        }
+        const Clipped clipped = clipped_of(draw, triangle);
+        if (!clipped.is_known) {
+            out.most = kNoMost;
+            continue;
+        }
+        const bool is_whole = is_direct3d && clipped.is_inside &&
+                              draw.distances.cull_count == 0 && has_area(draw, triangle);
+        out.least += is_whole || (clipped.has_vertex && covers[t]) ? 1U : 0U;
+        out.most += out.most == kNoMost     ? 0
+                    : clipped.is_inside     ? 1
+                    : clipped.is_beyond_depth ? 0
+                                              : 1 + clipped.planes;
+    }
+    out.least = draw.rasterizer_discard ? 0 : out.least;
+    return out;
+}
+
+// The quads of pixels that a draw's fragments may lie in, primitive by primitive: those of the
+// rectangle around it, or of the scissor.
+uint64_t quads_of(const Draw& draw, size_t number, const Expectation& expectation) {
+    const cases::Target& target = expectation.target;
+    const auto quads = [](double low, double high) {
+        return high > low ? std::ceil(high / 2) - std::floor(low / 2) : 0.0;
+    };
+    const double x0 = draw.scissor.x;
+    const double y0 = draw.scissor.y;
+    const double x1 = std::min(x0 + draw.scissor.width, static_cast<double>(target.width));
+    const double y1 = std::min(y0 + draw.scissor.height, static_cast<double>(target.height));
+    double out = 0;
+    for (const cases::Triangle& t : expectation.triangles) {
+        if (t.draw != number) {
+            continue;
+        }
+        std::array<double, 4> box{x0, y0, x1, y1};
+        const bool is_bounded =
+            draw.conservative == cases::Conservative::none &&
+            std::ranges::all_of(t.vertex, [&](uint32_t v) {
+                const auto at = pixel_of(draw, v);
+                return draw.positions[v].w > 0 && std::isfinite(at[0]) && std::isfinite(at[1]);
+            });
+        if (is_bounded) {
+            std::array<double, 4> own{HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+            for (const uint32_t v : t.vertex) {
+                const auto at = pixel_of(draw, v);
+                own = {std::min(own[0], at[0] - 1), std::min(own[1], at[1] - 1),
+                       std::max(own[2], at[0] + 1), std::max(own[3], at[1] + 1)};
+            }
+            box = {std::max(x0, std::floor(own[0])), std::max(y0, std::floor(own[1])),
+                   std::min(x1, std::ceil(own[2])), std::min(y1, std::ceil(own[3]))};
+        }
+        out += quads(box[0], box[2]) * quads(box[1], box[3]);
+    }
+    return static_cast<uint64_t>(out);
+}
+
+CountBounds fragment_invocations(const cases::Case& c, size_t number,
+                                 const Expectation& expectation, const HitsAt& hits) {
+    const Draw& draw = c.draws[number];
+    const uint32_t samples = c.target.samples;
+    const bool is_vulkan = expectation.profile == Profile::vulkan;
+    const bool is_by_sample =
+        !is_vulkan && value::shading_rate(draw, samples) == value::ShadingRate::sample;
+    CountBounds out{0, kNoMost};
+    uint64_t of_pixel = 0;
+    for (size_t index = 0; index < expectation.samples.size(); ++index) {
+        const SampleExpectation& sample = expectation.samples[index];
+        const std::span<const CountedDraw> counted = expectation.counted_of(sample);
+        const auto found =
+            std::ranges::find(counted, static_cast<uint32_t>(number), &CountedDraw::draw);
+        uint64_t of_sample = 0;
+        if (found != counted.end()) {
+            uint32_t least = sample.hits.total_min;
+            uint32_t most = sample.hits.total_max;
+            if (const auto shown = hits ? hits(index) : std::nullopt;
+                shown && *shown >= least && *shown <= most) {
+                least = most = *shown;
+            }
+            const auto k = static_cast<size_t>(found - counted.begin());
+            of_sample = is_vulkan ? counted_at(counted, k, least, most, Profile::vulkan).least
+                                  : passed_least(counted, k, least, most);
+        }
+        of_pixel = is_by_sample ? of_pixel + of_sample : std::max(of_pixel, of_sample);
+        if ((index + 1) % samples == 0) {
+            out.least += of_pixel;
+            of_pixel = 0;
+        }
+    }
+    if (expectation.profile == Profile::direct3d && !draw.rasterizer_discard) {
+        const bool is_split = value::shading_rate(draw, samples) != value::ShadingRate::fragment;
+        out.most = 4 * quads_of(draw, number, expectation) * (is_split ? samples : 1);
+    }
+    return out;
+}
+
+}  // namespace
+
+CountBounds statistic_bounds(const cases::Case& c, size_t draw, const Expectation& expectation,
+                             const HitsAt& hits) {
+    const Draw& d = c.draws[draw];
+    const Assembly a = assembly_of(d);
+    const bool is_direct3d = expectation.profile == Profile::direct3d;
+    CountBounds out;
+    switch (d.query) {
+        case Query::none:
+        case Query::occlusion:
+        case Query::occlusion_precise:
+            break;
+        case Query::input_vertices:
+            out.least = is_direct3d || !d.indices ? a.vertices : a.distinct;
+            out.most = std::max(a.vertices,
+                                d.topology == Topology::triangle_fan ? 3 * a.primitives : 0) +
+                       a.leftover + a.restarts;
+            break;
+        case Query::input_primitives:
+            out = {a.primitives, a.primitives + a.incomplete};
+            break;
+        case Query::vertex_invocations:
+            out = {a.distinct, 3 * a.primitives + a.leftover};
+            break;
+        case Query::clipping_invocations:
+            out = {d.rasterizer_discard ? 0 : a.primitives, a.primitives + a.incomplete};
+            break;
+        case Query::clipping_primitives:
+            out = clipping_primitives(d, draw, a, expectation);
+            break;
+        case Query::fragment_invocations:
+            out = fragment_invocations(c, draw, expectation, hits);
+            break;
+    }
+    out.most = is_direct3d ? out.most : kNoMost;
+    return out;
+}
+
+}  // namespace ref

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Whether a value is negative, by all that a profile accepts of it (value.hpp, Sign).
+#include <algorithm>
+#include <cmath>
+
+#include "cases/model/sample.hpp"
+#include "ref/value/accept/candidate_reach.hpp"
+#include "ref/value/reference.hpp"
+
+namespace ref {
+
+using cases::kLeastNormal;
+using value::Ball;
+using value::Kind;
+using value::Quantity;
+
+namespace {
+
+// Of a range whose ends T bounds; open if T cannot tell. A number that is no normal one is 0 for a
+// device that flushes it, and negative for one that does not.
+Sign sign_of(const value::AcceptedRange<mpq_class>& accepted) {
+    const auto& [low, high] = accepted.range;
+    return accepted.is_free                                        ? Sign::open
+           : high <= mpq_class(-static_cast<double>(kLeastNormal)) ? Sign::negative
+           : low >= 0                                              ? Sign::not_negative
+                                                                   : Sign::open;
+}
+
+Sign sign_of(const value::AcceptedRange<Ball>& accepted) {
+    if (!accepted.is_known || accepted.is_free) {
+        return Sign::open;
+    }
+    // A Ball's ends are rounded once more here.
+    const double low = accepted.range.low.v - accepted.range.low.e;
+    const double high = accepted.range.high.v + accepted.range.high.e;
+    const double room = 0x1p-50 * (std::fabs(low) + std::fabs(high));
+    return high + room <= -static_cast<double>(kLeastNormal) ? Sign::negative
+           : low - room >= static_cast<double>(kLeastNormal) ? Sign::not_negative
+                                                             : Sign::open;
+}
+
+Sign sign_of(float flat) {
+    return flat <= -kLeastNormal                  ? Sign::negative
+           : flat >= 0 && std::isfinite(flat)     ? Sign::not_negative
+           : std::isinf(flat) && std::signbit(flat) ? Sign::negative
+                                                  : Sign::open;
+}
+
+}  // namespace
+
+Sign ValueReference::sign(uint32_t t, cases::SampleId sample, bool exact_only) {
+    const value::Primitive& primitive = impl_->load(t).primitive;
+    const QuantityId id = QuantityId::of_attribute(primitive.draw->discard_attribute, 0);
+    const cases::Attribute& a = primitive.draw->attributes.at(primitive.draw->discard_attribute);
+    if (!primitive.is_finite) {
+        return Sign::open;
+    }
+    if (a.interpolation == cases::Interpolation::flat) {
+        return sign_of(a.values[primitive.triangle.provoking].x);
+    }
+    const std::vector<Quantity>& all = impl_->quantities_of(t);
+    const auto found = std::find_if(all.begin(), all.end(), [&](const Quantity& q) {
+        return q.id == id && (q.kind == Kind::linear || q.kind == Kind::perspective);
+    });
+    const std::vector<size_t> only{static_cast<size_t>(found - all.begin())};
+    if (found == all.end() || !impl_->is_asked(t, only.front(), impl_->profile)) {
+        return Sign::open;
+    }
+    value::Asked asked{all, primitive.is_projectable};
+    asked.only = only;
+    if (!exact_only) {
+        const Sign sign = sign_of(value::accepted_ranges(impl_->candidates<Ball>(t, impl_->profile),
+                                                         impl_->places_of_range(t, sample), asked)
+                                      .front());
+        if (sign != Sign::open) {
+            return sign;
+        }
+    }
+    return sign_of(
+        value::accepted_ranges(
+            impl_->candidates<mpq_class>(t, impl_->profile),
+            value::evaluations<mpq_class>(impl_->fragment(t, sample, impl_->profile, exact_only),
+                                          impl_->profile),
+            asked)
+            .front());
+}
+
+}  // namespace ref
