@@ -98,7 +98,7 @@ constexpr std::array kRules = {
          "The fragment is gone where every number that the value may be there is below 0, and is "
          "drawn where none is; -0 and 0 are not below it. In between either is right, but what is "
          "drawn shows no negative value: the shader has one value, which it tests and writes.",
-         "fragops-shader", "", "ref/value/sign.hpp"},
+         "fragops-shader", "", "ref/value/sign.cpp"},
     Rule{rule::discard_early_tests, Profile::vulkan,
          "With early tests a discarded fragment has stored its depth and stencil",
          "EarlyFragmentTests: depth and stencil are tested and stored before the fragment shader "

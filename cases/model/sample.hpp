@@ -69,7 +69,7 @@ std::string sample_text(const Target& target, const SampleId& id);
 //
 // A discarded fragment has no effect on any attachment. Which are discarded is exact by the pixel,
 // whose integer coordinates the shader takes from gl_FragCoord, and by the face; by an attribute it
-// is as sure as the attribute's value is (ref/value/sign.hpp). So where the tests come after the
+// is as sure as the attribute's value is (ref/value/sign.cpp). So where the tests come after the
 // shader, or nothing is tested, the draw covers fewer samples. With early tests such a fragment
 // covers its sample, and is tested and stored like any other; no hit and no value shows it.
 

@@ -14,9 +14,9 @@ namespace {
 
 // What the input assembly has read of a draw.
 struct Stream {
-    uint64_t all = 0;       // vertices
-    uint64_t whole = 0;     // those of complete primitives
-    uint64_t partial = 0;   // incomplete primitives
+    uint64_t all = 0;      // vertices
+    uint64_t whole = 0;    // those of complete primitives
+    uint64_t partial = 0;  // incomplete primitives
     uint64_t restarts = 0;
 };
 
@@ -24,8 +24,9 @@ Stream read_stream(const cases::Draw& draw) {
     Stream out;
     uint64_t since = 0;  // the start or the last restart
     const auto end = [&] {
-        const uint64_t left =
-            draw.topology == cases::Topology::triangle_list ? since % 3 : since < 3 ? since : 0;
+        const uint64_t left = draw.topology == cases::Topology::triangle_list ? since % 3
+                              : since < 3                                     ? since
+                                                                              : 0;
         out.whole += since - left;
         out.partial += left > 0 ? 1 : 0;
         since = 0;

@@ -64,11 +64,11 @@ Assembly assembly_of(const Draw& draw) {
 
 // Of one triangle and the clip volume.
 struct Clipped {
-    bool is_inside = false;       // as a whole
-    bool has_vertex = false;      // a vertex lies inside, and on no plane
-    bool is_beyond_depth = false; // all of it lies beyond a depth plane
-    uint64_t planes = 0;          // that may cut it
-    bool is_known = true;         // its positions are numbers
+    bool is_inside = false;        // as a whole
+    bool has_vertex = false;       // a vertex lies inside, and on no plane
+    bool is_beyond_depth = false;  // all of it lies beyond a depth plane
+    uint64_t planes = 0;           // that may cut it
+    bool is_known = true;          // its positions are numbers
 };
 
 // How far a vertex lies inside a plane, exactly but for what binary64 rounds: sums of two binary32
@@ -181,11 +181,11 @@ CountBounds clipping_primitives(const Draw& draw, size_t number, const Assembly&
             out.most = kNoMost;
             continue;
         }
-        const bool is_whole = is_direct3d && clipped.is_inside &&
-                              draw.distances.cull_count == 0 && has_area(draw, triangle);
+        const bool is_whole = is_direct3d && clipped.is_inside && draw.distances.cull_count == 0 &&
+                              has_area(draw, triangle);
         out.least += is_whole || (clipped.has_vertex && covers[t]) ? 1U : 0U;
-        out.most += out.most == kNoMost     ? 0
-                    : clipped.is_inside     ? 1
+        out.most += out.most == kNoMost       ? 0
+                    : clipped.is_inside       ? 1
                     : clipped.is_beyond_depth ? 0
                                               : 1 + clipped.planes;
     }
@@ -285,9 +285,9 @@ CountBounds statistic_bounds(const cases::Case& c, size_t draw, const Expectatio
             break;
         case Query::input_vertices:
             out.least = is_direct3d || !d.indices ? a.vertices : a.distinct;
-            out.most = std::max(a.vertices,
-                                d.topology == Topology::triangle_fan ? 3 * a.primitives : 0) +
-                       a.leftover + a.restarts;
+            out.most =
+                std::max(a.vertices, d.topology == Topology::triangle_fan ? 3 * a.primitives : 0) +
+                a.leftover + a.restarts;
             break;
         case Query::input_primitives:
             out = {a.primitives, a.primitives + a.incomplete};

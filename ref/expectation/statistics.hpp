@@ -14,7 +14,8 @@
 //   clipping invocations      one a primitive, of whatever face; none with rasterizer discard
 //   clipping primitives       one for each triangle with a vertex inside the clip volume and a
 //                             sample that it must cover
-//   fragment invocations      one a fragment that shows; from practice on one for each of its samples
+//   fragment invocations      one a fragment that shows; from practice on one for each of its
+//   samples
 //                             if sample shading asks for that, and one for what the shader discards
 //                             after early tests, which were no invocations if they did not count
 //

@@ -42,10 +42,10 @@ Sign sign_of(const value::AcceptedRange<Ball>& accepted) {
 }
 
 Sign sign_of(float flat) {
-    return flat <= -kLeastNormal                  ? Sign::negative
-           : flat >= 0 && std::isfinite(flat)     ? Sign::not_negative
+    return flat <= -kLeastNormal                    ? Sign::negative
+           : flat >= 0 && std::isfinite(flat)       ? Sign::not_negative
            : std::isinf(flat) && std::signbit(flat) ? Sign::negative
-                                                  : Sign::open;
+                                                    : Sign::open;
 }
 
 }  // namespace
@@ -78,13 +78,12 @@ Sign ValueReference::sign(uint32_t t, cases::SampleId sample, bool exact_only) {
             return sign;
         }
     }
-    return sign_of(
-        value::accepted_ranges(
-            impl_->candidates<mpq_class>(t, impl_->profile),
-            value::evaluations<mpq_class>(impl_->fragment(t, sample, impl_->profile, exact_only),
-                                          impl_->profile),
-            asked)
-            .front());
+    return sign_of(value::accepted_ranges(
+                       impl_->candidates<mpq_class>(t, impl_->profile),
+                       value::evaluations<mpq_class>(
+                           impl_->fragment(t, sample, impl_->profile, exact_only), impl_->profile),
+                       asked)
+                       .front());
 }
 
 }  // namespace ref

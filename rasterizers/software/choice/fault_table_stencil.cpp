@@ -9,6 +9,10 @@ namespace software {
 
 namespace {
 
+// A fragment that is not there may be missed by any rule of the draw.
+constexpr std::string_view kByValue =
+    "discard.value cover.inside depth.compare stencil.compare blend.equation";
+
 constexpr FaultInfo kFaults[] = {
     {Fault::frag_depth_ignored, "frag_depth_ignored", "gl_FragDepth is ignored.",
      "depth.written depth.compare"},
@@ -185,16 +189,16 @@ constexpr FaultInfo kFaults[] = {
     {Fault::terminate_by_quad, "terminate_by_quad",
      "OpTerminateInvocation discards by blocks of two by two pixels.", "discard.fragment"},
     {Fault::discard_value_or_zero, "discard_value_or_zero",
-     "A shader that discards negative values discards 0, too.", "discard.value"},
+     "A shader that discards negative values discards 0, too.", kByValue},
     {Fault::discard_value_of_first, "discard_value_of_first",
-     "A shader discards by its first attribute, whichever it names.", "discard.value"},
+     "A shader discards by its first attribute, whichever it names.", kByValue},
     {Fault::discard_value_of_second, "discard_value_of_second",
-     "A shader discards by the second component of its attribute.", "discard.value"},
+     "A shader discards by the second component of its attribute.", kByValue},
     {Fault::discard_value_of_vertex, "discard_value_of_vertex",
-     "A shader discards by the value of the triangle's first vertex.", "discard.value"},
+     "A shader discards by the value of the triangle's first vertex.", kByValue},
     {Fault::discard_value_at_centre, "discard_value_at_centre",
      "A shader discards by the value at the pixel's centre, wherever its input is evaluated.",
-     "discard.value"},
+     kByValue},
     {Fault::query_before_mask, "query_before_mask",
      "Queries count the samples that the sample mask takes away.", "query.occlusion"},
     {Fault::query_before_discard, "query_before_discard",

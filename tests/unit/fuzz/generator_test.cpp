@@ -16,6 +16,7 @@
 #include "cases/base/checksum.hpp"
 #include "cases/format/color_format.hpp"
 #include "cases/load/loader.hpp"
+#include "cases/model/sample.hpp"
 
 namespace fuzz {
 namespace {
@@ -34,7 +35,7 @@ TEST(Generator, MakesTheSameCasesOnEveryMachine) {
         const Pose pose = next(poses, 1);
         hash = cases::stable_hash(case_text(1, pose, k, k * kGeometries + 5), hash);
     }
-    EXPECT_EQ(cases::hex(hash), "4410422a489e7981");
+    EXPECT_EQ(cases::hex(hash), "17b901b74b98dddf");
 }
 
 TEST(Generator, SeedsDiffer) {
@@ -206,15 +207,37 @@ TEST(Generator, LogicalOperationsCombineCodes) {
                 UnorderedElementsAre("none before", "another before", "none at last"));
 }
 
+// By values that are of either sign, of any of the attributes.
+TEST(Generator, ShadersDiscardByAttributes) {
+    EXPECT_THAT(
+        seen_in(pose_of({{"discard", "checker"}, {"attributes", "two"}}),
+                [](const cases::Case& c, const auto& see) {
+                    const cases::Draw& draw = c.draws[0];
+                    if (!cases::discards_by_value(draw)) {
+                        see(draw.discard == cases::Discard::checker, "checker");
+                        return;
+                    }
+                    for (const glm::vec4& v : draw.attributes.at(draw.discard_attribute).values) {
+                        see(v.x < 0, "negative");
+                        see(v.x > 0, "positive");
+                    }
+                    see(draw.discard_attribute == 0, "first");
+                    see(draw.discard_attribute == 1, "second");
+                }),
+        UnorderedElementsAre("checker", "negative", "positive", "first", "second"));
+}
+
 TEST(Generator, DrawsOfACaseHaveQueriesOfBothKinds) {
     EXPECT_THAT(seen_in(pose_of({{"query", "occlusion"}, {"draws", "2"}}),
                         [](const cases::Case& c, const auto& see) {
-                            EXPECT_EQ(c.draws[1].query, cases::Query::occlusion);
+                            EXPECT_NE(c.draws[1].query, cases::Query::none);
+                            EXPECT_NE(c.draws[1].query, cases::Query::occlusion_precise);
+                            see(cases::is_statistic(c.draws[1].query), "statistic");
                             see(c.draws[0].query == cases::Query::none, "none");
                             see(c.draws[0].query == cases::Query::occlusion, "any");
                             see(c.draws[0].query == cases::Query::occlusion_precise, "precise");
                         }),
-                UnorderedElementsAre("none", "any", "precise"));
+                UnorderedElementsAre("none", "any", "precise", "statistic"));
 }
 
 // The last draw shows whether a state ends with the draw that has it.

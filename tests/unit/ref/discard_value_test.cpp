@@ -104,11 +104,11 @@ TEST(DiscardValue, NothingIsDrawnThatWouldNotBe) {
 
 // The whole target, with a value of x at framebuffer x, less `zero`.
 cases::Case of_target(float zero, Interpolation mode = Interpolation::smooth) {
-    cases::Case c = value_test::make_case(8, {value_test::clip_of(0, 0, 0.5, 1, 8),
-                                              value_test::clip_of(16, 0, 0.5, 1, 8),
-                                              value_test::clip_of(0, 16, 0.5, 1, 8)});
-    value_test::add_attribute(
-        c, mode, 1, {glm::vec4(-zero, 0, 0, 0), {16 - zero, 0, 0, 0}, {-zero, 0, 0, 0}});
+    cases::Case c = value_test::make_case(
+        8, {value_test::clip_of(0, 0, 0.5, 1, 8), value_test::clip_of(16, 0, 0.5, 1, 8),
+            value_test::clip_of(0, 16, 0.5, 1, 8)});
+    value_test::add_attribute(c, mode, 1,
+                              {glm::vec4(-zero, 0, 0, 0), {16 - zero, 0, 0, 0}, {-zero, 0, 0, 0}});
     c.draws[0].discard = Discard::negative;
     return c;
 }
@@ -159,9 +159,9 @@ TEST(DiscardValue, FlatValuesAreDecided) {
 // Two triangles share the diagonal, whose samples belong to one of them: where that one may be
 // discarded there may be no hit.
 TEST(DiscardValue, ASharedEdgeHasNoHitOfTheOneThatIsDiscarded) {
-    cases::Case c = value_test::make_case(8, {value_test::clip_of(0, 0, 0.5, 1, 8),
-                                              value_test::clip_of(8, 0, 0.5, 1, 8),
-                                              value_test::clip_of(0, 8, 0.5, 1, 8)});
+    cases::Case c = value_test::make_case(
+        8, {value_test::clip_of(0, 0, 0.5, 1, 8), value_test::clip_of(8, 0, 0.5, 1, 8),
+            value_test::clip_of(0, 8, 0.5, 1, 8)});
     cases::Draw& draw = c.draws[0];
     draw.positions.push_back(draw.positions[2]);
     draw.positions.push_back(draw.positions[1]);
@@ -219,8 +219,8 @@ TEST(DiscardValue, AShownNegativeValueIsWrong) {
         device.attributes[0] = glm::vec4(0x1p-24F, 0, 0, 0);
         EXPECT_TRUE(values.judge(0, {3, 2, 0, 0}, device).ok);
         device.attributes[0].x = -0x1p-24F;
-        for (const FragmentVerdict& verdict : {values.judge(0, {3, 2, 0, 0}, device),
-                                               values.judge_exact(0, {3, 2, 0, 0}, device)}) {
+        for (const FragmentVerdict& verdict :
+             {values.judge(0, {3, 2, 0, 0}, device), values.judge_exact(0, {3, 2, 0, 0}, device)}) {
             ASSERT_EQ(verdict.mismatches.size(), 1U);
             EXPECT_EQ(verdict.mismatches[0].rule, "discard.value");
             EXPECT_EQ(verdict.mismatches[0].level, Profile::vulkan);

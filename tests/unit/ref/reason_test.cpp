@@ -325,6 +325,11 @@ bool decides(const cases::Case& c, const TriangleExplanation& t, Profile profile
     for (const float far : {3.0F, 4096.0F}) {
         Scene s = scene_of(c, t.triangle, profile);
         s.far = far;
+        // What is kept away otherwise is not asked for its values.
+        if (cases::discards_by_value(s.draw()) && !t.has(ReasonKind::value_discarded) &&
+            !t.has(ReasonKind::near_zero)) {
+            s.draw().discard = cases::Discard::none;
+        }
         for (const Reason& reason : reasons) {
             if (reason.kind == ReasonKind::other_layer) {
                 s.draw().layer = at.layer;

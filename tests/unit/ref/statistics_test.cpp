@@ -23,9 +23,8 @@ cases::Case case_of(Topology topology, const std::vector<glm::vec4>& pixels) {
     d.scissor = {0, 0, 8, 8};
     d.topology = topology;
     for (const glm::vec4& p : pixels) {
-        d.positions.push_back(value_test::clip_of(static_cast<double>(p.x),
-                                                  static_cast<double>(p.y),
-                                                  static_cast<double>(p.z), 1, 8));
+        d.positions.push_back(value_test::clip_of(
+            static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z), 1, 8));
     }
     c.draws.push_back(d);
     return c;
@@ -119,18 +118,17 @@ TEST(Statistics, ClippingLiesBetweenGuardBandAndViewport) {
     EXPECT_EQ(clipped(before, Profile::direct3d), (CountBounds{0, 0}));
     EXPECT_EQ(clipped(before, Profile::vulkan), (CountBounds{0, kNoMost}));
     // Vulkan asks for a vertex inside and a sample: a triangle between all samples has none.
-    const std::vector<glm::vec4> tiny = {
-        {1, 1, 0.5F, 1}, {1.25F, 1, 0.5F, 1}, {1, 1.25F, 0.5F, 1}};
+    const std::vector<glm::vec4> tiny = {{1, 1, 0.5F, 1}, {1.25F, 1, 0.5F, 1}, {1, 1.25F, 0.5F, 1}};
     EXPECT_EQ(clipped(tiny, Profile::vulkan).least, 0U);
     // All corners are outside, and the middle covers everything.
-    const std::vector<glm::vec4> around = {{-20, -20, 0.5F, 1}, {60, -20, 0.5F, 1},
-                                           {-20, 60, 0.5F, 1}};
+    const std::vector<glm::vec4> around = {
+        {-20, -20, 0.5F, 1}, {60, -20, 0.5F, 1}, {-20, 60, 0.5F, 1}};
     EXPECT_EQ(clipped(around, Profile::vulkan).least, 0U);
 }
 
 TEST(Statistics, CulledTrianglesReachClipping) {
-    cases::Case c = case_of(Topology::triangle_list,
-                            {{1, 1, 0.5F, 1}, {7, 1, 0.5F, 1}, {1, 7, 0.5F, 1}});
+    cases::Case c =
+        case_of(Topology::triangle_list, {{1, 1, 0.5F, 1}, {7, 1, 0.5F, 1}, {1, 7, 0.5F, 1}});
     c.draws[0].cull = cases::CullMode::front_and_back;
     EXPECT_EQ(bounds(c, Query::clipping_invocations, Profile::vulkan).least, 1U);
     EXPECT_EQ(bounds(c, Query::clipping_primitives, Profile::vulkan).least, 0U);
@@ -143,8 +141,8 @@ TEST(Statistics, CulledTrianglesReachClipping) {
 
 // 28 pixels lie inside, 8 on the diagonal; the quads of a square of 8 pixels have 64.
 TEST(Statistics, FragmentsAreThoseThatShow) {
-    cases::Case c = case_of(Topology::triangle_list,
-                            {{0, 0, 0.5F, 1}, {8, 0, 0.5F, 1}, {0, 8, 0.5F, 1}});
+    cases::Case c =
+        case_of(Topology::triangle_list, {{0, 0, 0.5F, 1}, {8, 0, 0.5F, 1}, {0, 8, 0.5F, 1}});
     EXPECT_EQ(bounds(c, Query::fragment_invocations, Profile::direct3d), (CountBounds{28, 64}));
     EXPECT_EQ(bounds(c, Query::fragment_invocations, Profile::vulkan), (CountBounds{28, kNoMost}));
     const auto hits = [](size_t index) -> std::optional<uint32_t> {
@@ -160,8 +158,8 @@ TEST(Statistics, FragmentsAreThoseThatShow) {
 }
 
 TEST(Statistics, SamplesThatAreShadedOneByOneCountEach) {
-    cases::Case c = case_of(Topology::triangle_list,
-                            {{0, 0, 0.5F, 1}, {16, 0, 0.5F, 1}, {0, 16, 0.5F, 1}});
+    cases::Case c =
+        case_of(Topology::triangle_list, {{0, 0, 0.5F, 1}, {16, 0, 0.5F, 1}, {0, 16, 0.5F, 1}});
     c.target.samples = 4;
     EXPECT_EQ(bounds(c, Query::fragment_invocations, Profile::direct3d), (CountBounds{64, 64}));
     c.draws[0].multisample.min_sample_shading = 1;
@@ -172,8 +170,8 @@ TEST(Statistics, SamplesThatAreShadedOneByOneCountEach) {
 }
 
 TEST(Statistics, NothingIsSaidOfNumbersThatAreNone) {
-    cases::Case c = case_of(Topology::triangle_list,
-                            {{1, 1, 0.5F, 1}, {7, 1, 0.5F, 1}, {1, 7, 0.5F, 1}});
+    cases::Case c =
+        case_of(Topology::triangle_list, {{1, 1, 0.5F, 1}, {7, 1, 0.5F, 1}, {1, 7, 0.5F, 1}});
     c.draws[0].positions[1].x = std::nanf("");
     EXPECT_EQ(bounds(c, Query::clipping_primitives, Profile::direct3d), (CountBounds{0, kNoMost}));
     EXPECT_EQ(bounds(c, Query::clipping_invocations, Profile::direct3d), (CountBounds{1, 1}));
