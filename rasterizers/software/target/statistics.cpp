@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "rasterizers/software/statistics.hpp"
+#include "rasterizers/software/target/statistics.hpp"
 
 #include <set>
 
@@ -55,16 +55,15 @@ Stream read_stream(const cases::Draw& draw) {
 
 }  // namespace
 
-void count_assembled(const cases::Draw& draw, uint32_t number,
-                     std::span<const Primitive> primitives, const Device& device,
-                     QueryUnit& queries) {
+void count_assembled(const cases::Draw& draw, uint32_t number, std::span<const Corners> primitives,
+                     const Device& device, QueryUnit& queries) {
     if (!cases::is_statistic(draw.query)) {
         return;
     }
     const Stream stream = read_stream(draw);
     std::set<uint32_t> distinct;
-    for (const Primitive& primitive : primitives) {
-        distinct.insert(primitive.vertex.begin(), primitive.vertex.end());
+    for (const Corners& primitive : primitives) {
+        distinct.insert(primitive.begin(), primitive.end());
     }
     uint64_t vertices = device.counts_most ? stream.all : stream.whole;
     uint64_t assembled = primitives.size() + (device.counts_most ? stream.partial : 0);
