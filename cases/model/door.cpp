@@ -6,8 +6,10 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <functional>
 
 #include "cases/format/color_format.hpp"
+#include "cases/format/vertex_format.hpp"
 #include "cases/model/case.hpp"
 #include "cases/model/derive.hpp"
 #include "cases/model/float_bits.hpp"
@@ -177,21 +179,103 @@ bool is_constant(const std::vector<glm::vec4>& values) {
            });
 }
 
-// Without instruments the only attributes that are drawn are colours.
-bool has_constant_input(const Case& c) {
-    return any_draw(c, [&c](const Draw& draw) {
+// Whether it holds of the distances or of an attribute of some draw. Without instruments the only
+// attributes that are drawn are colours.
+template <class Predicate>
+bool any_input(const Case& c, Predicate holds) {
+    return any_draw(c, [&](const Draw& draw) {
         const auto& attributes = draw.attributes;
-        if (is_constant(draw.distances.clip) || is_constant(draw.distances.cull)) {
+        if (holds(draw.distances.clip) || holds(draw.distances.cull)) {
             return true;
         }
         if (!c.target.has_instruments) {
-            return std::ranges::any_of(
-                colored_attributes(c.target, draw), [&attributes](uint32_t k) {
-                    return k < attributes.size() && is_constant(attributes[k].values);
-                });
+            return std::ranges::any_of(colored_attributes(c.target, draw), [&](uint32_t k) {
+                return k < attributes.size() && holds(attributes[k].values);
+            });
         }
         return std::any_of(attributes.begin(), attributes.end(),
-                           [](const Attribute& a) { return is_constant(a.values); });
+                           [&](const Attribute& a) { return holds(a.values); });
+    });
+}
+
+bool has_constant_input(const Case& c) {
+    return any_input(c, is_constant);
+}
+
+// The shader that draws one instance of several is built with distances of one kind.
+bool has_divided_input(const Case& c) {
+    return has_constant_input(c) && has_one_kind_of_distances(c);
+}
+
+bool has_other_format(const std::vector<glm::vec4>& values) {
+    return other_vertex_format(values, kAllVertexFormats, 0) != VertexFormat::rgba32_float;
+}
+
+bool has_exact_formats(const Case& c) {
+    return any_draw(c, [](const Draw& draw) { return has_other_format(draw.positions); }) ||
+           any_input(c, has_other_format);
+}
+
+// What a shader hands on may lose a denormal number, or the payload of a NaN.
+bool is_handed_on(float value) {
+    return std::isnormal(value) || std::fpclassify(value) == FP_ZERO;
+}
+
+bool can_be_read_as_input(const Case& c) {
+    const auto are_handed_on = [](const glm::vec4& v) {
+        return is_handed_on(v.x) && is_handed_on(v.y) && is_handed_on(v.z) && is_handed_on(v.w);
+    };
+    const Target& t = c.target;
+    const bool has_clears = (!t.color || are_handed_on(t.color_at(t.judged_color).clear)) &&
+                            (!t.has_depth || is_handed_on(t.depth_clear));
+    return has_one_layer(c) && has_clears && all_draws(c, [&](const Draw& draw) {
+               return (!t.color || are_handed_on(output_at(t, draw, t.judged_color).value)) &&
+                      std::ranges::all_of(draw.attributes, [&](const Attribute& a) {
+                          return std::ranges::all_of(a.values, are_handed_on);
+                      });
+           });
+}
+
+// Whether binary32 holds each step on the way to a window coordinate: half of the size, the centre,
+// their product with the coordinate and the sum ("Controlling the Viewport").
+bool is_exact_in_window(float coordinate, float begin, float size) {
+    const auto is_held = [](double number) {
+        return std::equal_to<>()(static_cast<double>(static_cast<float>(number)), number);
+    };
+    // Products and sums of two numbers of binary32 of this size are exact in binary64.
+    const double half = double{size} / 2, centre = double{begin} + half;
+    const double product = half * double{coordinate};
+    return std::abs(product) < 0x1p20 && std::abs(centre) < 0x1p20 && is_held(half) &&
+           is_held(centre) && is_held(product) && is_held(product + centre);
+}
+
+// Vertices that lie in the view volume stay vertices of what is drawn. Where those that clipping
+// makes lie in the window depends on how large their coordinates are.
+bool can_be_moved(const Case& c) {
+    return all_draws(c, [](const Draw& draw) {
+        const Viewport& v = draw.viewport;
+        constexpr auto kColumns = static_cast<float>(kMovedColumns);
+        constexpr auto kRows = static_cast<float>(kMovedRows);
+        return draw.distances.clip_count == 0 &&
+               std::ranges::all_of(draw.positions, [&](const glm::vec4& p) {
+                   return is_one(p.w) && std::abs(p.x) <= 1 && std::abs(p.y) <= 1 && p.z >= 0 &&
+                          p.z <= 1 && is_exact_in_window(p.x, v.x, v.width) &&
+                          is_exact_in_window(p.y, v.y, v.height) &&
+                          is_exact_in_window(p.x, v.x + kColumns, v.width) &&
+                          is_exact_in_window(p.y, v.y + kRows, v.height);
+               });
+    });
+}
+
+// Of a mesh shader each triangle is a group, of which a device has 65535 at least in a row
+// (maxMeshWorkGroupCount).
+bool can_be_meshes(const Case& c) {
+    return all_draws(c, [](const Draw& draw) {
+        constexpr size_t kMostGroups = 65535;
+        const size_t elements = draw.indices ? draw.indices->size() : draw.positions.size();
+        const size_t triangles = draw.topology == Topology::triangle_list ? elements / 3 : elements;
+        return (draw.distances.clip_count == 0 || draw.distances.cull_count == 0) &&
+               !has_barycentrics(draw) && triangles <= kMostGroups;
     });
 }
 
@@ -285,11 +369,28 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
     {Door::half_floats, "half-floats", kVertices, kRight, rule::door_layout,
      "Positions that binary16 holds are read as four numbers of it.", "",
      "a draw whose positions are all numbers of binary16", has_half_positions},
+    {Door::exact_formats, "exact-formats", kVertices, kRight, rule::door_layout,
+     "Inputs are read in other formats that hold their numbers: normalized ones of 0, 1 and -1, "
+     "scaled ones of whole numbers, binary16, and fewer components where the others are 0 and 1.",
+     "", "a draw with an input whose numbers another format of vertices holds", has_exact_formats},
     {Door::instance_rate, "instance-rate", kVertices, kRight, rule::door_instance,
      "What is the same at every vertex is read once an instance, and the only instance is number "
      "2: firstInstance is 2.",
      "", "a draw with an attribute or distances that are the same at every vertex",
      has_constant_input},
+    {Door::instance_divisor, "divisor", kVertices, kRight, rule::door_instance,
+     "What is the same at every vertex is read once for three instances: eight are drawn, of which "
+     "only the last has its triangles within the view volume; it reads element 2.",
+     "vertexAttributeInstanceRateDivisor (VK_EXT_vertex_attribute_divisor)",
+     "a draw with an attribute or distances that are the same at every vertex, no draw with both "
+     "clip and cull distances",
+     has_divided_input},
+    {Door::instance_divisor_zero, "divisor-zero", kVertices, kRight, rule::door_instance,
+     "The same with a divisor of 0: all instances read the first element.",
+     "vertexAttributeInstanceRateZeroDivisor (VK_EXT_vertex_attribute_divisor)",
+     "a draw with an attribute or distances that are the same at every vertex, no draw with both "
+     "clip and cull distances",
+     has_divided_input},
     {Door::vertices_pulled, "vertices-pulled", kVertices, kRight, rule::door_layout,
      "The pipeline has no inputs: the vertex shader reads its vertex from a storage buffer, by "
      "gl_VertexIndex.",
@@ -393,11 +494,25 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
      "The same with two subpasses: the first clears and has the first of several draws, the second "
      "one the others.",
      "", kAny, is_any},
+    {Door::input_attachment, "input-attachment", kRecording, kRight, rule::door_recording,
+     "A second subpass reads what the first has drawn as input attachments, and the picture is "
+     "what "
+     "it has read: instruments, depth but D24, stencil and colours but sRGB.",
+     "fragmentStoresAndAtomics", "one layer, no number that is denormal, infinite or none",
+     can_be_read_as_input},
     {Door::submissions, "submissions", kRecording, kRight, rule::door_recording,
      "As pass-split, and each part is a command buffer and a submission of its own.", "", kAny,
      is_any},
     {Door::target_larger, "target-larger", kTargets, kRight, rule::door_target,
      "Attachments have 29 columns and 19 rows more than the rendering's area.", "", kAny, is_any},
+    {Door::target_last_tile, "target-last-tile", kTargets, kAlone, rule::door_target,
+     "The case lies in the last tile of a larger target: viewport, scissor and the rendering's "
+     "area "
+     "are 296 columns and 200 rows further, and the attachments end with it.",
+     "",
+     "vertices in the view volume with w = 1 whose window coordinates binary32 holds here and "
+     "there, no clip distances",
+     can_be_moved},
     {Door::image_layer, "image-layer", kTargets, kRight, rule::door_target,
      "Attachments are the last layers of images with two layers more.", "", kAny, is_any},
     {Door::image_level, "image-level", kTargets, kRight, rule::door_target,
@@ -434,6 +549,19 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
      "transformFeedback (VK_EXT_transform_feedback)",
      "lists without indices and distances, the corners of each triangle in three places",
      are_plain_lists},
+    {Door::mesh_shader, "mesh-shader", kStages, kAlone, rule::door_stage,
+     "A mesh shader makes the triangles, one a group, of vertices in a storage buffer; those of "
+     "strips and fans begin or end with the vertex that provokes.",
+     "meshShader (VK_EXT_mesh_shader)",
+     "no draw with both clip and cull distances, no barycentrics, up to 65535 triangles",
+     can_be_meshes},
+    {Door::stage_unused, "stage-unused", kStages, kRight, rule::door_state,
+     "Shaders have outputs that nobody reads, at two locations more of the vertex shader and, "
+     "where "
+     "the device has it, at one without an attachment of the fragment shader; an input is "
+     "described "
+     "that no shader has, and a descriptor set.",
+     "", kAny, is_any},
 }};
 
 constexpr bool is_in_order() {

@@ -21,7 +21,7 @@ WORDS = ["--retries", "0", "--no-expect", "--html", "/dev/null", "--capture", "n
 # What lavapipe does wrong itself tells nothing of a fault (docs/findings).
 WRONG_DOORS = ["multi-draw-empty", "indirect-after-count"]
 # Doors that lavapipe has since Mesa 25: with an older one their faults are not reached.
-NEWER_DOORS = ["shader-objects"]
+NEWER_DOORS = ["shader-objects", "mesh-shader"]
 
 
 def is_known(door, case_id):

@@ -191,6 +191,9 @@ struct Hooks {
     bool (*indirect)(IndirectCall&) = nullptr;
     bool (*indirect_draw)(IndirectDraw&) = nullptr;
     bool (*multi_draw)(MultiDraw&) = nullptr;
+    bool (*mesh_groups)(uint32_t&) = nullptr;  // of vkCmdDrawMeshTasksEXT, along x
+    // The views of the input attachments of one call of vkUpdateDescriptorSets, in its order.
+    bool (*input_views)(std::span<VkImageView>) = nullptr;
     bool (*depth_compare)(VkCompareOp&) = nullptr;
     bool (*depth_write)(VkBool32&) = nullptr;
     bool (*depth_bounds_enable)(VkBool32&) = nullptr;

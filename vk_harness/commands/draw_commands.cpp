@@ -24,7 +24,7 @@ std::vector<VkRect2D> scissors_of(const cases::Draw& draw, const cases::Case& te
     const cases::Rect& own = draw.scissor;
     const auto [tile_width, tile_height] = test.variation.tile;
     if (tile_width == 0 || tile_height == 0) {
-        return {to_vulkan(own)};
+        return {moved(test, to_vulkan(own))};
     }
     // 64 bits: a scissor may end at 2^31 - 1, beyond the target.
     const auto cut = [](int64_t begin, int64_t size, int64_t tile, int64_t tile_size) {
@@ -36,9 +36,10 @@ std::vector<VkRect2D> scissors_of(const cases::Draw& draw, const cases::Case& te
         for (int64_t x = 0; x < test.target.width; x += tile_width) {
             const auto [left, right] = cut(own.x, own.width, x, tile_width);
             if (left < right && top < bottom) {
-                scissors.push_back(
+                scissors.push_back(moved(
+                    test,
                     {{static_cast<int32_t>(left), static_cast<int32_t>(top)},
-                     {static_cast<uint32_t>(right - left), static_cast<uint32_t>(bottom - top)}});
+                     {static_cast<uint32_t>(right - left), static_cast<uint32_t>(bottom - top)}}));
             }
         }
     }

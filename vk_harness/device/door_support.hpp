@@ -26,9 +26,15 @@ struct DoorSupport {
     bool tessellation = false;        // tessellationShader
     bool feedback = false;            // transformFeedback
     bool shader_objects = false;      // shaderObject
+    bool divisor = false;             // vertexAttributeInstanceRateDivisor
+    bool divisor_zero = false;        // vertexAttributeInstanceRateZeroDivisor
+    bool mesh = false;                // meshShader
+    bool fragment_stores = false;     // fragmentStoresAndAtomics
     bool linear = false;              // linear attachments of some format that cases are drawn to
     bool host_import = false;         // of memory that vertices and indices are read from
     VkDeviceSize host_alignment = 1;  // minImportedHostPointerAlignment
+    const char* divisor_extension = nullptr;  // by which it has either divisor
+    uint32_t vertex_formats = 0;              // that vertices are read in: vertex_format.hpp
 };
 
 DoorSupport query_door_support(VkPhysicalDevice physical, HasExtension has_extension);
@@ -48,6 +54,10 @@ struct DoorFeatures {
     ShaderObjectFeatures shader_objects;
     VkPhysicalDeviceTransformFeedbackFeaturesEXT feedback =
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TRANSFORM_FEEDBACK_FEATURES_EXT};
+    VkPhysicalDeviceVertexAttributeDivisorFeaturesEXT divisor =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VERTEX_ATTRIBUTE_DIVISOR_FEATURES_EXT};
+    VkPhysicalDeviceMeshShaderFeaturesEXT mesh =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MESH_SHADER_FEATURES_EXT};
     VkPhysicalDeviceMultiviewFeatures multiview =
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MULTIVIEW_FEATURES};
 };

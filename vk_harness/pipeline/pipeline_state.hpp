@@ -15,8 +15,12 @@ namespace vk_harness {
 struct VertexInputState {
     std::vector<VkVertexInputBindingDescription> bindings;
     std::vector<VkVertexInputAttributeDescription> inputs;
+    std::vector<VkVertexInputBindingDivisorDescriptionEXT> divisors;
+    VkPipelineVertexInputDivisorStateCreateInfoEXT divided{};
     VkPipelineVertexInputStateCreateInfo info{};
 };
+// The location of an input that no shader has: a device has 16 at least.
+inline constexpr uint32_t kUnusedInput = 15;
 void vertex_input_state(const PipelineKey& key, VertexInputState& state);
 
 struct RasterizationState {

@@ -14,6 +14,8 @@ using cases::Door;
 namespace {
 
 constexpr VkImageLayout kColorLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+constexpr VkImageLayout kReadLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+constexpr VkImageLayout kReadDepthLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
 constexpr VkImageLayout kDepthLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
 
 bool is_depth_stencil(Role role) {
@@ -48,7 +50,7 @@ VkAttachmentReference2 reference(uint32_t number, VkImageLayout layout) {
 
 // What the subpasses refer to: not to be moved.
 struct References {
-    std::vector<VkAttachmentReference2> colors, resolves;
+    std::vector<VkAttachmentReference2> colors, resolves, inputs;
     std::optional<VkAttachmentReference2> depth, resolved_depth;
     VkSubpassDescriptionDepthStencilResolve depth_resolve =
         Typed{VK_STRUCTURE_TYPE_SUBPASS_DESCRIPTION_DEPTH_STENCIL_RESOLVE};
@@ -77,11 +79,24 @@ struct References {
                     break;
             }
         }
+        for (const PassKey::Input& input : key.inputs) {
+            const bool is_color = input.aspect == VK_IMAGE_ASPECT_COLOR_BIT;
+            inputs.push_back(reference(input.part, is_color ? kReadLayout : kReadDepthLayout));
+            inputs.back().aspectMask = input.aspect;
+        }
         if (resolved_depth) {
             depth_resolve.depthResolveMode = resolve_mode(key.depth_resolve);
             depth_resolve.stencilResolveMode = VK_RESOLVE_MODE_NONE;
             depth_resolve.pDepthStencilResolveAttachment = &*resolved_depth;
         }
+    }
+
+    VkSubpassDescription2 reading() const {
+        VkSubpassDescription2 out = Typed{VK_STRUCTURE_TYPE_SUBPASS_DESCRIPTION_2};
+        out.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
+        out.inputAttachmentCount = static_cast<uint32_t>(inputs.size());
+        out.pInputAttachments = inputs.data();
+        return out;
     }
 
     VkSubpassDescription2 subpass(bool resolved) const {
@@ -103,7 +118,8 @@ struct References {
 }  // namespace
 
 bool has_pass(const cases::Case& c) {
-    return c.variation.door == Door::render_pass || c.variation.door == Door::subpasses;
+    return c.variation.door == Door::render_pass || c.variation.door == Door::subpasses ||
+           c.variation.door == Door::input_attachment;
 }
 
 PassKey pass_key(const cases::Case& c, const std::vector<Attachment>& attachments) {
@@ -113,6 +129,13 @@ PassKey pass_key(const cases::Case& c, const std::vector<Attachment>& attachment
             key.parts.back().has_stencil = true;
         } else {
             key.parts.push_back({a.role, a.format, false});
+        }
+        if (a.is_input) {
+            const VkImageAspectFlags aspect = a.role == Role::depth ? VK_IMAGE_ASPECT_DEPTH_BIT
+                                              : a.role == Role::stencil
+                                                  ? VK_IMAGE_ASPECT_STENCIL_BIT
+                                                  : VK_IMAGE_ASPECT_COLOR_BIT;
+            key.inputs.push_back({static_cast<uint32_t>(key.parts.size() - 1), aspect});
         }
     }
     key.samples = c.target.samples;
@@ -136,6 +159,9 @@ Result<Handle<VkRenderPass>> make_render_pass(const Device& device, const PassKe
     for (uint32_t k = 0; k < key.subpasses; ++k) {
         subpasses.push_back(references.subpass(k + 1 == key.subpasses));
     }
+    if (!key.inputs.empty()) {
+        subpasses.push_back(references.reading());
+    }
     VkSubpassDependency2 next = Typed{VK_STRUCTURE_TYPE_SUBPASS_DEPENDENCY_2};
     next.srcSubpass = 0;
     next.dstSubpass = 1;
@@ -146,14 +172,35 @@ Result<Handle<VkRenderPass>> make_render_pass(const Device& device, const PassKe
         VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT |
         VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
     next.dependencyFlags = VK_DEPENDENCY_BY_REGION_BIT;
+    std::vector<VkSubpassDependency2> dependencies;
+    if (key.subpasses > 1) {
+        dependencies.push_back(next);
+    }
+    if (!key.inputs.empty()) {
+        VkSubpassDependency2 read = next;
+        read.dstStageMask = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
+        read.dstAccessMask = VK_ACCESS_INPUT_ATTACHMENT_READ_BIT;
+        // A region is a sample where all are drawn singly; the shader reads all of a pixel.
+        read.dependencyFlags =
+            key.samples > 1 ? 0U : VkDependencyFlags{VK_DEPENDENCY_BY_REGION_BIT};
+        dependencies.push_back(read);
+        // What has been read changes its layout at the end, and is copied then.
+        VkSubpassDependency2 end = next;
+        end.srcSubpass = 1;
+        end.dstSubpass = VK_SUBPASS_EXTERNAL;
+        end.srcStageMask = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
+        end.srcAccessMask = VK_ACCESS_INPUT_ATTACHMENT_READ_BIT;
+        end.dependencyFlags = 0;
+        dependencies.push_back(end);
+    }
 
     VkRenderPassCreateInfo2 info = Typed{VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO_2};
     info.attachmentCount = static_cast<uint32_t>(descriptions.size());
     info.pAttachments = descriptions.data();
-    info.subpassCount = key.subpasses;
+    info.subpassCount = static_cast<uint32_t>(subpasses.size());
     info.pSubpasses = subpasses.data();
-    info.dependencyCount = key.subpasses - 1;
-    info.pDependencies = &next;
+    info.dependencyCount = static_cast<uint32_t>(dependencies.size());
+    info.pDependencies = dependencies.data();
     return make(device, Stage::pipeline, "vkCreateRenderPass2", device.vk().vkCreateRenderPass2,
                 device.vk().vkDestroyRenderPass, info);
 }

@@ -32,7 +32,8 @@ bool is_drawn_as(const capture::Capture& plain, const capture::Capture& door) {
 }
 
 TEST(DoorSupport, EveryNeedIsAskedFor) {
-    DoorSupport all{true, true, true, true, true, true, true, true, true, true, true, true, true};
+    DoorSupport all{true, true, true, true, true, true, true, true, true,
+                    true, true, true, true, true, true, true, true};
     for (const cases::DoorRow& row : cases::all_doors()) {
         const auto missing = missing_door_support(DoorSupport{}, row.door);
         EXPECT_EQ(missing.has_value(), !row.needs.empty()) << row.word;
