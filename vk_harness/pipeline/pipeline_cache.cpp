@@ -186,6 +186,11 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
             stages.back().pSpecializationInfo = &patch.info;
         }
     }
+    if (key.fixed && key.fixed->discard == VK_TRUE) {
+        // What discards for good has no fragment shader
+        // (VUID-VkGraphicsPipelineCreateInfo-pStages-06894).
+        stages.erase(stages.begin());
+    }
     VertexInputState vertex_input;
     vertex_input_state(key, vertex_input);
 
