@@ -9,11 +9,11 @@
 #include <functional>
 
 #include "cases/format/color_format.hpp"
-#include "cases/format/vertex_format.hpp"
 #include "cases/model/case.hpp"
 #include "cases/model/derive.hpp"
 #include "cases/model/float_bits.hpp"
 #include "cases/model/rule_ids.hpp"
+#include "cases/model/vertex_format.hpp"
 
 namespace cases {
 

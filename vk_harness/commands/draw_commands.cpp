@@ -192,9 +192,9 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
     if (is_dynamic) {
         set_state(device, commands, state, draw.depth.bias.value_or(cases::DepthBias{}));
     }
-    if (of.queries) {
-        of.queries->begin(commands, draw_index);
-    }
+    // Behind the pipeline, of which lavapipe 22.3 asks when a query begins
+    // (docs/findings/lavapipe-query-before-pipeline.md).
+    bool has_begun = false;
     for (const VkRect2D& scissor : scissors_of(draw, test)) {
         if (is_dynamic) {
             replace_scissor(state, draw, scissor);
@@ -204,7 +204,13 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
         if (door == Door::state_first) {
             bind(plan.pipeline);
         }
+        if (of.queries && !std::exchange(has_begun, true)) {
+            of.queries->begin(commands, draw_index);
+        }
         draw_once(device, commands, plan, vertices);
+    }
+    if (of.queries && !has_begun) {  // no scissor is left of it
+        of.queries->begin(commands, draw_index);
     }
     if (of.queries) {
         of.queries->end(commands, draw_index);

@@ -88,8 +88,8 @@ Result<Handle<VkPipeline>> PipelineCache::make_input(const InputKey& key) {
     info.layout = input_layout_.get();
     info.renderPass = *pass;
     info.subpass = 1;
-    // Without a cache: SwiftShader would find the code of another pass in it, whose attachments have
-    // other formats (docs/findings/swiftshader-input-formats.md).
+    // Without a cache: SwiftShader would find the code of another pass in it, whose attachments
+    // have other formats (docs/findings/swiftshader-input-formats.md).
     return create(info, VK_NULL_HANDLE);
 }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Which numbers the formats of vertices hold, and how they are written.
-#include "cases/format/vertex_format.hpp"
+#include "cases/model/vertex_format.hpp"
 
 #include <gtest/gtest.h>
 
@@ -36,8 +36,7 @@ TEST(VertexFormat, NormalizedOnesHoldTheirEnds) {
     EXPECT_EQ(bytes(VertexFormat::bgra8_unorm, {1, 0, 0, 0}), std::string("\0\0\xff\0", 4));
     EXPECT_EQ(bytes(VertexFormat::rgba8_snorm, {-1, 1, 0, 0}), std::string("\x81\x7f\0\0", 4));
     EXPECT_EQ(bytes(VertexFormat::rg16_snorm, {-1, 1, 0, 1}), std::string("\x01\x80\xff\x7f", 4));
-    EXPECT_EQ(bytes(VertexFormat::rgb10a2_unorm, {0, 1, 0, 1}),
-              std::string("\0\xfc\x0f\xc0", 4));
+    EXPECT_EQ(bytes(VertexFormat::rgb10a2_unorm, {0, 1, 0, 1}), std::string("\0\xfc\x0f\xc0", 4));
 }
 
 TEST(VertexFormat, ScaledOnesHoldWholeNumbers) {
@@ -63,7 +62,8 @@ TEST(VertexFormat, MissingComponentsAreZeroAndOne) {
 // Round and round through all that hold the numbers, and no others.
 TEST(VertexFormat, EachIsChosen) {
     std::set<VertexFormat> chosen;
-    for (const Values& values : {Values{{0, 1, 0, 1}}, Values{{-1, 1, 0, 1}}, Values{{5, 0, 0, 1}}}) {
+    for (const Values& values :
+         {Values{{0, 1, 0, 1}}, Values{{-1, 1, 0, 1}}, Values{{5, 0, 0, 1}}}) {
         for (size_t salt = 0; salt < kVertexFormats.size(); ++salt) {
             const VertexFormat format = other_vertex_format(values, kAllVertexFormats, salt);
             EXPECT_TRUE(holds(format, values));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cases/format/vertex_format.hpp"
+#include "cases/model/vertex_format.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -57,8 +57,7 @@ bool holds(VertexFormat format, std::span<const glm::vec4> values) {
     });
 }
 
-VertexFormat other_vertex_format(std::span<const glm::vec4> values, uint32_t offered,
-                                 size_t salt) {
+VertexFormat other_vertex_format(std::span<const glm::vec4> values, uint32_t offered, size_t salt) {
     std::vector<VertexFormat> held;
     for (const VertexFormatRow& row : kVertexFormats) {
         if (row.format != VertexFormat::rgba32_float && (offered & bit_of(row.format)) != 0 &&

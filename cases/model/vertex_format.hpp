@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The formats that vertices are read in, one row each, and which numbers they hold exactly.
-// Sources, all Vulkan specification: "Conversion From Normalized Fixed-Point to Floating-Point" (the
-// largest code is 1, its negative -1, the code 0 is 0; what lies between is rounded), "Format
+// Sources, all Vulkan specification: "Conversion From Normalized Fixed-Point to Floating-Point"
+// (the largest code is 1, its negative -1, the code 0 is 0; what lies between is rounded), "Format
 // Definition" (a scaled integer is that number as a float, a packed word is little-endian here),
 // "Vertex Input Extraction" (components that a format lacks are 0, 0 and 1).
 //
