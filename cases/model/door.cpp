@@ -8,12 +8,12 @@
 #include <cstring>
 #include <functional>
 
+#include "cases/base/float_bits.hpp"
 #include "cases/format/color_format.hpp"
+#include "cases/format/vertex_format.hpp"
 #include "cases/model/case.hpp"
 #include "cases/model/derive.hpp"
-#include "cases/model/float_bits.hpp"
 #include "cases/model/rule_ids.hpp"
-#include "cases/model/vertex_format.hpp"
 
 namespace cases {
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "cases/format/color_format.hpp"
-#include "cases/model/vertex_format.hpp"
+#include "cases/format/vertex_format.hpp"
 
 namespace vk_harness {
 

@@ -8,8 +8,8 @@
 #include <compare>
 #include <cstdint>
 
+#include "cases/format/vertex_format.hpp"
 #include "cases/model/case.hpp"
-#include "cases/model/vertex_format.hpp"
 #include "shaders/shaders.hpp"
 
 namespace vk_harness {

@@ -10,9 +10,9 @@
 #include <limits>
 #include <set>
 
+#include "cases/base/float_bits.hpp"
 #include "cases/load/loader.hpp"
 #include "cases/model/derive.hpp"
-#include "cases/model/float_bits.hpp"
 #include "cases/model/rule.hpp"
 #include "cases/wire/case_bytes.hpp"
 #include "cases/write/to_toml.hpp"

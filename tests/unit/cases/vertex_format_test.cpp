@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Which numbers the formats of vertices hold, and how they are written.
-#include "cases/model/vertex_format.hpp"
+#include "cases/format/vertex_format.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cases/model/vertex_format.hpp"
+#include "cases/format/vertex_format.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -8,7 +8,7 @@
 #include <cstring>
 #include <vector>
 
-#include "cases/model/float_bits.hpp"
+#include "cases/base/float_bits.hpp"
 
 namespace cases {
 
