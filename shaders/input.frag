@@ -7,7 +7,7 @@
 #version 450
 
 layout(constant_id = 0) const uint kWords = 1u;  // of a sample
-// How a component is stored, numbered as cases::ComponentKind (0 unorm, 2 half, 3 binary32, 4 uint), how many bits it has
+// How a component is stored, numbered as cases::ComponentKind (0 unorm, 3 binary32, 4 uint), how many bits it has
 // and where they begin.
 layout(constant_id = 1) const uint kKind = 3u;
 layout(constant_id = 2) const uint kBits0 = 32u;
@@ -54,8 +54,6 @@ uint code_of(float value, uint bits) {
     switch (kKind) {
         case 0u:  // what is read of a code is that code divided by the largest, up to rounding
             return uint(floor(value * float((1u << bits) - 1u) + 0.5));
-        case 2u:
-            return packHalf2x16(vec2(value, 0.0));
         default:
             return floatBitsToUint(value);
     }

@@ -53,6 +53,11 @@ std::optional<std::string> closed_door(const CasePlan& plan, const TargetLayout&
                 return "the device reads vertices in no other format that holds the case's numbers";
             }
             break;
+        case cases::Door::input_attachment:
+            if (std::ranges::none_of(plan.attachments, [](const auto& a) { return a.is_input; })) {
+                return "the case has no attachment whose bits follow from what a shader reads";
+            }
+            break;
         case cases::Door::image_linear:
             if (std::ranges::none_of(plan.images, [](const auto* i) { return i->is_linear(); })) {
                 return "the device has no image of linear tiling for any attachment";

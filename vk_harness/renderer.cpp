@@ -72,12 +72,14 @@ std::vector<capture::StrayWrite> stray_writes(const CasePlan& plan,
 // Whether a rendering gets a submission of its own. A driver would spoil other cases, too, and
 // whose fault that is could not be told, if it never left a pipeline's rasterizer discard, blended
 // all colours as the first behind a pipeline without any (docs/findings), or lost one of several
-// submissions. The host's memory may be refused.
+// submissions. The host's memory may be refused, and a query begins before any pipeline only in a
+// command buffer that has had none.
 bool is_drawn_alone(const cases::Case& c) {
     if (c.variation.door == cases::Door::submissions ||
         c.variation.door == cases::Door::memory_imported ||
         c.variation.door == cases::Door::transform_feedback ||
-        c.variation.door == cases::Door::input_attachment) {
+        c.variation.door == cases::Door::input_attachment ||
+        c.variation.door == cases::Door::query_first) {
         return true;
     }
     return c.variation.door == cases::Door::state_static &&

@@ -235,13 +235,8 @@ Result<void> Submission::make_input_sets(const PipelineCache& pipelines, CasePla
         input.set = made->sets[n];
         const size_t k = input.attachment;
         const Attachment& attachment = plan.attachments[k];
-        const bool is_color = !attachment.is_depth_stencil();
-        const VkImageAspectFlags aspect = is_color                ? VK_IMAGE_ASPECT_COLOR_BIT
-                                          : attachment.is_depth() ? VK_IMAGE_ASPECT_DEPTH_BIT
-                                                                  : VK_IMAGE_ASPECT_STENCIL_BIT;
-        images[n] = {VK_NULL_HANDLE, plan.images[k]->input_view(aspect),
-                     is_color ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
-                              : VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL};
+        images[n] = {VK_NULL_HANDLE, plan.images[k]->input_view(attachment.aspect()),
+                     input_layout(attachment.aspect())};
         buffers[n] = {readback_.get(), plan.readback.offset[k], samples * attachment.sample_bytes};
         VkWriteDescriptorSet write = Typed{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
         write.dstSet = input.set;

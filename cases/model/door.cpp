@@ -14,6 +14,7 @@
 #include "cases/model/case.hpp"
 #include "cases/model/derive.hpp"
 #include "cases/model/rule_ids.hpp"
+#include "cases/model/triangle.hpp"
 
 namespace cases {
 
@@ -216,11 +217,25 @@ bool has_exact_formats(const Case& c) {
            any_input(c, has_other_format);
 }
 
-// What a shader hands on may lose a denormal number, or the payload of a NaN.
+// What a shader hands on may lose a denormal number, or the payload of a NaN. A number that is
+// drawn from numbers like these is 0 or normal: 1/w and z/w are 2^-60 or more, a depth of the
+// viewport's range and a product of two colours 2^-120 or more, and a value that is interpolated
+// through 0 is 0 or off by a rounding of its vertices.
+constexpr float kLeast = 0x1p-30F, kMost = 0x1p30F;
 bool is_handed_on(float value) {
-    return std::isnormal(value) || std::fpclassify(value) == FP_ZERO;
+    return std::isfinite(value) && (std::abs(value) >= kLeast || std::fpclassify(value) == FP_ZERO);
 }
 
+bool is_vertex_handed_on(const glm::vec4& p) {
+    return is_handed_on(p.z) && is_handed_on(p.w) && std::abs(p.z) <= kMost &&
+           std::abs(p.w) <= kMost;
+}
+
+bool is_depth_handed_on(const std::optional<FragDepth>& depth) {
+    return !depth || (is_handed_on(depth->value) && is_handed_on(depth->other));
+}
+
+// Without a bias, whose unit is denormal where a triangle's depths are 0 in binary32.
 bool can_be_read_as_input(const Case& c) {
     const auto are_handed_on = [](const glm::vec4& v) {
         return is_handed_on(v.x) && is_handed_on(v.y) && is_handed_on(v.z) && is_handed_on(v.w);
@@ -230,6 +245,10 @@ bool can_be_read_as_input(const Case& c) {
                             (!t.has_depth || is_handed_on(t.depth_clear));
     return has_one_layer(c) && has_clears && all_draws(c, [&](const Draw& draw) {
                return (!t.color || are_handed_on(output_at(t, draw, t.judged_color).value)) &&
+                      !draw.depth.bias && is_depth_handed_on(draw.frag_depth) &&
+                      is_handed_on(draw.viewport.min_depth) &&
+                      is_handed_on(draw.viewport.max_depth) &&
+                      std::ranges::all_of(draw.positions, is_vertex_handed_on) &&
                       std::ranges::all_of(draw.attributes, [&](const Attribute& a) {
                           return std::ranges::all_of(a.values, are_handed_on);
                       });
@@ -251,7 +270,7 @@ bool is_exact_in_window(float coordinate, float begin, float size) {
 
 // Vertices that lie in the view volume stay vertices of what is drawn. Where those that clipping
 // makes lie in the window depends on how large their coordinates are.
-bool can_be_moved(const Case& c) {
+bool has_exact_window(const Case& c) {
     return all_draws(c, [](const Draw& draw) {
         const Viewport& v = draw.viewport;
         constexpr auto kColumns = static_cast<float>(kMovedColumns);
@@ -267,6 +286,31 @@ bool can_be_moved(const Case& c) {
     });
 }
 
+// Whether each triangle reaches two pixels or more to the right of the target's left edge, and
+// below its upper one. It is held to the budgets of its own place, whose extents X and Y begin at
+// the target's corner (docs/precision.md, "The budget"); a plane that the device anchors in the
+// corner of the larger target has extents of X + 296 and Y + 200, 149 and 101 times as large at
+// most. What binary32 makes of it is within 8 budgets, so within 8 x 149 = 1192 of the case's own,
+// and vulkan has 1342.
+bool reaches_into_target(const Case& c) {
+    constexpr double kReach = 2;
+    return std::ranges::all_of(assemble(c), [&](const Triangle& t) {
+        const Draw& draw = c.draws[t.draw];
+        const Viewport& v = draw.viewport;
+        double x = 0, y = 0;  // the largest, in pixels
+        for (const uint32_t k : t.vertex) {
+            const glm::vec4& p = draw.positions[k];
+            x = std::max(x, double{v.x} + double{v.width} / 2 * (1 + double{p.x}));
+            y = std::max(y, double{v.y} + double{v.height} / 2 * (1 + double{p.y}));
+        }
+        return x >= kReach && y >= kReach;
+    });
+}
+
+bool can_be_moved(const Case& c) {
+    return has_exact_window(c) && reaches_into_target(c);
+}
+
 // Of a mesh shader each triangle is a group, of which a device has 65535 at least in a row
 // (maxMeshWorkGroupCount).
 bool can_be_meshes(const Case& c) {
@@ -277,6 +321,10 @@ bool can_be_meshes(const Case& c) {
         return (draw.distances.clip_count == 0 || draw.distances.cull_count == 0) &&
                !has_barycentrics(draw) && triangles <= kMostGroups;
     });
+}
+
+bool has_query(const Case& c) {
+    return any_draw(c, [](const Draw& draw) { return draw.query != Query::none; });
 }
 
 bool has_several_draws(const Case& c) {
@@ -386,8 +434,9 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
      "clip and cull distances",
      has_divided_input},
     {Door::instance_divisor_zero, "divisor-zero", kVertices, kRight, rule::door_instance,
-     "The same with a divisor of 0: all instances read the first element.",
-     "vertexAttributeInstanceRateZeroDivisor (VK_EXT_vertex_attribute_divisor)",
+     "As divisor, with a divisor of 0: all instances read the first element.",
+     "vertexAttributeInstanceRateDivisor and vertexAttributeInstanceRateZeroDivisor "
+     "(VK_EXT_vertex_attribute_divisor)",
      "a draw with an attribute or distances that are the same at every vertex, no draw with both "
      "clip and cull distances",
      has_divided_input},
@@ -422,6 +471,9 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
      "multiDraw (VK_EXT_multi_draw)", kAny, is_any},
     {Door::state_first, "state-first", kState, kSame, rule::door_state,
      "Dynamic state is set and buffers are bound before the pipeline is.", "", kAny, is_any},
+    {Door::query_first, "query-first", kState, kSame, rule::door_state,
+     "Queries begin before the first pipeline of the command buffer is bound.", "",
+     "a draw with a query", has_query},
     {Door::state_stale, "state-stale", kState, kSame, rule::door_state,
      "All dynamic state is first set to other values, under which the draw is recorded with "
      "rasterization off, and then to those of the draw.",
@@ -491,14 +543,16 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
     {Door::render_pass, "render-pass", kRecording, kRight, rule::door_recording,
      "The rendering is an instance of a render pass object with one subpass.", "", kAny, is_any},
     {Door::subpasses, "subpasses", kRecording, kRight, rule::door_recording,
-     "The same with two subpasses: the first clears and has the first of several draws, the second "
+     "As render-pass, with two subpasses: the first clears and has the first of several draws, the "
+     "second "
      "one the others.",
      "", kAny, is_any},
     {Door::input_attachment, "input-attachment", kRecording, kRight, rule::door_recording,
      "A second subpass reads what the first has drawn as input attachments, and the picture is "
      "what "
-     "it has read: instruments, depth but D24, stencil and colours but sRGB.",
-     "fragmentStoresAndAtomics", "one layer, no number that is denormal, infinite or none",
+     "it has read: instruments, depth but D24, stencil and colours but sRGB and binary16.",
+     "fragmentStoresAndAtomics",
+     "one layer, no bias, no number that is infinite, none, or nearer to 0 than 2^-30 and not 0",
      can_be_read_as_input},
     {Door::submissions, "submissions", kRecording, kRight, rule::door_recording,
      "As pass-split, and each part is a command buffer and a submission of its own.", "", kAny,
@@ -556,11 +610,9 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
      "no draw with both clip and cull distances, no barycentrics, up to 65535 triangles",
      can_be_meshes},
     {Door::stage_unused, "stage-unused", kStages, kRight, rule::door_state,
-     "Shaders have outputs that nobody reads, at two locations more of the vertex shader and, "
-     "where "
-     "the device has it, at one without an attachment of the fragment shader; an input is "
-     "described "
-     "that no shader has, and a descriptor set.",
+     "Shaders have outputs that nobody reads, one of the vertex shader and, where the device has a "
+     "location without an attachment, one of the fragment shader; an input is described that no "
+     "shader has, and a descriptor set.",
      "", kAny, is_any},
 }};
 

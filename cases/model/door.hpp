@@ -54,6 +54,7 @@ enum class Door : uint8_t {
     multi_draw,
     multi_draw_empty,
     state_first,
+    query_first,
     state_stale,
     state_static,
     state_after_static,

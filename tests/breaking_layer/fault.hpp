@@ -165,8 +165,9 @@ struct Clears {
 struct QueryResult {
     uint64_t count = 0;
     bool is_precise = false;
-    bool in_secondary = false;  // it was begun in a secondary command buffer
-    uint64_t before = 0;        // what the queries counted that were read before it, since a reset
+    bool in_secondary = false;     // it was begun in a secondary command buffer
+    bool before_pipeline = false;  // and before any pipeline was bound there
+    uint64_t before = 0;  // what the queries counted that were read before it, since a reset
 };
 
 // What becomes of a call that answers with a VkResult.

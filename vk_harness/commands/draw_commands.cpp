@@ -177,6 +177,17 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
         bind(plan.other_pipeline);
         draw_once(device, commands, plan, vertices);
     }
+    // Elsewhere behind the pipeline, of which lavapipe asks when a query begins
+    // (docs/findings/lavapipe-query-before-pipeline.md).
+    bool has_begun = false;
+    const auto begin_query = [&] {
+        if (of.queries && !std::exchange(has_begun, true)) {
+            of.queries->begin(commands, draw_index);
+        }
+    };
+    if (door == Door::query_first) {
+        begin_query();
+    }
     if (door != Door::state_first) {
         bind(plan.pipeline);
     }
@@ -192,9 +203,6 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
     if (is_dynamic) {
         set_state(device, commands, state, draw.depth.bias.value_or(cases::DepthBias{}));
     }
-    // Behind the pipeline, of which lavapipe 22.3 asks when a query begins
-    // (docs/findings/lavapipe-query-before-pipeline.md).
-    bool has_begun = false;
     for (const VkRect2D& scissor : scissors_of(draw, test)) {
         if (is_dynamic) {
             replace_scissor(state, draw, scissor);
@@ -204,14 +212,10 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
         if (door == Door::state_first) {
             bind(plan.pipeline);
         }
-        if (of.queries && !std::exchange(has_begun, true)) {
-            of.queries->begin(commands, draw_index);
-        }
+        begin_query();
         draw_once(device, commands, plan, vertices);
     }
-    if (of.queries && !has_begun) {  // no scissor is left of it
-        of.queries->begin(commands, draw_index);
-    }
+    begin_query();  // if no scissor is left of the draw
     if (of.queries) {
         of.queries->end(commands, draw_index);
     }

@@ -81,17 +81,14 @@ void record_copy(const Device& device, VkCommandBuffer commands, const CasePlan&
                  size_t attachment, const Rows& rows, VkBuffer readback, VkDeviceSize offset) {
     const cases::Target& target = plan.test->target;
     const Attachment& from = plan.attachments[attachment];
-    const VkImageAspectFlags aspect = from.role == Role::stencil ? VK_IMAGE_ASPECT_STENCIL_BIT
-                                      : from.is_depth()          ? VK_IMAGE_ASPECT_DEPTH_BIT
-                                                                 : VK_IMAGE_ASPECT_COLOR_BIT;
     VkBufferImageCopy region{};
     const VkOffset2D origin = image_way(*plan.test).origin();
     region.imageOffset = {origin.x, origin.y + static_cast<int32_t>(rows.first), 0};
     region.imageExtent = {target.width, rows.count, 1};
     region.bufferOffset = offset;
     const Image& image = *plan.images[attachment];
-    region.imageSubresource = {aspect, image.range().baseMipLevel, image.range().baseArrayLayer,
-                               target.layers};  // stacked
+    region.imageSubresource = {from.aspect(), image.range().baseMipLevel,
+                               image.range().baseArrayLayer, target.layers};  // stacked
     device.vk().vkCmdCopyImageToBuffer(commands, image.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                                        readback, 1, &region);
 }

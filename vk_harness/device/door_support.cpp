@@ -117,6 +117,10 @@ DoorSupport query_door_support(VkPhysicalDevice physical, HasExtension has_exten
     }
     const bool has_mesh = has_extension(physical, VK_EXT_MESH_SHADER_EXTENSION_NAME);
     if (has_mesh) {
+        VkPhysicalDeviceMeshShaderPropertiesEXT mesh =
+            Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MESH_SHADER_PROPERTIES_EXT};
+        get_properties(physical, mesh);
+        out.mesh_layers = mesh.maxMeshOutputLayers;
         chain(features, optional.mesh);
     }
     out.vertex_formats = offered_vertex_formats(physical);
@@ -132,7 +136,10 @@ DoorSupport query_door_support(VkPhysicalDevice physical, HasExtension has_exten
                           three.extendedDynamicState3SampleMask == VK_TRUE;
     // maxVertexAttribDivisor is at least 65535.
     out.divisor = optional.divisor.vertexAttributeInstanceRateDivisor == VK_TRUE;
-    out.divisor_zero = optional.divisor.vertexAttributeInstanceRateZeroDivisor == VK_TRUE;
+    // Without the first feature a divisor is 1 (VUID-VkVertexInputBindingDivisorDescription
+    // -vertexAttributeInstanceRateDivisor-02229), so the second one alone offers nothing.
+    out.divisor_zero =
+        out.divisor && optional.divisor.vertexAttributeInstanceRateZeroDivisor == VK_TRUE;
     out.mesh = optional.mesh.meshShader == VK_TRUE;
     out.fragment_stores = features.features.fragmentStoresAndAtomics == VK_TRUE;
     out.feedback = optional.feedback.transformFeedback == VK_TRUE;
@@ -217,6 +224,21 @@ void enable_door_features(const DoorSupport& support, VkPhysicalDeviceFeatures2&
         chain(features, enabled.multi_draw);
         extensions.push_back(VK_EXT_MULTI_DRAW_EXTENSION_NAME);
     }
+}
+
+std::optional<std::string> missing_mesh_layers(const DoorSupport& support, const cases::Case& c) {
+    if (c.variation.door != cases::Door::mesh_shader) {
+        return std::nullopt;
+    }
+    for (const cases::Draw& draw : c.draws) {
+        if (draw.layer > 0 && draw.layer >= support.mesh_layers) {
+            return fmt::format(
+                "a mesh shader of the device names {} layers (maxMeshOutputLayers), "
+                "and a draw goes to number {}",
+                support.mesh_layers, draw.layer);
+        }
+    }
+    return std::nullopt;
 }
 
 std::optional<std::string> missing_door_support(const DoorSupport& support, cases::Door door) {

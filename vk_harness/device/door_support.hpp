@@ -29,6 +29,7 @@ struct DoorSupport {
     bool divisor = false;             // vertexAttributeInstanceRateDivisor
     bool divisor_zero = false;        // vertexAttributeInstanceRateZeroDivisor
     bool mesh = false;                // meshShader
+    uint32_t mesh_layers = 0;         // maxMeshOutputLayers: a mesh shader names those below
     bool fragment_stores = false;     // fragmentStoresAndAtomics
     bool linear = false;              // linear attachments of some format that cases are drawn to
     bool host_import = false;         // of memory that vertices and indices are read from
@@ -68,5 +69,7 @@ void enable_door_features(const DoorSupport& support, VkPhysicalDeviceFeatures2&
 
 // Why the device has no such door: one sentence that names what it lacks; nothing if it has it.
 std::optional<std::string> missing_door_support(const DoorSupport& support, cases::Door door);
+// Why a mesh shader of the device cannot draw the case to its layers; nothing through other doors.
+std::optional<std::string> missing_mesh_layers(const DoorSupport& support, const cases::Case& c);
 
 }  // namespace vk_harness

@@ -116,10 +116,7 @@ Feed::Feed(const cases::Case& c, const cases::Draw& draw, const VertexWay& way)
 void Feed::make_triangles(const cases::Case& c) {
     const auto number = static_cast<uint32_t>(draw_ - c.draws.data());
     const size_t place = draw_->provoking == cases::ProvokingVertex::last ? 2 : 0;
-    for (const cases::Triangle& t : cases::assemble(c)) {
-        if (t.draw != number) {
-            continue;
-        }
+    for (const cases::Triangle& t : cases::assemble(c, number)) {
         std::array<uint32_t, 3> vertex = t.vertex;
         for (size_t k = 0; k < 2 && vertex.at(place) != t.provoking; ++k) {
             std::rotate(vertex.begin(), vertex.begin() + 1, vertex.end());

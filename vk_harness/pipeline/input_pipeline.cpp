@@ -51,27 +51,10 @@ Result<Handle<VkPipeline>> PipelineCache::make_input(const InputKey& key) {
         stage_info(VK_SHADER_STAGE_VERTEX_BIT, *vertex),
         stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, *fragment)};
     stages[1].pSpecializationInfo = &constants.info;
-    const VkPipelineVertexInputStateCreateInfo inputs =
-        Typed{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
-    VkPipelineInputAssemblyStateCreateInfo assembly =
-        Typed{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
-    assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-    VkPipelineViewportStateCreateInfo viewport =
-        Typed{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
-    viewport.viewportCount = viewport.scissorCount = 1;
-    VkPipelineRasterizationStateCreateInfo rasterization =
-        Typed{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
-    rasterization.lineWidth = 1;
     // Nothing is drawn to: one sample covers a pixel, of which the shader reads all.
     PipelineKey target;
     MultisampleState multisample;
     multisample_state(target, multisample);
-    const std::array<VkDynamicState, 2> states = {VK_DYNAMIC_STATE_VIEWPORT,
-                                                  VK_DYNAMIC_STATE_SCISSOR};
-    VkPipelineDynamicStateCreateInfo dynamic =
-        Typed{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
-    dynamic.dynamicStateCount = static_cast<uint32_t>(states.size());
-    dynamic.pDynamicStates = states.data();
     auto pass = get_pass(key.pass);
     if (!pass) {
         return fail(pass.error());
@@ -79,18 +62,13 @@ Result<Handle<VkPipeline>> PipelineCache::make_input(const InputKey& key) {
     VkGraphicsPipelineCreateInfo info = Typed{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO};
     info.stageCount = static_cast<uint32_t>(stages.size());
     info.pStages = stages.data();
-    info.pVertexInputState = &inputs;
-    info.pInputAssemblyState = &assembly;
-    info.pViewportState = &viewport;
-    info.pRasterizationState = &rasterization;
     info.pMultisampleState = &multisample.info;
-    info.pDynamicState = &dynamic;
     info.layout = input_layout_.get();
     info.renderPass = *pass;
     info.subpass = 1;
-    // Without a cache: SwiftShader would find the code of another pass in it, whose attachments
-    // have other formats (docs/findings/swiftshader-input-formats.md).
-    return create(info, VK_NULL_HANDLE);
+    FullTargetState full;
+    full.apply(info);
+    return create(info, cache_.get());
 }
 
 }  // namespace vk_harness

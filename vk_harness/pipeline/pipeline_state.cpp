@@ -314,4 +314,25 @@ std::vector<VkDynamicState> dynamic_states(const PipelineKey& key) {
     return out;
 }
 
+FullTargetState::FullTargetState() {
+    inputs_ = Typed{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+    assembly_ = Typed{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
+    assembly_.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    viewport_ = Typed{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
+    viewport_.viewportCount = viewport_.scissorCount = 1;
+    rasterization_ = Typed{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
+    rasterization_.lineWidth = 1;
+    dynamic_ = Typed{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
+}
+
+void FullTargetState::apply(VkGraphicsPipelineCreateInfo& info) {
+    dynamic_.dynamicStateCount = static_cast<uint32_t>(dynamic.size());
+    dynamic_.pDynamicStates = dynamic.data();
+    info.pVertexInputState = &inputs_;
+    info.pInputAssemblyState = &assembly_;
+    info.pViewportState = &viewport_;
+    info.pRasterizationState = &rasterization_;
+    info.pDynamicState = &dynamic_;
+}
+
 }  // namespace vk_harness

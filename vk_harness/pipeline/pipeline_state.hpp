@@ -59,6 +59,22 @@ struct ColorState {
 };
 void color_state(const PipelineKey& key, ColorState& state);
 
+// A triangle over the whole target, of a vertex shader without inputs; viewport and scissor are
+// dynamic, and what is added to `dynamic`. apply() is the last thing before the pipeline is made.
+struct FullTargetState {
+    std::vector<VkDynamicState> dynamic = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+
+    FullTargetState();
+    void apply(VkGraphicsPipelineCreateInfo& info);
+
+  private:
+    VkPipelineVertexInputStateCreateInfo inputs_{};
+    VkPipelineInputAssemblyStateCreateInfo assembly_{};
+    VkPipelineViewportStateCreateInfo viewport_{};
+    VkPipelineRasterizationStateCreateInfo rasterization_{};
+    VkPipelineDynamicStateCreateInfo dynamic_{};
+};
+
 // What is given when a draw is recorded.
 std::vector<VkDynamicState> dynamic_states(const PipelineKey& key);
 

@@ -14,8 +14,6 @@ using cases::Door;
 namespace {
 
 constexpr VkImageLayout kColorLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-constexpr VkImageLayout kReadLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-constexpr VkImageLayout kReadDepthLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
 constexpr VkImageLayout kDepthLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
 
 bool is_depth_stencil(Role role) {
@@ -50,6 +48,7 @@ VkAttachmentReference2 reference(uint32_t number, VkImageLayout layout) {
 
 // What the subpasses refer to: not to be moved.
 struct References {
+    std::vector<uint32_t> preserved;
     std::vector<VkAttachmentReference2> colors, resolves, inputs;
     std::optional<VkAttachmentReference2> depth, resolved_depth;
     VkSubpassDescriptionDepthStencilResolve depth_resolve =
@@ -80,9 +79,14 @@ struct References {
             }
         }
         for (const PassKey::Input& input : key.inputs) {
-            const bool is_color = input.aspect == VK_IMAGE_ASPECT_COLOR_BIT;
-            inputs.push_back(reference(input.part, is_color ? kReadLayout : kReadDepthLayout));
+            inputs.push_back(reference(input.part, input_layout(input.aspect)));
             inputs.back().aspectMask = input.aspect;
+        }
+        for (uint32_t k = 0; k < key.parts.size(); ++k) {
+            if (std::ranges::none_of(key.inputs,
+                                     [k](const auto& input) { return input.part == k; })) {
+                preserved.push_back(k);
+            }
         }
         if (resolved_depth) {
             depth_resolve.depthResolveMode = resolve_mode(key.depth_resolve);
@@ -96,6 +100,9 @@ struct References {
         out.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
         out.inputAttachmentCount = static_cast<uint32_t>(inputs.size());
         out.pInputAttachments = inputs.data();
+        // What is neither read nor preserved would be undefined, and is copied behind the pass.
+        out.preserveAttachmentCount = static_cast<uint32_t>(preserved.size());
+        out.pPreserveAttachments = preserved.data();
         return out;
     }
 
@@ -131,11 +138,7 @@ PassKey pass_key(const cases::Case& c, const std::vector<Attachment>& attachment
             key.parts.push_back({a.role, a.format, false});
         }
         if (a.is_input) {
-            const VkImageAspectFlags aspect = a.role == Role::depth ? VK_IMAGE_ASPECT_DEPTH_BIT
-                                              : a.role == Role::stencil
-                                                  ? VK_IMAGE_ASPECT_STENCIL_BIT
-                                                  : VK_IMAGE_ASPECT_COLOR_BIT;
-            key.inputs.push_back({static_cast<uint32_t>(key.parts.size() - 1), aspect});
+            key.inputs.push_back({static_cast<uint32_t>(key.parts.size() - 1), a.aspect()});
         }
     }
     key.samples = c.target.samples;
@@ -147,6 +150,11 @@ PassKey pass_key(const cases::Case& c, const std::vector<Attachment>& attachment
 
 uint32_t subpass_of(const cases::Case& c, size_t draw) {
     return c.variation.door == Door::subpasses && (draw > 0 || c.draws.size() == 1) ? 1 : 0;
+}
+
+VkImageLayout input_layout(VkImageAspectFlags aspect) {
+    return aspect == VK_IMAGE_ASPECT_COLOR_BIT ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
+                                               : VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
 }
 
 Result<Handle<VkRenderPass>> make_render_pass(const Device& device, const PassKey& key) {

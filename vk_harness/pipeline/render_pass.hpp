@@ -41,6 +41,9 @@ PassKey pass_key(const cases::Case& c, const std::vector<Attachment>& attachment
 // The subpass of draw number `draw`.
 uint32_t subpass_of(const cases::Case& c, size_t draw);
 
+// In which the subpass of PassKey::inputs reads such an attachment.
+VkImageLayout input_layout(VkImageAspectFlags aspect);
+
 Result<Handle<VkRenderPass>> make_render_pass(const Device& device, const PassKey& key);
 
 }  // namespace vk_harness

@@ -103,8 +103,7 @@ std::vector<shaders::InputChange> input_changes(const PipelineKey& key, bool has
 ShaderChanges vertex_changes(const PipelineKey& key) {
     ShaderChanges out;
     if (key.unused_interface) {
-        // Beyond those that are read, and the last of a device with 64 components.
-        out.unused_outputs = {shaders::kPrimitiveLocation + 1, 13};
+        out.unused_outputs = {shaders::kPrimitiveLocation + 1};  // behind those that are read
     }
     return out;
 }

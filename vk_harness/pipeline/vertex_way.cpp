@@ -37,10 +37,6 @@ uint32_t constant_bindings(const cases::Case& c, const cases::Draw& draw) {
     return bits;
 }
 
-}  // namespace
-
-namespace {
-
 // The numbers of different bindings and draws lie in different formats, where there are several.
 void choose_formats(const cases::Case& c, const cases::Draw& draw, uint32_t offered,
                     VertexWay& way) {

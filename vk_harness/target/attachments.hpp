@@ -43,6 +43,11 @@ struct Attachment {
     bool is_input = false;         // read back as an input attachment, in whole words a sample
     bool is_depth() const { return role == Role::depth || role == Role::resolved_depth; }
     bool is_depth_stencil() const { return is_depth() || role == Role::stencil; }
+    VkImageAspectFlags aspect() const {
+        return role == Role::stencil ? VK_IMAGE_ASPECT_STENCIL_BIT
+               : is_depth()          ? VK_IMAGE_ASPECT_DEPTH_BIT
+                                     : VK_IMAGE_ASPECT_COLOR_BIT;
+    }
     bool is_resolved() const {
         return role == Role::resolved_color || role == Role::resolved_depth;
     }

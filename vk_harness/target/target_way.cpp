@@ -88,6 +88,25 @@ bool has_inputs(const Capabilities& capabilities, const cases::Case& c) {
     });
 }
 
+// Why the device has no room for the case so far to the right and down.
+std::optional<std::string> missing_place(const Capabilities& capabilities, const cases::Case& c,
+                                         const VkOffset2D& origin) {
+    const VkPhysicalDeviceLimits& limits = capabilities.limits;
+    const auto x = static_cast<float>(origin.x), y = static_cast<float>(origin.y);
+    const float high = limits.viewportBoundsRange[1];
+    const bool is_beyond =
+        (origin.x > 0 || origin.y > 0) &&
+        std::ranges::any_of(c.draws, [&](const cases::Draw& draw) {
+            const cases::Viewport& v = draw.viewport;
+            return v.x + x + v.width > high || std::max(v.y, v.y + v.height) + y > high;
+        });
+    return is_beyond
+               ? std::optional(fmt::format("a viewport {} columns and {} rows further leaves the "
+                                           "device's range, which ends at {} pixels",
+                                           origin.x, origin.y, high))
+               : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<std::string> missing_images(const Capabilities& capabilities, const cases::Case& c) {
@@ -107,6 +126,9 @@ std::optional<std::string> missing_images(const Capabilities& capabilities, cons
     }
     if (layers > 1 && c.target.samples > 1 && !capabilities.portability.multisampled_arrays) {
         return "the device lacks the feature multisampleArrayImage (VK_KHR_portability_subset)";
+    }
+    if (auto missing = missing_place(capabilities, c, way.origin())) {
+        return missing;
     }
     if (way.is_input && !has_inputs(capabilities, c)) {
         return "the device has no images for attachments like these that may be input attachments";

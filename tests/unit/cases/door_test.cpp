@@ -73,7 +73,7 @@ TEST(Door, ATriangleTakesAllButWhatNeedsMore) {
         const bool needs_more =
             row.door == Door::restart_extra || row.door == Door::instance_rate ||
             row.door == Door::instance_divisor || row.door == Door::instance_divisor_zero ||
-            row.door == Door::secondary_each;
+            row.door == Door::secondary_each || row.door == Door::query_first;
         EXPECT_EQ(taken.contains(row.word), !needs_more) << row.word;
     }
 }
@@ -174,6 +174,15 @@ TEST(Door, OnlyWhatIsExactInTheWindowIsMoved) {
     EXPECT_FALSE(takes_with([](Draw& d) { d.positions[0] = {0, 0, 1.5F, 1}; }));
     EXPECT_FALSE(takes_with([](Draw& d) { d.positions[0] = {0, 0, 0, 2}; }));
     EXPECT_FALSE(takes_with([](Draw& d) { d.distances.clip_count = 1; }));
+    // Within two pixels of the target's corner the budgets are too small for the other place.
+    EXPECT_FALSE(takes_with([](Draw& d) {
+        d.viewport.width = 1;
+        d.viewport.height = 16;
+    }));
+    EXPECT_FALSE(takes_with([](Draw& d) {
+        d.viewport.width = 16;
+        d.viewport.height = 1;
+    }));
     EXPECT_EQ(kMovedColumns % 2, 0U);
     EXPECT_EQ(kMovedRows % 2, 0U);
 }
@@ -185,14 +194,31 @@ TEST(Door, WhatAShaderMayLoseIsNotReadAsInput) {
     a.values.assign(3, glm::vec4(1, -2, 0, 0.5F));
     c.draws.front().attributes = {a};
     EXPECT_TRUE(can_take(Door::input_attachment, c));
-    for (const float lost : {0x1p-130F, std::numeric_limits<float>::infinity(),
+    for (const float lost : {0x1p-130F, 0x1p-31F, std::numeric_limits<float>::infinity(),
                              std::numeric_limits<float>::quiet_NaN()}) {
         c.draws.front().attributes[0].values[1].w = lost;
         EXPECT_FALSE(can_take(Door::input_attachment, c)) << lost;
     }
     c.draws.front().attributes.clear();
+    const auto takes_with = [&c](auto change) {
+        Case other = c;
+        change(other.draws.front());
+        return can_take(Door::input_attachment, other);
+    };
+    EXPECT_FALSE(takes_with([](Draw& d) { d.positions[1].z = 0x1p-40F; }));
+    EXPECT_FALSE(takes_with([](Draw& d) { d.positions[1].w = 0x1p40F; }));
+    EXPECT_FALSE(takes_with([](Draw& d) { d.viewport.max_depth = 0x1p-40F; }));
+    EXPECT_FALSE(takes_with([](Draw& d) { d.depth.bias.emplace(); }));
+    EXPECT_FALSE(takes_with([](Draw& d) { d.frag_depth = FragDepth{false, 0x1p-40F}; }));
     c.target.layers = 2;
     EXPECT_FALSE(can_take(Door::input_attachment, c));
+}
+
+TEST(Door, OnlyACaseWithAQueryBeginsOneFirst) {
+    Case c = case_of(door_file("", kDoorTriangle));
+    EXPECT_FALSE(can_take(Door::query_first, c));
+    c.draws.front().query = Query::occlusion;
+    EXPECT_TRUE(can_take(Door::query_first, c));
 }
 
 TEST(Door, AMeshHasAGroupForEachTriangle) {
