@@ -28,7 +28,7 @@ class Doors(unittest.TestCase):
     def test_each_fault_is_seen_through_its_door_alone(self):
         for name, found in FOUND.items():
             with self.subTest(fault=name):
-                if found[0] in doors.BROKEN_DOORS and doors.seen("", self.folder, found[0])[0]:
+                if found[0] in doors.BROKEN_DOORS and self.is_broken(found[0]):
                     continue
                 # The plain pictures are drawn beside those through the door: all that is found is found there.
                 caught, run = doors.seen(name, self.folder, found[0])
@@ -43,6 +43,11 @@ class Doors(unittest.TestCase):
                 self.assertTrue(all(rule.startswith("door.") for rule in rules), rules)
                 told = {f["quantity"].split(", door ")[-1] for case in run.results["cases"] for f in case["findings"]}
                 self.assertEqual(told, {found[0]})
+
+    def is_broken(self, door):
+        """Whether the driver is wrong through the door, or dies, without a fault."""
+        run = doors.seen("", self.folder, door)[1]
+        return any(case["status"] in ("crash", "fail") for case in run.results["cases"])
 
     def test_without_a_fault_no_door_is_wrong(self):
         for door in sorted({found[0] for found in FOUND.values()} - set(doors.BROKEN_DOORS)):
