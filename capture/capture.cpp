@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "cases/model/float_bits.hpp"
+#include "cases/base/float_bits.hpp"
 
 namespace capture {
 

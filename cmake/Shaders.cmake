@@ -50,11 +50,15 @@ foreach(count RANGE 4)
     foreach(clip RANGE 4)
         foreach(cull RANGE 4)
             set(name vertex_${count}_${clip}_${cull}_0_0)
-            list(APPEND variants "${name} 1.1 ATTRIBUTES=${count} CLIP=${clip} CULL=${cull} LAYER=0 VIEWPORT=0 PULLED=0")
-            string(APPEND vertex_table "    {{${count}, ${clip}, ${cull}, false, false, false}, ${name}},\n")
+            list(APPEND variants "${name} 1.1 ATTRIBUTES=${count} CLIP=${clip} CULL=${cull} LAYER=0 VIEWPORT=0 PULLED=0 INSTANCED=0")
+            string(APPEND vertex_table "    {{${count}, ${clip}, ${cull}, false, false, false, false}, ${name}},\n")
             if(clip EQUAL 0 OR cull EQUAL 0)
-                list(APPEND variants "${name}_pulled 1.1 ATTRIBUTES=${count} CLIP=${clip} CULL=${cull} LAYER=0 VIEWPORT=0 PULLED=1")
-                string(APPEND vertex_table "    {{${count}, ${clip}, ${cull}, false, false, true}, ${name}_pulled},\n")
+                set(distances "1.1 ATTRIBUTES=${count} CLIP=${clip} CULL=${cull} LAYER=0 VIEWPORT=0")
+                list(APPEND variants "${name}_pulled ${distances} PULLED=1 INSTANCED=0"
+                                     "${name}_instanced ${distances} PULLED=0 INSTANCED=1")
+                string(APPEND vertex_table
+                       "    {{${count}, ${clip}, ${cull}, false, false, true, false}, ${name}_pulled},\n"
+                       "    {{${count}, ${clip}, ${cull}, false, false, false, true}, ${name}_instanced},\n")
             endif()
         endforeach()
     endforeach()
@@ -66,25 +70,36 @@ foreach(count RANGE 4)
         set(name vertex_${count}_0_0_${layer}_${viewport})
         # gl_Layer and gl_ViewportIndex as in Vulkan 1.2: capabilities of SPIR-V 1.5, no extension.
         set(routed "1.2 ATTRIBUTES=${count} CLIP=0 CULL=0 LAYER=${layer} VIEWPORT=${viewport}")
-        list(APPEND variants "${name} ${routed} PULLED=0" "${name}_pulled ${routed} PULLED=1")
-        string(APPEND vertex_table "    {{${count}, 0, 0, ${layer} != 0, ${viewport} != 0, false}, ${name}},\n"
-                                   "    {{${count}, 0, 0, ${layer} != 0, ${viewport} != 0, true}, ${name}_pulled},\n")
+        list(APPEND variants "${name} ${routed} PULLED=0 INSTANCED=0" "${name}_pulled ${routed} PULLED=1 INSTANCED=0"
+                             "${name}_instanced ${routed} PULLED=0 INSTANCED=1")
+        string(APPEND vertex_table "    {{${count}, 0, 0, ${layer} != 0, ${viewport} != 0, false, false}, ${name}},\n"
+                                   "    {{${count}, 0, 0, ${layer} != 0, ${viewport} != 0, true, false}, ${name}_pulled},\n"
+                                   "    {{${count}, 0, 0, ${layer} != 0, ${viewport} != 0, false, true}, ${name}_instanced},\n")
     endforeach()
     edgecase_compile_shader(capture.vert vertex_routed_${count} "${variants}")
 endforeach()
 
-# Stages that hand triangles on: a geometry shader with clip or cull distances, or with routing; tessellation without.
+# Input attachments that are read: of integers or not, of several samples or one.
+edgecase_compile_shader(input.frag input
+    "input_number 1.1 WHOLE=0 SAMPLES=0;input_numbers 1.1 WHOLE=0 SAMPLES=1;input_whole 1.1 WHOLE=1 SAMPLES=0;input_wholes 1.1 WHOLE=1 SAMPLES=1")
+
+# Stages that hand triangles on: a geometry or mesh shader with clip or cull distances, or with routing; tessellation
+# without.
 set(geometry_table "")
+set(mesh_table "")
 set(control_names "")
 set(evaluation_names "")
 foreach(count RANGE 4)
     set(variants "")
+    set(mesh_variants "")
     foreach(distances "0;0" "1;0" "2;0" "3;0" "4;0" "0;1" "0;2" "0;3" "0;4")
         list(GET distances 0 clip)
         list(GET distances 1 cull)
         set(name geometry_${count}_${clip}_${cull}_0_0)
         list(APPEND variants "${name} 1.1 ATTRIBUTES=${count} CLIP=${clip} CULL=${cull} LAYER=0 VIEWPORT=0")
         string(APPEND geometry_table "    {{${count}, ${clip}, ${cull}, false, false, false}, ${name}},\n")
+        list(APPEND mesh_variants "mesh_${name} 1.2 ATTRIBUTES=${count} CLIP=${clip} CULL=${cull} LAYER=0 VIEWPORT=0")
+        string(APPEND mesh_table "    {{${count}, ${clip}, ${cull}, false, false, false}, mesh_${name}},\n")
     endforeach()
     foreach(routing "1;0" "0;1" "1;1")
         list(GET routing 0 layer)
@@ -92,8 +107,11 @@ foreach(count RANGE 4)
         set(name geometry_${count}_0_0_${layer}_${viewport})
         list(APPEND variants "${name} 1.1 ATTRIBUTES=${count} CLIP=0 CULL=0 LAYER=${layer} VIEWPORT=${viewport}")
         string(APPEND geometry_table "    {{${count}, 0, 0, ${layer} != 0, ${viewport} != 0, false}, ${name}},\n")
+        list(APPEND mesh_variants "mesh_${name} 1.2 ATTRIBUTES=${count} CLIP=0 CULL=0 LAYER=${layer} VIEWPORT=${viewport}")
+        string(APPEND mesh_table "    {{${count}, 0, 0, ${layer} != 0, ${viewport} != 0, false}, mesh_${name}},\n")
     endforeach()
     edgecase_compile_shader(capture.geom geometry_${count} "${variants}")
+    edgecase_compile_shader(capture.mesh mesh_${count} "${mesh_variants}")
     edgecase_compile_shader(capture.tesc control_${count} "control_${count} 1.1 ATTRIBUTES=${count}")
     edgecase_compile_shader(capture.tese evaluation_${count} "evaluation_${count} 1.1 ATTRIBUTES=${count}")
     edgecase_compile_shader(feedback.vert feedback_${count} "feedback_${count} 1.1 ATTRIBUTES=${count}")
@@ -185,6 +203,9 @@ constexpr Module<VertexVariant> kVertex[] = {
 ${vertex_table}};
 constexpr Module<VertexVariant> kGeometry[] = {
 ${geometry_table}};
+constexpr Module<VertexVariant> kMesh[] = {
+${mesh_table}};
+constexpr std::span<const uint32_t> kInput[] = {input_number, input_numbers, input_whole, input_wholes};
 constexpr std::span<const uint32_t> kControl[] = {${control_names}};
 constexpr std::span<const uint32_t> kEvaluation[] = {${evaluation_names}};
 constexpr std::span<const uint32_t> kFeedback[] = {${feedback_names}};

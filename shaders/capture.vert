@@ -3,7 +3,8 @@
 //
 // Passes clip-space positions through, bits unchanged. Defined by the build: ATTRIBUTES (0..4), CLIP and
 // CULL (0..4: sizes of gl_ClipDistance and gl_CullDistance), LAYER and VIEWPORT (0 or 1: gl_Layer,
-// gl_ViewportIndex), PULLED (1: no inputs, but a storage buffer). Interpolation is decided by the fragment stage's
+// gl_ViewportIndex), PULLED (1: no inputs, but a storage buffer), INSTANCED (1: of several instances number 7 alone is
+// drawn). Interpolation is decided by the fragment stage's
 // qualifiers alone (Vulkan, "Interface Matching").
 #version 450
 #if LAYER || VIEWPORT
@@ -85,7 +86,12 @@ layout(location = 4) out vec4 out_attribute3;
 #endif
 
 void main() {
+#if INSTANCED
+    // All others lie beside the view volume; 7: shaders.hpp.
+    gl_Position = gl_InstanceIndex == 7 ? in_position : vec4(2.0, 2.0, 0.5, 1.0);
+#else
     gl_Position = in_position;
+#endif
     out_vertex = uint(gl_VertexIndex);
     out_no_primitive = 0xfffffffeU;
 #if ATTRIBUTES > 0

@@ -33,9 +33,13 @@ std::string content_of(const char* path) {
 
 glslang_stage_t stage_of(const std::filesystem::path& source) {
     static const std::map<std::string, glslang_stage_t> kStages{
-        {".vert", GLSLANG_STAGE_VERTEX},         {".frag", GLSLANG_STAGE_FRAGMENT},
-        {".geom", GLSLANG_STAGE_GEOMETRY},       {".tesc", GLSLANG_STAGE_TESSCONTROL},
-        {".tese", GLSLANG_STAGE_TESSEVALUATION}, {".comp", GLSLANG_STAGE_COMPUTE}};
+        {".vert", GLSLANG_STAGE_VERTEX},
+        {".frag", GLSLANG_STAGE_FRAGMENT},
+        {".geom", GLSLANG_STAGE_GEOMETRY},
+        {".tesc", GLSLANG_STAGE_TESSCONTROL},
+        {".tese", GLSLANG_STAGE_TESSEVALUATION},
+        {".comp", GLSLANG_STAGE_COMPUTE},
+        {".mesh", GLSLANG_STAGE_MESH}};
     const auto found = kStages.find(source.extension().string());
     if (found == kStages.end()) {
         throw std::runtime_error(source.string() + " names no stage");

@@ -26,6 +26,8 @@ layout(push_constant) uniform Extent {
     uint width;
     uint height;
     uint samples;
+    uint first_column;  // of the image, where what is copied begins
+    uint first_row;
 }
 extent;
 
@@ -46,7 +48,7 @@ void main() {
     if (pixel.x >= extent.width || pixel.y >= extent.height) {
         return;
     }
-    ivec3 texel = ivec3(gl_GlobalInvocationID);  // z: layer
+    ivec3 texel = ivec3(gl_GlobalInvocationID) + ivec3(extent.first_column, extent.first_row, 0);  // z: layer
     uint row = gl_GlobalInvocationID.z * extent.height + pixel.y;
     uint first = (row * extent.width + pixel.x) * extent.samples;
     for (uint s = 0u; s < extent.samples; ++s) {

@@ -36,6 +36,14 @@ std::span<const uint32_t> capture_geometry(const VertexVariant& variant) {
     return find(kGeometry, variant);
 }
 
+std::span<const uint32_t> capture_mesh(const VertexVariant& variant) {
+    return find(kMesh, variant);
+}
+
+std::span<const uint32_t> read_input(bool is_integer, bool has_samples) {
+    return kInput[(is_integer ? 2U : 0U) + (has_samples ? 1U : 0U)];
+}
+
 std::span<const uint32_t> capture_control(uint32_t attributes) {
     return kControl[attributes];
 }
@@ -87,6 +95,14 @@ std::span<const uint32_t> any_module(size_t i) {
         return kGeometry[i].code;
     }
     i -= std::size(kGeometry);
+    if (i < std::size(kMesh)) {
+        return kMesh[i].code;
+    }
+    i -= std::size(kMesh);
+    if (i < std::size(kInput)) {
+        return kInput[i];
+    }
+    i -= std::size(kInput);
     if (i < std::size(kControl)) {
         return kControl[i];
     }

@@ -20,8 +20,12 @@ struct VertexVariant {
     bool layer = false;                       // writes gl_Layer
     bool viewport_index = false;              // writes gl_ViewportIndex
     bool pulled = false;                      // no inputs: a storage buffer, set 1, binding 0
+    bool instanced = false;                   // of several instances kShownInstance alone is drawn
     friend auto operator<=>(const VertexVariant&, const VertexVariant&) = default;
 };
+
+// The others have their vertices beside the view volume.
+inline constexpr uint32_t kShownInstance = 7;
 
 // Components of the colour output. two_numbers: a second one for dual-source blending; several: an
 // output of numbers and one of integers for each of four colour targets, of which with_outputs()
@@ -100,10 +104,12 @@ struct DrawConstants {
 static_assert(sizeof(DrawConstants) == 128);
 
 // The module of a variant; empty if the build made none of that combination.
-// None of those that are pulled has both clip and cull distances.
+// None of those that are pulled or instanced has both clip and cull distances.
 std::span<const uint32_t> capture_vertex(const VertexVariant& variant);
 // The same of capture.geom, which has no variant with both clip and cull distances.
 std::span<const uint32_t> capture_geometry(const VertexVariant& variant);
+// The same of capture.mesh, which reads vertices and triangles from a storage buffer.
+std::span<const uint32_t> capture_mesh(const VertexVariant& variant);
 // capture.tesc and capture.tese of 0..4 attributes.
 std::span<const uint32_t> capture_control(uint32_t attributes);
 std::span<const uint32_t> capture_evaluation(uint32_t attributes);
@@ -122,6 +128,12 @@ inline constexpr uint32_t kClearLocations = 16;
 std::span<const uint32_t> clear_vertex();
 std::span<const uint32_t> clear_color(uint32_t location, bool is_integer);
 std::span<const uint32_t> clear_depth();
+
+// input.frag: copies an input attachment to a buffer, of integers or of other numbers.
+std::span<const uint32_t> read_input(bool is_integer, bool has_samples);
+// Ids of its specialization constants: words of a sample, the kind of its components, four numbers
+// of bits, four first bits.
+inline constexpr uint32_t kInputWords = 0, kInputKind = 1, kInputBits = 2, kInputFirstBits = 6;
 
 // copy_samples.comp for depth attachments, or colour attachments with `words` (1, 2 or 4) a sample.
 std::span<const uint32_t> copy_samples(bool depth, uint32_t words);

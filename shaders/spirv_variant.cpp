@@ -22,7 +22,16 @@ enum Op : uint32_t {
     kOpEntryPoint = 15,
     kOpExecutionMode = 16,
     kOpCapability = 17,
+    kOpTypeVoid = 19,
+    kOpTypeFloat = 22,
+    kOpTypeVector = 23,
     kOpTypePointer = 32,
+    kOpTypeFunction = 33,
+    kOpConstant = 43,
+    kOpConstantComposite = 44,
+    kOpFunction = 54,
+    kOpStore = 62,
+    kOpLabel = 248,
     kOpVariable = 59,
     kOpDecorate = 71,
     kOpDecorationGroup = 73,
@@ -39,6 +48,7 @@ enum Decoration : uint32_t {
     kCentroid = 16,
     kSample = 17,
     kLocation = 30,
+    kInputAttachmentIndex = 43,
 };
 enum Capability : uint32_t {
     kGeometry = 2,
@@ -396,6 +406,110 @@ tl::expected<std::vector<uint32_t>, std::string> with_outputs(std::span<const ui
         tail.insert(tail.end(), i.words.begin(), i.words.end());
     }
     out.insert(out.end(), tail.begin(), tail.end());
+    return out;
+}
+
+namespace {
+
+// The entry point with one more variable in its interface.
+std::vector<uint32_t> with_variable(const Instruction& entry, uint32_t variable) {
+    std::vector<uint32_t> out(entry.words.begin(), entry.words.end());
+    out.push_back(variable);
+    out[0] = first_word(kOpEntryPoint, static_cast<uint32_t>(out.size()));
+    return out;
+}
+
+}  // namespace
+
+tl::expected<std::vector<uint32_t>, std::string> with_unused_output(
+    std::span<const uint32_t> module, uint32_t location) {
+    constexpr uint32_t kValue = 0x3f400000;  // 0.75
+    auto code = split(module);
+    if (!code) {
+        return Error(code.error());
+    }
+    if (outputs_by_location(*code).contains(location)) {
+        return Error(fmt::format("the module has an output at location {}", location));
+    }
+    const auto find = [&](uint32_t op, auto holds) {
+        return std::find_if(code->begin(), code->end(),
+                            [&](const Instruction& i) { return i.op == op && holds(i.words); });
+    };
+    const auto entry = find(kOpEntryPoint, [](auto words) { return words.size() > 3; });
+    const auto number =
+        find(kOpTypeFloat, [](auto words) { return words.size() > 2 && words[2] == 32; });
+    const auto function = find(kOpFunction, [](auto) { return true; });
+    if (entry == code->end() || number == code->end() || function == code->end()) {
+        return Error("the module has no entry point, no function or no type of binary32");
+    }
+    // A type stands once in a module, but for pointers.
+    const auto vector = find(kOpTypeVector, [&](auto words) {
+        return words.size() == 4 && words[2] == number->words[1] && words[3] == 4;
+    });
+    std::vector<uint32_t> out(module.begin(), module.begin() + kHeaderWords);
+    uint32_t& bound = out[3];
+    const uint32_t vector_type = vector == code->end() ? bound++ : vector->words[1];
+    const uint32_t pointer = bound++, component = bound++, value = bound++, variable = bound++;
+    std::vector<uint32_t> tail;
+    const auto add = [&tail](std::initializer_list<uint32_t> words) {
+        tail.insert(tail.end(), words);
+    };
+    bool is_decorated = false, is_in_main = false, is_written = false;
+    for (auto i = code->begin(); i != code->end(); ++i) {
+        if (i->op == kOpEntryPoint) {
+            const std::vector<uint32_t> own = with_variable(*i, variable);
+            tail.insert(tail.end(), own.begin(), own.end());
+            continue;
+        }
+        // Decorations stand before all types.
+        if (!is_decorated && i->op >= kOpTypeVoid && i->op <= kOpTypeFunction) {
+            add({first_word(kOpDecorate, 4), variable, kLocation, location});
+            is_decorated = true;
+        }
+        if (i == function) {
+            if (vector == code->end()) {
+                add({first_word(kOpTypeVector, 4), vector_type, number->words[1], 4});
+            }
+            add({first_word(kOpTypePointer, 4), pointer, kStorageOutput, vector_type});
+            add({first_word(kOpConstant, 4), number->words[1], component, kValue});
+            add({first_word(kOpConstantComposite, 7), vector_type, value, component, component,
+                 component, component});
+            add({first_word(kOpVariable, 4), pointer, variable, kStorageOutput});
+        }
+        is_in_main = is_in_main || (i->op == kOpFunction && i->words[2] == entry->words[2]);
+        // Variables of a function stand before all else in its first block.
+        if (is_in_main && !is_written && i->op != kOpFunction && i->op != kOpLabel &&
+            i->op != kOpVariable) {
+            add({first_word(kOpStore, 3), variable, value});
+            is_written = true;
+        }
+        tail.insert(tail.end(), i->words.begin(), i->words.end());
+    }
+    out.insert(out.end(), tail.begin(), tail.end());
+    return out;
+}
+
+tl::expected<std::vector<uint32_t>, std::string> with_input_index(std::span<const uint32_t> module,
+                                                                  uint32_t index) {
+    auto code = split(module);
+    if (!code) {
+        return Error(code.error());
+    }
+    std::vector<uint32_t> out(module.begin(), module.begin() + kHeaderWords);
+    uint32_t inputs = 0;
+    for (const Instruction& i : *code) {
+        const bool is_index =
+            i.op == kOpDecorate && i.words.size() == 4 && i.words[2] == kInputAttachmentIndex;
+        if (is_index) {
+            ++inputs;
+            out.insert(out.end(), {i.words[0], i.words[1], i.words[2], index});
+        } else {
+            out.insert(out.end(), i.words.begin(), i.words.end());
+        }
+    }
+    if (inputs != 1) {
+        return Error(fmt::format("the module has {} subpass inputs", inputs));
+    }
     return out;
 }
 

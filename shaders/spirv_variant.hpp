@@ -52,6 +52,17 @@ struct OutputChange {
 tl::expected<std::vector<uint32_t>, std::string> with_outputs(std::span<const uint32_t> module,
                                                               const OutputChange& change);
 
+// The module of a vertex or fragment shader with one more output, a vec4 at that location, to which
+// its entry point writes a constant first of all. Errors: as above, and no entry point, no type of
+// binary32, or an output at that location.
+tl::expected<std::vector<uint32_t>, std::string> with_unused_output(
+    std::span<const uint32_t> module, uint32_t location);
+
+// The module of a fragment shader with one subpass input, which gets that InputAttachmentIndex.
+// Errors: as above, and no such input, or several.
+tl::expected<std::vector<uint32_t>, std::string> with_input_index(std::span<const uint32_t> module,
+                                                                  uint32_t index);
+
 // Execution modes of fragment shaders (3.6 "Execution Mode").
 enum ExecutionMode : uint32_t {
     kEarlyFragmentTests = 9,

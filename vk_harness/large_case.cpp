@@ -180,6 +180,7 @@ Result<void> BatchRenderer::draw_large(CasePlan& plan, Rendered& result,
         ::malloc_trim(0);
         first = end;
     }
+    move_back(plan, planes);
     result.status = Rendered::Status::drawn;
     return {};
 }

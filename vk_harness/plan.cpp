@@ -19,7 +19,7 @@ namespace vk_harness {
 namespace {
 
 bool is_feeding(cases::Door door) {
-    return door == cases::Door::transform_feedback ||
+    return door == cases::Door::transform_feedback || door == cases::Door::mesh_shader ||
            (door != cases::Door::none && cases::row_of(door).group == cases::DoorGroup::vertices);
 }
 
@@ -44,6 +44,18 @@ std::optional<std::string> closed_door(const CasePlan& plan, const TargetLayout&
                     return has_unused_state(c, draw, layout);
                 })) {
                 return "the case leaves no state that is on for nothing";
+            }
+            break;
+        case cases::Door::exact_formats:
+            if (std::ranges::none_of(c.draws, [&](const cases::Draw& draw) {
+                    return vertex_way(c, draw, layout.vertex_formats) != VertexWay{};
+                })) {
+                return "the device reads vertices in no other format that holds the case's numbers";
+            }
+            break;
+        case cases::Door::input_attachment:
+            if (std::ranges::none_of(plan.attachments, [](const auto& a) { return a.is_input; })) {
+                return "the case has no attachment whose bits follow from what a shader reads";
             }
             break;
         case cases::Door::image_linear:
@@ -108,7 +120,7 @@ bool BatchRenderer::plan(CasePlan& plan, Rendered& result) {
         }
         item.is_split = layout.split;
         if (is_fed) {
-            item.feed = std::make_shared<Feed>(test, draw);
+            item.feed = std::make_shared<Feed>(test, draw, own.way);
         }
         for (const cases::Attribute& attribute : draw.attributes) {
             if (attribute.probe == cases::Probe::lod) {
@@ -146,6 +158,11 @@ bool BatchRenderer::plan(CasePlan& plan, Rendered& result) {
         return false;
     }
     plan.images = std::move(*images);
+    if (test.variation.door == cases::Door::input_attachment && is_large({&plan, 1})) {
+        result.status = Rendered::Status::unsupported;
+        result.reason = "the attachments are so large that they are read back piece by piece";
+        return false;
+    }
     if (auto closed = closed_door(plan, layout)) {
         result.status = Rendered::Status::unsupported;
         result.reason = *std::move(closed);
@@ -209,15 +226,34 @@ Result<void> BatchRenderer::plan_clears(CasePlan& plan) {
 }
 
 Result<void> BatchRenderer::plan_pass(CasePlan& plan) {
-    if (auto got = put(plan.pass, pipelines_.get_pass(pass_key(*plan.test, plan.attachments)));
-        !got) {
+    const PassKey key = pass_key(*plan.test, plan.attachments);
+    if (auto got = put(plan.pass, pipelines_.get_pass(key)); !got) {
         return got;
+    }
+    if (auto made = plan_inputs(plan, key); !made) {
+        return made;
     }
     auto framebuffer = make_framebuffer(*device_, plan, plan.pass);
     if (!framebuffer) {
         return fail(framebuffer.error());
     }
     plan.framebuffer = std::make_shared<Handle<VkFramebuffer>>(std::move(*framebuffer));
+    return {};
+}
+
+Result<void> BatchRenderer::plan_inputs(CasePlan& plan, const PassKey& pass) {
+    for (size_t k = 0; k < plan.attachments.size(); ++k) {
+        const Attachment& attachment = plan.attachments[k];
+        if (!attachment.is_input) {
+            continue;
+        }
+        const auto index = static_cast<uint32_t>(plan.inputs.size());
+        auto pipeline = pipelines_.get_input(input_key(pass, plan.test->target, attachment, index));
+        if (!pipeline) {
+            return fail(pipeline.error());
+        }
+        plan.inputs.push_back({k, *pipeline, VK_NULL_HANDLE});
+    }
     return {};
 }
 

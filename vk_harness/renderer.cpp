@@ -6,6 +6,7 @@
 
 #include "cases/model/derive.hpp"
 #include "vk_harness/case_check.hpp"
+#include "vk_harness/target/target_way.hpp"
 
 namespace vk_harness {
 
@@ -36,6 +37,20 @@ std::vector<std::pair<Guard*, std::string>> guards_of(const CasePlan& plan) {
     return out;
 }
 
+void move_back(const CasePlan& plan, const capture::PlaneSpans& planes) {
+    const VkOffset2D origin = plan.blit ? VkOffset2D{} : image_way(*plan.test).origin();
+    if (origin.x == 0 && origin.y == 0) {
+        return;
+    }
+    for (glm::vec4& coordinate : planes.frag_coord) {
+        // A clear value and what was never copied stay as they are.
+        if (coordinate.x > capture::kOtherClearValue) {
+            coordinate.x -= static_cast<float>(origin.x);
+            coordinate.y -= static_cast<float>(origin.y);
+        }
+    }
+}
+
 namespace {
 
 // Of the damage, what lies beside the case's attachments.
@@ -57,11 +72,14 @@ std::vector<capture::StrayWrite> stray_writes(const CasePlan& plan,
 // Whether a rendering gets a submission of its own. A driver would spoil other cases, too, and
 // whose fault that is could not be told, if it never left a pipeline's rasterizer discard, blended
 // all colours as the first behind a pipeline without any (docs/findings), or lost one of several
-// submissions. The host's memory may be refused.
+// submissions. The host's memory may be refused, and a query begins before any pipeline only in a
+// command buffer that has had none.
 bool is_drawn_alone(const cases::Case& c) {
     if (c.variation.door == cases::Door::submissions ||
         c.variation.door == cases::Door::memory_imported ||
-        c.variation.door == cases::Door::transform_feedback) {
+        c.variation.door == cases::Door::transform_feedback ||
+        c.variation.door == cases::Door::input_attachment ||
+        c.variation.door == cases::Door::query_first) {
         return true;
     }
     return c.variation.door == cases::Door::state_static &&
@@ -189,6 +207,11 @@ Result<void> BatchRenderer::draw_chunk(std::span<CasePlan> plans, bool read_back
             append(results[plan.slot].messages, instance_.messages().take());
             continue;
         }
+        if (read_back) {
+            if (auto made = submission_.make_input_sets(pipelines_, plan); !made) {
+                return made;
+            }
+        }
         if (auto recorded = record(*commands, plan, (*vertices)->get(), read_back); !recorded) {
             return recorded;
         }
@@ -234,8 +257,9 @@ Result<void> BatchRenderer::draw_chunk(std::span<CasePlan> plans, bool read_back
         }
         damage = std::move(*found);
         for (const CasePlan& plan : plans) {
-            read_planes(plan.attachments, plan.readback, readback->bytes(),
-                        place_planes(plan, results[plan.slot], store));
+            const capture::PlaneSpans planes = place_planes(plan, results[plan.slot], store);
+            read_planes(plan.attachments, plan.readback, readback->bytes(), planes);
+            move_back(plan, planes);
             if (auto read = read_queries(plan, results[plan.slot]); !read) {
                 return read;
             }
@@ -325,7 +349,8 @@ std::vector<Rendered> BatchRenderer::render(std::span<const cases::Case> batch, 
         item.slot = slot;
         const VkDeviceSize size = attachment_bytes(
             item.test->target,
-            attachments_of(*item.test, target_layout(device_->capabilities(), *item.test)));
+            attachments_of(*item.test, target_layout(device_->capabilities(), *item.test)),
+            image_way(*item.test));
         const bool is_alone = is_drawn_alone(batch[slot]);
         const auto flush = [&] {
             run_chunk(plans, read_back, results, step, store);

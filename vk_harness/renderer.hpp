@@ -31,6 +31,9 @@ class Submission {
     // Descriptor sets for copying the samples of one case; they live until the next begin().
     Result<std::vector<VkDescriptorSet>> copy_sets(const PipelineCache& pipelines,
                                                    const CasePlan& plan);
+    // The same for reading its input attachments, into the plan; it is placed in the read-back
+    // buffer.
+    Result<void> make_input_sets(const PipelineCache& pipelines, CasePlan& plan);
 
   private:
     explicit Submission(const Device& device) : device_(&device) {}
@@ -57,6 +60,10 @@ class Submission {
 
 // Where a case's planes are guarded, and what the attachments are called.
 std::vector<std::pair<Guard*, std::string>> guards_of(const CasePlan& plan);
+
+// FragCoord of a case that is drawn elsewhere in its target, as it is at the origin: whole pixels
+// are taken off again, exactly.
+void move_back(const CasePlan& plan, const capture::PlaneSpans& planes);
 
 // The locations that gl_SamplePosition told, pixel by pixel; empty if they differ among pixels or
 // are not in sixteenths of a pixel.
@@ -97,6 +104,8 @@ class BatchRenderer {
                             const PlaneStore& store, std::vector<GuardDamage>& damage);
     // The render pass and framebuffer of a case whose door asks for them.
     Result<void> plan_pass(CasePlan& plan);
+    // What reads the input attachments of that pass.
+    Result<void> plan_inputs(CasePlan& plan, const PassKey& pass);
     // The pipeline of a draw, or its shaders where there is none.
     Result<void> plan_shaders(DrawPlan& item, const PipelineKey& key, cases::Door door);
     // What clears the attachments of a case that is cleared by draws.

@@ -150,7 +150,8 @@ Result<void> Submission::submit(VkFence fence) {
 Result<void> Submission::run() {
     const VolkDeviceTable& vk = device_->vk();
     memory_barrier(*device_, commands_,
-                   {VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                   {VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
+                        VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
                     VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT},
                    {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
     if (auto submitted = submit(fence_.get()); !submitted) {
@@ -184,8 +185,8 @@ Result<std::vector<VkDescriptorSet>> Submission::copy_sets(const PipelineCache& 
     const cases::Target& target = plan.test->target;
     const VkDeviceSize samples = VkDeviceSize{target.width} * target.rows() * target.samples;
     for (uint32_t k = 0; k < count; ++k) {
-        if (plan.attachments[k].is_resolved()) {
-            continue;  // copied
+        if (plan.attachments[k].is_resolved() || plan.attachments[k].is_input) {
+            continue;  // copied, or read by another shader
         }
         const bool is_stencil = plan.attachments[k].role == Role::stencil;
         const VkDescriptorImageInfo image_info = {
@@ -208,6 +209,50 @@ Result<std::vector<VkDescriptorSet>> Submission::copy_sets(const PipelineCache& 
         vk.vkUpdateDescriptorSets(device_->get(), 2, writes.data(), 0, nullptr);
     }
     return std::move(sets);
+}
+
+Result<void> Submission::make_input_sets(const PipelineCache& pipelines, CasePlan& plan) {
+    if (plan.inputs.empty()) {
+        return {};
+    }
+    const auto count = static_cast<uint32_t>(plan.inputs.size());
+    const std::array<VkDescriptorPoolSize, 2> sizes = {
+        VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, count},
+        VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count}};
+    const std::vector<VkDescriptorSetLayout> layouts(count, pipelines.input_set_layout());
+    auto made = make_sets(*device_, sizes, layouts);
+    if (!made) {
+        return fail(made.error());
+    }
+    descriptor_pools_.push_back(std::move(made->pool));
+    const cases::Target& target = plan.test->target;
+    const VkDeviceSize samples = VkDeviceSize{target.width} * target.rows() * target.samples;
+    std::vector<VkDescriptorImageInfo> images(count);
+    std::vector<VkDescriptorBufferInfo> buffers(count);
+    std::vector<VkWriteDescriptorSet> writes;
+    for (uint32_t n = 0; n < count; ++n) {
+        InputRead& input = plan.inputs[n];
+        input.set = made->sets[n];
+        const size_t k = input.attachment;
+        const Attachment& attachment = plan.attachments[k];
+        images[n] = {VK_NULL_HANDLE, plan.images[k]->input_view(attachment.aspect()),
+                     input_layout(attachment.aspect())};
+        buffers[n] = {readback_.get(), plan.readback.offset[k], samples * attachment.sample_bytes};
+        VkWriteDescriptorSet write = Typed{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+        write.dstSet = input.set;
+        write.descriptorCount = 1;
+        write.descriptorType = VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT;
+        write.pImageInfo = &images[n];
+        writes.push_back(write);
+        write.dstBinding = 1;
+        write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+        write.pImageInfo = nullptr;
+        write.pBufferInfo = &buffers[n];
+        writes.push_back(write);
+    }
+    device_->vk().vkUpdateDescriptorSets(device_->get(), static_cast<uint32_t>(writes.size()),
+                                         writes.data(), 0, nullptr);
+    return {};
 }
 
 }  // namespace vk_harness

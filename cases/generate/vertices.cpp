@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "cases/base/counted.hpp"
-#include "cases/model/float_bits.hpp"
+#include "cases/base/float_bits.hpp"
 
 namespace cases {
 

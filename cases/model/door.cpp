@@ -6,12 +6,15 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <functional>
 
+#include "cases/base/float_bits.hpp"
 #include "cases/format/color_format.hpp"
+#include "cases/format/vertex_format.hpp"
 #include "cases/model/case.hpp"
 #include "cases/model/derive.hpp"
-#include "cases/model/float_bits.hpp"
 #include "cases/model/rule_ids.hpp"
+#include "cases/model/triangle.hpp"
 
 namespace cases {
 
@@ -177,21 +180,152 @@ bool is_constant(const std::vector<glm::vec4>& values) {
            });
 }
 
-// Without instruments the only attributes that are drawn are colours and what discards.
-bool has_constant_input(const Case& c) {
-    return any_draw(c, [&c](const Draw& draw) {
+// Whether it holds of the distances or of an attribute of some draw. Without instruments the only
+// attributes that are drawn are colours and what discards.
+template <class Predicate>
+bool any_input(const Case& c, Predicate holds) {
+    return any_draw(c, [&](const Draw& draw) {
         const auto& attributes = draw.attributes;
-        if (is_constant(draw.distances.clip) || is_constant(draw.distances.cull)) {
+        if (holds(draw.distances.clip) || holds(draw.distances.cull)) {
             return true;
         }
         if (!c.target.has_instruments) {
-            return std::ranges::any_of(drawn_attributes(c.target, draw), [&attributes](uint32_t k) {
-                return k < attributes.size() && is_constant(attributes[k].values);
+            return std::ranges::any_of(drawn_attributes(c.target, draw), [&](uint32_t k) {
+                return k < attributes.size() && holds(attributes[k].values);
             });
         }
         return std::any_of(attributes.begin(), attributes.end(),
-                           [](const Attribute& a) { return is_constant(a.values); });
+                           [&](const Attribute& a) { return holds(a.values); });
     });
+}
+
+bool has_constant_input(const Case& c) {
+    return any_input(c, is_constant);
+}
+
+// The shader that draws one instance of several is built with distances of one kind.
+bool has_divided_input(const Case& c) {
+    return has_constant_input(c) && has_one_kind_of_distances(c);
+}
+
+bool has_other_format(const std::vector<glm::vec4>& values) {
+    return other_vertex_format(values, kAllVertexFormats, 0) != VertexFormat::rgba32_float;
+}
+
+bool has_exact_formats(const Case& c) {
+    return any_draw(c, [](const Draw& draw) { return has_other_format(draw.positions); }) ||
+           any_input(c, has_other_format);
+}
+
+// What a shader hands on may lose a denormal number, or the payload of a NaN. A number that is
+// drawn from numbers like these is 0 or normal: 1/w and z/w are 2^-60 or more, a depth of the
+// viewport's range and a product of two colours 2^-120 or more, and a value that is interpolated
+// through 0 is 0 or off by a rounding of its vertices.
+constexpr float kLeast = 0x1p-30F, kMost = 0x1p30F;
+bool is_handed_on(float value) {
+    return std::isfinite(value) && (std::abs(value) >= kLeast || std::fpclassify(value) == FP_ZERO);
+}
+
+bool is_vertex_handed_on(const glm::vec4& p) {
+    return is_handed_on(p.z) && is_handed_on(p.w) && std::abs(p.z) <= kMost &&
+           std::abs(p.w) <= kMost;
+}
+
+bool is_depth_handed_on(const std::optional<FragDepth>& depth) {
+    return !depth || (is_handed_on(depth->value) && is_handed_on(depth->other));
+}
+
+// Without a bias, whose unit is denormal where a triangle's depths are 0 in binary32.
+bool can_be_read_as_input(const Case& c) {
+    const auto are_handed_on = [](const glm::vec4& v) {
+        return is_handed_on(v.x) && is_handed_on(v.y) && is_handed_on(v.z) && is_handed_on(v.w);
+    };
+    const Target& t = c.target;
+    const bool has_clears = (!t.color || are_handed_on(t.color_at(t.judged_color).clear)) &&
+                            (!t.has_depth || is_handed_on(t.depth_clear));
+    return has_one_layer(c) && has_clears && all_draws(c, [&](const Draw& draw) {
+               return (!t.color || are_handed_on(output_at(t, draw, t.judged_color).value)) &&
+                      !draw.depth.bias && is_depth_handed_on(draw.frag_depth) &&
+                      is_handed_on(draw.viewport.min_depth) &&
+                      is_handed_on(draw.viewport.max_depth) &&
+                      std::ranges::all_of(draw.positions, is_vertex_handed_on) &&
+                      std::ranges::all_of(draw.attributes, [&](const Attribute& a) {
+                          return std::ranges::all_of(a.values, are_handed_on);
+                      });
+           });
+}
+
+// Whether binary32 holds each step on the way to a window coordinate: half of the size, the centre,
+// their product with the coordinate and the sum ("Controlling the Viewport").
+bool is_exact_in_window(float coordinate, float begin, float size) {
+    const auto is_held = [](double number) {
+        return std::equal_to<>()(static_cast<double>(static_cast<float>(number)), number);
+    };
+    // Products and sums of two numbers of binary32 of this size are exact in binary64.
+    const double half = double{size} / 2, centre = double{begin} + half;
+    const double product = half * double{coordinate};
+    return std::abs(product) < 0x1p20 && std::abs(centre) < 0x1p20 && is_held(half) &&
+           is_held(centre) && is_held(product) && is_held(product + centre);
+}
+
+// Vertices that lie in the view volume stay vertices of what is drawn. Where those that clipping
+// makes lie in the window depends on how large their coordinates are.
+bool has_exact_window(const Case& c) {
+    return all_draws(c, [](const Draw& draw) {
+        const Viewport& v = draw.viewport;
+        constexpr auto kColumns = static_cast<float>(kMovedColumns);
+        constexpr auto kRows = static_cast<float>(kMovedRows);
+        return draw.distances.clip_count == 0 &&
+               std::ranges::all_of(draw.positions, [&](const glm::vec4& p) {
+                   return is_one(p.w) && std::abs(p.x) <= 1 && std::abs(p.y) <= 1 && p.z >= 0 &&
+                          p.z <= 1 && is_exact_in_window(p.x, v.x, v.width) &&
+                          is_exact_in_window(p.y, v.y, v.height) &&
+                          is_exact_in_window(p.x, v.x + kColumns, v.width) &&
+                          is_exact_in_window(p.y, v.y + kRows, v.height);
+               });
+    });
+}
+
+// Whether each triangle reaches two pixels or more to the right of the target's left edge, and
+// below its upper one. It is held to the budgets of its own place, whose extents X and Y begin at
+// the target's corner (docs/precision.md, "The budget"); a plane that the device anchors in the
+// corner of the larger target has extents of X + 296 and Y + 200, 149 and 101 times as large at
+// most. What binary32 makes of it is within 8 budgets, so within 8 x 149 = 1192 of the case's own,
+// and vulkan has 1342.
+bool reaches_into_target(const Case& c) {
+    constexpr double kReach = 2;
+    return std::ranges::all_of(assemble(c), [&](const Triangle& t) {
+        const Draw& draw = c.draws[t.draw];
+        const Viewport& v = draw.viewport;
+        double x = 0, y = 0;  // the largest, in pixels
+        for (const uint32_t k : t.vertex) {
+            const glm::vec4& p = draw.positions[k];
+            x = std::max(x, double{v.x} + double{v.width} / 2 * (1 + double{p.x}));
+            y = std::max(y, double{v.y} + double{v.height} / 2 * (1 + double{p.y}));
+        }
+        return x >= kReach && y >= kReach;
+    });
+}
+
+bool can_be_moved(const Case& c) {
+    return has_exact_window(c) && reaches_into_target(c);
+}
+
+// Of a mesh shader each triangle is a group, of which a device has 65535 at least in a row
+// (maxMeshWorkGroupCount).
+bool can_be_meshes(const Case& c) {
+    return all_draws(c, [](const Draw& draw) {
+        constexpr size_t kMostGroups = 65535;
+        const size_t elements = draw.indices ? draw.indices->size() : draw.positions.size();
+        const size_t triangles = draw.topology == Topology::triangle_list ? elements / 3 : elements;
+        return (draw.distances.clip_count == 0 || draw.distances.cull_count == 0) &&
+               !has_barycentrics(draw) && triangles <= kMostGroups;
+    });
+}
+
+// Statistics are asked of the plain rendering alone.
+bool has_occlusion_query(const Case& c) {
+    return any_draw(c, [](const Draw& draw) { return is_occlusion(draw.query); });
 }
 
 bool has_several_draws(const Case& c) {
@@ -284,11 +418,29 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
     {Door::half_floats, "half-floats", kVertices, kRight, rule::door_layout,
      "Positions that binary16 holds are read as four numbers of it.", "",
      "a draw whose positions are all numbers of binary16", has_half_positions},
+    {Door::exact_formats, "exact-formats", kVertices, kRight, rule::door_layout,
+     "Inputs are read in other formats that hold their numbers: normalized ones of 0, 1 and -1, "
+     "scaled ones of whole numbers, binary16, and fewer components where the others are 0 and 1.",
+     "", "a draw with an input whose numbers another format of vertices holds", has_exact_formats},
     {Door::instance_rate, "instance-rate", kVertices, kRight, rule::door_instance,
      "What is the same at every vertex is read once an instance, and the only instance is number "
      "2: firstInstance is 2.",
      "", "a draw with an attribute or distances that are the same at every vertex",
      has_constant_input},
+    {Door::instance_divisor, "divisor", kVertices, kRight, rule::door_instance,
+     "What is the same at every vertex is read once for three instances: eight are drawn, of which "
+     "only the last has its triangles within the view volume; it reads element 2.",
+     "vertexAttributeInstanceRateDivisor (VK_EXT_vertex_attribute_divisor)",
+     "a draw with an attribute or distances that are the same at every vertex, no draw with both "
+     "clip and cull distances",
+     has_divided_input},
+    {Door::instance_divisor_zero, "divisor-zero", kVertices, kRight, rule::door_instance,
+     "As divisor, with a divisor of 0: all instances read the first element.",
+     "vertexAttributeInstanceRateDivisor and vertexAttributeInstanceRateZeroDivisor "
+     "(VK_EXT_vertex_attribute_divisor)",
+     "a draw with an attribute or distances that are the same at every vertex, no draw with both "
+     "clip and cull distances",
+     has_divided_input},
     {Door::vertices_pulled, "vertices-pulled", kVertices, kRight, rule::door_layout,
      "The pipeline has no inputs: the vertex shader reads its vertex from a storage buffer, by "
      "gl_VertexIndex.",
@@ -320,6 +472,9 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
      "multiDraw (VK_EXT_multi_draw)", kAny, is_any},
     {Door::state_first, "state-first", kState, kSame, rule::door_state,
      "Dynamic state is set and buffers are bound before the pipeline is.", "", kAny, is_any},
+    {Door::query_first, "query-first", kState, kSame, rule::door_state,
+     "Queries begin before the first pipeline of the command buffer is bound.", "",
+     "a draw with an occlusion query", has_occlusion_query},
     {Door::state_stale, "state-stale", kState, kSame, rule::door_state,
      "All dynamic state is first set to other values, under which the draw is recorded with "
      "rasterization off, and then to those of the draw.",
@@ -389,14 +544,30 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
     {Door::render_pass, "render-pass", kRecording, kRight, rule::door_recording,
      "The rendering is an instance of a render pass object with one subpass.", "", kAny, is_any},
     {Door::subpasses, "subpasses", kRecording, kRight, rule::door_recording,
-     "The same with two subpasses: the first clears and has the first of several draws, the second "
+     "As render-pass, with two subpasses: the first clears and has the first of several draws, the "
+     "second "
      "one the others.",
      "", kAny, is_any},
+    {Door::input_attachment, "input-attachment", kRecording, kRight, rule::door_recording,
+     "A second subpass reads what the first has drawn as input attachments, and the picture is "
+     "what "
+     "it has read: instruments, depth but D24, stencil and colours but sRGB and binary16.",
+     "fragmentStoresAndAtomics",
+     "one layer, no bias, no number that is infinite, none, or nearer to 0 than 2^-30 and not 0",
+     can_be_read_as_input},
     {Door::submissions, "submissions", kRecording, kRight, rule::door_recording,
      "As pass-split, and each part is a command buffer and a submission of its own.", "", kAny,
      is_any},
     {Door::target_larger, "target-larger", kTargets, kRight, rule::door_target,
      "Attachments have 29 columns and 19 rows more than the rendering's area.", "", kAny, is_any},
+    {Door::target_last_tile, "target-last-tile", kTargets, kAlone, rule::door_target,
+     "The case lies in the last tile of a larger target: viewport, scissor and the rendering's "
+     "area "
+     "are 296 columns and 200 rows further, and the attachments end with it.",
+     "",
+     "vertices in the view volume with w = 1 whose window coordinates binary32 holds here and "
+     "there, no clip distances",
+     can_be_moved},
     {Door::image_layer, "image-layer", kTargets, kRight, rule::door_target,
      "Attachments are the last layers of images with two layers more.", "", kAny, is_any},
     {Door::image_level, "image-level", kTargets, kRight, rule::door_target,
@@ -433,6 +604,17 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
      "transformFeedback (VK_EXT_transform_feedback)",
      "lists without indices and distances, the corners of each triangle in three places",
      are_plain_lists},
+    {Door::mesh_shader, "mesh-shader", kStages, kAlone, rule::door_stage,
+     "A mesh shader makes the triangles, one a group, of vertices in a storage buffer; those of "
+     "strips and fans begin or end with the vertex that provokes.",
+     "meshShader (VK_EXT_mesh_shader)",
+     "no draw with both clip and cull distances, no barycentrics, up to 65535 triangles",
+     can_be_meshes},
+    {Door::stage_unused, "stage-unused", kStages, kRight, rule::door_state,
+     "Shaders have outputs that nobody reads, one of the vertex shader and, where the device has a "
+     "location without an attachment, one of the fragment shader; an input is described that no "
+     "shader has, and a descriptor set.",
+     "", kAny, is_any},
 }};
 
 constexpr bool is_in_order() {

@@ -42,7 +42,10 @@ enum class Door : uint8_t {
     interleaved,
     three_components,
     half_floats,
+    exact_formats,
     instance_rate,
+    instance_divisor,
+    instance_divisor_zero,
     vertices_pulled,
     indirect,
     indirect_count,
@@ -51,6 +54,7 @@ enum class Door : uint8_t {
     multi_draw,
     multi_draw_empty,
     state_first,
+    query_first,
     state_stale,
     state_static,
     state_after_static,
@@ -70,8 +74,10 @@ enum class Door : uint8_t {
     clear_draw,
     render_pass,
     subpasses,
+    input_attachment,
     submissions,
     target_larger,
+    target_last_tile,
     image_layer,
     image_level,
     image_linear,
@@ -82,8 +88,10 @@ enum class Door : uint8_t {
     geometry,
     tessellation,
     transform_feedback,
+    mesh_shader,
+    stage_unused,
 };
-inline constexpr Door kLastDoor = Door::transform_feedback;
+inline constexpr Door kLastDoor = Door::stage_unused;
 inline constexpr size_t kDoors = static_cast<size_t>(kLastDoor) + 1;  // `none` among them
 template <>
 inline constexpr size_t kValueCount<Door> = kDoors;
@@ -133,6 +141,11 @@ uint32_t vertex_shift(Door door);
 // Some doors draw a list of several triangles as two draws: how many triangles the first one has,
 // after which gl_PrimitiveID may begin again; 0 if the door does not split the draw.
 uint32_t split_of(Door door, const struct Draw& draw);
+
+// How many pixels to the right and down the door target_last_tile draws a case: even numbers, so
+// that quads and chequers lie as they do at the origin, and no multiples of a tile's size, so that
+// tiles end elsewhere in the case.
+inline constexpr uint32_t kMovedColumns = 296, kMovedRows = 200;
 
 // Whether there are positions and binary16 holds every one of their numbers exactly.
 bool are_half_floats(std::span<const glm::vec4> positions);

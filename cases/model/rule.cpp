@@ -328,20 +328,22 @@ constexpr std::array kRules = {
          "memory. The same vertices reach the "
          "same pipeline: the picture has the same bits (Rule 4).",
          "vkCmdBindVertexBuffers", "", "diff/consistency.cpp"},
-    Rule{rule::door_layout, Profile::vulkan, "How vertices lie in memory changes nothing",
-         "Strides with room between vertices, strides given with the buffers, all inputs in one "
-         "binding, positions of three numbers whose fourth is 1; a shader may read it from a "
-         "storage buffer instead, or transform feedback have written it. The pipeline is another "
-         "one, so "
-         "Rule 4 does not promise the bits: at vulkan the picture has to be right by the rules of "
-         "every picture, from practice on it has the same bits.",
-         "fxvertex-input", "", "diff/consistency.cpp"},
     Rule{
-        rule::door_instance, Profile::vulkan, "Inputs of an instance are those of its number",
-        "What is read once an instance is read at firstInstance for the first one. The pipeline is "
-        "another one: at vulkan the picture has to be right, from practice on it has the same "
-        "bits.",
-        "VkVertexInputRate", "", "diff/consistency.cpp"},
+        rule::door_layout, Profile::vulkan, "How vertices lie in memory changes nothing",
+        "Strides with room between vertices, strides given with the buffers, all inputs in one "
+        "binding, other formats that hold the same numbers: fewer components where the others are "
+        "0 and 1, binary16, scaled whole numbers, the ends of normalized ranges; a shader may read "
+        "them from a storage buffer instead, or transform feedback have written them. The pipeline "
+        "is another one, so Rule 4 does not promise the bits: at vulkan the picture has to be "
+        "right by the rules of "
+        "every picture, from practice on it has the same bits.",
+        "fxvertex-input", "", "diff/consistency.cpp"},
+    Rule{rule::door_instance, Profile::vulkan, "Inputs of an instance are those of its number",
+         "What is read once an instance is read at firstInstance for the first one; with a divisor "
+         "so many instances read the same, with a divisor of 0 all. The pipeline is another one: "
+         "at vulkan the picture has to be right, from practice on it has the same "
+         "bits.",
+         "VkVertexInputRate", "", "diff/consistency.cpp"},
     Rule{rule::door_indirect, Profile::vulkan, "Draws from a buffer are draws",
          "An indirect draw, one of several in a command, or one whose number is read from a "
          "buffer, draws what the same parameters draw directly: the same vertices reach the same "
@@ -352,7 +354,8 @@ constexpr std::array kRules = {
          "last counts, whatever was drawn with other values or with a pipeline whose state is "
          "static: the same pipeline, state and vertices give the same bits (Rule 4). Static state, "
          "state that is on and changes nothing, a pipeline that is not optimized and shaders "
-         "without a pipeline are another pipeline: at vulkan the picture has to be right, from "
+         "without a pipeline or with outputs that nobody reads are another pipeline: at vulkan the "
+         "picture has to be right, from "
          "practice on it has the same bits.",
          "pipelines-dynamic-state", "", "diff/consistency.cpp"},
     Rule{rule::door_recording, Profile::vulkan, "Draws are the same however they are recorded",
@@ -362,18 +365,22 @@ constexpr std::array kRules = {
          "resumed, and vkCmdClearAttachments or a draw instead of a load operation clear in "
          "another way, and which neighbour of a clear value "
          "is stored is not fixed: at vulkan the picture has to be right, from practice on it has "
-         "the same bits. So it is in a subpass of a render pass object, and where its parts are "
-         "submitted one by one.",
+         "the same bits. So it is in a subpass of a render pass object, where its parts are "
+         "submitted one by one, and where the picture is what a second subpass reads of it as "
+         "input attachments.",
          "vkCmdBeginRendering", "", "diff/consistency.cpp"},
     Rule{rule::door_target, Profile::vulkan, "What an attachment is a part of changes nothing",
          "Attachments may be larger than the rendering's area, layers or levels of images with "
          "more of them, of images that may be used in other ways, too, or are tiled linearly, in "
          "memory of their own or in that of another image which is not used any more, or the "
          "second view of a multiview rendering. Images or the pipeline are others: at vulkan "
-         "the picture has to be right, from practice on it has the same bits.",
+         "the picture has to be right, from practice on it has the same bits. Drawn elsewhere in a "
+         "larger target, by whole pixels that change no position's rounding, it has to be right by "
+         "the rules of vulkan, and no more.",
          "VkRenderingInfo", "", "diff/consistency.cpp"},
     Rule{rule::door_stage, Profile::vulkan, "A stage that hands triangles on changes nothing",
-         "A geometry shader that emits each triangle as it came, and tessellation by factors of 1, "
+         "A geometry shader that emits each triangle as it came, a mesh shader that makes each of "
+         "the same vertices, and tessellation by factors of 1, "
          "rasterize the triangles of the draw, with their numbers, flat values and faces. Which of "
          "its vertices comes first is the stage's own choice, and with it values may be rounded "
          "otherwise: the picture has to be right by the rules of vulkan, and its bits are not "

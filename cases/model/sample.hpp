@@ -144,11 +144,13 @@ inline bool asks_queries(const Case& c) {
 inline bool is_statistic(Query query) {
     return query >= Query::input_vertices;
 }
+inline bool is_occlusion(Query query) {
+    return query == Query::occlusion || query == Query::occlusion_precise;
+}
 // Whether what a query gives depends on what becomes of fragments at each sample, and whether some
 // draw has such a one.
 inline bool counts_fragments(Query query) {
-    return query == Query::occlusion || query == Query::occlusion_precise ||
-           query == Query::fragment_invocations;
+    return is_occlusion(query) || query == Query::fragment_invocations;
 }
 inline bool counts_fragments(const Case& c) {
     return std::ranges::any_of(c.draws,

@@ -46,32 +46,40 @@ void assemble_run(const Draw& draw, uint32_t draw_index, std::span<const uint32_
     }
 }
 
+void assemble_draw(const Draw& draw, uint32_t draw_index, std::vector<Triangle>& out) {
+    uint32_t primitive = 0;
+    if (!draw.indices) {
+        std::vector<uint32_t> run(draw.positions.size());
+        std::iota(run.begin(), run.end(), 0U);
+        assemble_run(draw, draw_index, run, primitive, out);
+        return;
+    }
+    std::span<const uint32_t> rest(*draw.indices);
+    while (draw.primitive_restart) {
+        const auto restart = std::find(rest.begin(), rest.end(), kRestartIndex);
+        if (restart == rest.end()) {
+            break;
+        }
+        const auto size = static_cast<size_t>(restart - rest.begin());
+        assemble_run(draw, draw_index, rest.first(size), primitive, out);
+        rest = rest.subspan(size + 1);
+    }
+    assemble_run(draw, draw_index, rest, primitive, out);
+}
+
 }  // namespace
 
 std::vector<Triangle> assemble(const Case& c) {
     std::vector<Triangle> out;
     for (size_t d = 0; d < c.draws.size(); ++d) {
-        const Draw& draw = c.draws[d];
-        const auto draw_index = static_cast<uint32_t>(d);
-        uint32_t primitive = 0;
-        if (!draw.indices) {
-            std::vector<uint32_t> run(draw.positions.size());
-            std::iota(run.begin(), run.end(), 0U);
-            assemble_run(draw, draw_index, run, primitive, out);
-            continue;
-        }
-        std::span<const uint32_t> rest(*draw.indices);
-        while (draw.primitive_restart) {
-            const auto restart = std::find(rest.begin(), rest.end(), kRestartIndex);
-            if (restart == rest.end()) {
-                break;
-            }
-            const auto size = static_cast<size_t>(restart - rest.begin());
-            assemble_run(draw, draw_index, rest.first(size), primitive, out);
-            rest = rest.subspan(size + 1);
-        }
-        assemble_run(draw, draw_index, rest, primitive, out);
+        assemble_draw(c.draws[d], static_cast<uint32_t>(d), out);
     }
+    return out;
+}
+
+std::vector<Triangle> assemble(const Case& c, uint32_t draw) {
+    std::vector<Triangle> out;
+    assemble_draw(c.draws[draw], draw, out);
     return out;
 }
 

@@ -26,5 +26,7 @@ struct Triangle {
 // All triangles of a case in drawing order. Incomplete ones at the end (or before a restart) are
 // dropped.
 std::vector<Triangle> assemble(const Case& c);
+// Those of draw number `draw` alone.
+std::vector<Triangle> assemble(const Case& c, uint32_t draw);
 
 }  // namespace cases

@@ -26,7 +26,6 @@ enum class Strictness : uint8_t {
 };
 
 struct Statement {
-    uint32_t number;         // 1.., the order of the table
     std::string_view topic;  // what it is about
     Strictness vulkan;
     Strictness direct3d;

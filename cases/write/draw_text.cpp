@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <functional>
 
+#include "cases/base/float_bits.hpp"
 #include "cases/load/color.hpp"
 #include "cases/model/derive.hpp"
-#include "cases/model/float_bits.hpp"
 #include "cases/model/sample.hpp"
 #include "cases/model/words.hpp"
 #include "cases/write/toml_text.hpp"

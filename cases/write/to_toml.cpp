@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "cases/base/float_bits.hpp"
 #include "cases/load/loader.hpp"
-#include "cases/model/float_bits.hpp"
 #include "cases/model/words.hpp"
 #include "cases/wire/case_bytes.hpp"
 #include "cases/write/draw_text.hpp"

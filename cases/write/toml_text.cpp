@@ -9,7 +9,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "cases/model/float_bits.hpp"
+#include "cases/base/float_bits.hpp"
 #include "cases/toml/binary32.hpp"
 
 namespace cases {

@@ -9,8 +9,8 @@
 #include <cmath>
 #include <optional>
 
+#include "cases/base/float_bits.hpp"
 #include "cases/generate/vertices.hpp"
-#include "cases/model/float_bits.hpp"
 #include "cases/toml/binary32.hpp"
 #include "cases/write/toml_text.hpp"
 

@@ -10,7 +10,7 @@
 #include <optional>
 #include <unordered_map>
 
-#include "cases/model/float_bits.hpp"
+#include "cases/base/float_bits.hpp"
 #include "cases/model/sample.hpp"
 #include "ref/depth/compare.hpp"
 #include "ref/value/accept/judge_candidates.hpp"

@@ -63,8 +63,7 @@ bool is_counted_by_stencil(const View& view, std::string_view) {
 
 bool is_counted_by_query(const View& view, std::string_view) {
     return std::ranges::any_of(view.sample.counted, [&](const CountedDraw& counted) {
-        const cases::Query query = view.of().draws[counted.draw].query;
-        return query != cases::Query::none && !cases::is_statistic(query) &&
+        return cases::is_occlusion(view.of().draws[counted.draw].query) &&
                counted.shown_least + counted.hidden_least + counted.either_least > 0;
     });
 }

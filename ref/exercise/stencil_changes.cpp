@@ -69,7 +69,7 @@ bool pass_every_stencil(Case& c) {
 bool show_all_to_queries(Case& c) {
     bool has_any = false;
     for (cases::Draw& draw : c.draws) {
-        if (draw.query == cases::Query::none || cases::is_statistic(draw.query)) {
+        if (!cases::is_occlusion(draw.query)) {
             continue;
         }
         has_any = true;

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "cases/model/float_bits.hpp"
+#include "cases/base/float_bits.hpp"
 
 namespace ref {
 

@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "cases/model/float_bits.hpp"
+#include "cases/base/float_bits.hpp"
 #include "ref/value/accept/filter_run.hpp"
 #include "ref/value/fragment/shading_rate.hpp"
 #include "ref/value/reference.hpp"

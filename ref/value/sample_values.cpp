@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "cases/model/float_bits.hpp"
+#include "cases/base/float_bits.hpp"
 #include "cases/model/sample.hpp"
 #include "ref/number/fixed_point.hpp"
 

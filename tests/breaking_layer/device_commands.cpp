@@ -208,6 +208,34 @@ VKAPI_ATTR VkResult VKAPI_CALL create_graphics_pipelines(VkDevice device, VkPipe
     return make(own.data());
 }
 
+VKAPI_ATTR void VKAPI_CALL update_descriptor_sets(VkDevice device, uint32_t count,
+                                                  const VkWriteDescriptorSet* writes,
+                                                  uint32_t copy_count,
+                                                  const VkCopyDescriptorSet* copies) {
+    const auto is_input = [](const VkWriteDescriptorSet& write) {
+        return write.descriptorType == VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT &&
+               write.descriptorCount == 1;
+    };
+    std::vector<VkWriteDescriptorSet> own(writes, writes + count);
+    std::vector<VkImageView> views;
+    for (const VkWriteDescriptorSet& write : own) {
+        if (is_input(write)) {
+            views.push_back(write.pImageInfo->imageView);
+        }
+    }
+    alter(hooks().input_views, std::span(views));
+    std::vector<VkDescriptorImageInfo> images;
+    images.reserve(views.size());  // so that no address changes
+    for (VkWriteDescriptorSet& write : own) {
+        if (is_input(write)) {
+            images.push_back(*write.pImageInfo);
+            images.back().imageView = views[images.size() - 1];
+            write.pImageInfo = &images.back();
+        }
+    }
+    driver_of_handle(device).UpdateDescriptorSets(device, count, own.data(), copy_count, copies);
+}
+
 VKAPI_ATTR VkResult VKAPI_CALL queue_submit(VkQueue queue, uint32_t count,
                                             const VkSubmitInfo* infos, VkFence fence) {
     static std::atomic<uint64_t> submissions = 0;
@@ -407,6 +435,7 @@ const OwnCommand kCommands[] = {
     BREAKING_OWN(FreeMemory, free_memory),
     BREAKING_OWN(CreatePipelineCache, create_pipeline_cache),
     BREAKING_OWN(CreateGraphicsPipelines, create_graphics_pipelines),
+    BREAKING_OWN(UpdateDescriptorSets, update_descriptor_sets),
     BREAKING_OWN(QueueSubmit, queue_submit),
     BREAKING_OWN(WaitForFences, wait_for_fences),
     BREAKING_OWN(CmdDraw, draw),

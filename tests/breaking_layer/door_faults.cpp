@@ -5,6 +5,7 @@
 // through that door shows it.
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "fault.hpp"
 
@@ -81,6 +82,35 @@ bool read_at_vertices(PipelineCopy& p) {
     }
     return altered;
 }
+
+template <uint32_t from_least, uint32_t from_most>
+bool count_divisors_as_one(PipelineCopy& p) {
+    bool altered = false;
+    for (VkVertexInputBindingDivisorDescriptionEXT& divisor : p.divisors) {
+        altered = (divisor.divisor >= from_least && divisor.divisor <= from_most &&
+                   change(divisor.divisor, 1)) ||
+                  altered;
+    }
+    return altered;
+}
+
+bool take_formats(PipelineCopy& p, std::span<const std::pair<VkFormat, VkFormat>> pairs) {
+    bool altered = false;
+    for (VkVertexInputAttributeDescription& input : p.inputs) {
+        const auto found =
+            std::ranges::find(pairs, input.format, &std::pair<VkFormat, VkFormat>::first);
+        altered = (found != pairs.end() && change(input.format, found->second)) || altered;
+    }
+    return altered;
+}
+
+constexpr std::array<std::pair<VkFormat, VkFormat>, 5> kOtherSigns = {{
+    {VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R8G8B8A8_SNORM},
+    {VK_FORMAT_R16G16B16A16_UNORM, VK_FORMAT_R16G16B16A16_SNORM},
+    {VK_FORMAT_R16G16_UNORM, VK_FORMAT_R16G16_SNORM},
+    {VK_FORMAT_R8G8B8A8_SNORM, VK_FORMAT_R8G8B8A8_UNORM},
+    {VK_FORMAT_R16G16B16A16_SNORM, VK_FORMAT_R16G16B16A16_UNORM},
+}};
 
 bool take_strides_as_tight(VertexBuffers& b) {
     bool altered = false;
@@ -217,6 +247,15 @@ constexpr std::array kFaults = {
     Fault{"door-first-instance-ignored",
           "firstInstance is ignored.",
           {.draw = [](DrawCall& d) { return change(d.first_instance, 0); }}},
+    Fault{"door-divisor-as-one",
+          "Divisors above 1 count as 1.",
+          {.pipeline = count_divisors_as_one<2, std::numeric_limits<uint32_t>::max()>}},
+    Fault{"door-divisor-zero-as-one",
+          "A divisor of 0 counts as 1.",
+          {.pipeline = count_divisors_as_one<0, 0>}},
+    Fault{"door-normalized-input-other-sign",
+          "Normalized inputs with a sign are read without, and others with one.",
+          {.pipeline = [](PipelineCopy& p) { return take_formats(p, kOtherSigns); }}},
     Fault{"door-pulled-writes-no-green",
           "A pipeline without inputs, whose depth test is dynamic, does not write the second "
           "component.",

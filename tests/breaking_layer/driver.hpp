@@ -67,6 +67,8 @@ namespace breaking {
     X(CmdDrawIndexedIndirectCount) \
     X(CmdDrawMultiEXT) \
     X(CmdDrawMultiIndexedEXT) \
+    X(CmdDrawMeshTasksEXT) \
+    X(UpdateDescriptorSets) \
     X(CmdBeginRendering) \
     X(CmdEndRendering) \
     X(CmdBeginRenderPass) \

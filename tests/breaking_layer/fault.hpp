@@ -166,8 +166,9 @@ struct QueryResult {
     uint64_t count = 0;
     VkQueryPipelineStatisticFlags statistics = 0;  // that its pool counts; 0: of occlusion
     bool is_precise = false;
-    bool in_secondary = false;  // it was begun in a secondary command buffer
-    uint64_t before = 0;        // what the queries counted that were read before it, since a reset
+    bool in_secondary = false;     // it was begun in a secondary command buffer
+    bool before_pipeline = false;  // and before any pipeline was bound there
+    uint64_t before = 0;  // what the queries counted that were read before it, since a reset
 };
 
 // What becomes of a call that answers with a VkResult.
@@ -192,6 +193,9 @@ struct Hooks {
     bool (*indirect)(IndirectCall&) = nullptr;
     bool (*indirect_draw)(IndirectDraw&) = nullptr;
     bool (*multi_draw)(MultiDraw&) = nullptr;
+    bool (*mesh_groups)(uint32_t&) = nullptr;  // of vkCmdDrawMeshTasksEXT, along x
+    // The views of the input attachments of one call of vkUpdateDescriptorSets, in its order.
+    bool (*input_views)(std::span<VkImageView>) = nullptr;
     bool (*depth_compare)(VkCompareOp&) = nullptr;
     bool (*depth_write)(VkBool32&) = nullptr;
     bool (*depth_bounds_enable)(VkBool32&) = nullptr;

@@ -159,7 +159,14 @@ VKAPI_ATTR void VKAPI_CALL draw_multi_indexed(VkCommandBuffer commands, uint32_t
     draw_several(commands, multi);
 }
 
+VKAPI_ATTR void VKAPI_CALL draw_mesh_tasks(VkCommandBuffer commands, uint32_t x, uint32_t y,
+                                           uint32_t z) {
+    alter(hooks().mesh_groups, x);
+    driver_of_handle(commands).CmdDrawMeshTasksEXT(commands, x, y, z);
+}
+
 const OwnCommand kCommands[] = {
+    BREAKING_OWN(CmdDrawMeshTasksEXT, draw_mesh_tasks),
     BREAKING_OWN(CmdDrawIndirect, draw_indirect),
     BREAKING_OWN(CmdDrawIndexedIndirect, draw_indexed_indirect),
     BREAKING_OWN(CmdDrawIndirectCount, draw_indirect_count),

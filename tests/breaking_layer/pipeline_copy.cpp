@@ -58,6 +58,15 @@ PipelineCopy::PipelineCopy(const VkGraphicsPipelineCreateInfo& from) : info_(fro
             vertex_input.pVertexBindingDescriptions + vertex_input.vertexBindingDescriptionCount);
     }
 
+    for (const auto* s = first_of(vertex_input.pNext); s != nullptr; s = s->pNext) {
+        expect_one_of(s, {VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_DIVISOR_STATE_CREATE_INFO_EXT});
+        take(s, VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_DIVISOR_STATE_CREATE_INFO_EXT, divided);
+    }
+    if (divided) {
+        divisors.assign(divided->pVertexBindingDivisors,
+                        divided->pVertexBindingDivisors + divided->vertexBindingDivisorCount);
+    }
+
     for (const auto* s = first_of(from.pNext); s != nullptr; s = s->pNext) {
         lacks_stencil =
             lacks_stencil ||
@@ -116,6 +125,11 @@ const VkGraphicsPipelineCreateInfo& PipelineCopy::info() {
     vertex_input.vertexAttributeDescriptionCount = static_cast<uint32_t>(inputs.size());
     vertex_input.pVertexBindingDescriptions = bindings.data();
     vertex_input.vertexBindingDescriptionCount = static_cast<uint32_t>(bindings.size());
+    vertex_input.pNext = nullptr;
+    if (divided) {
+        divided->pVertexBindingDivisors = divisors.data();
+    }
+    chain(vertex_input.pNext, divided);
     info_.pVertexInputState = info_.pVertexInputState != nullptr ? &vertex_input : nullptr;
 
     rasterization.pNext = nullptr;

@@ -23,6 +23,8 @@ class PipelineCopy {
     VkPipelineVertexInputStateCreateInfo vertex_input{};
     std::vector<VkVertexInputAttributeDescription> inputs;
     std::vector<VkVertexInputBindingDescription> bindings;
+    std::vector<VkVertexInputBindingDivisorDescriptionEXT> divisors;
+    std::optional<VkPipelineVertexInputDivisorStateCreateInfoEXT> divided;
     VkPipelineRasterizationStateCreateInfo rasterization{};
     std::optional<VkPipelineRasterizationDepthClipStateCreateInfoEXT> depth_clip;
     std::optional<VkPipelineRasterizationProvokingVertexStateCreateInfoEXT> provoking;

@@ -15,7 +15,7 @@ namespace {
 
 struct Begun {
     VkQueryControlFlags flags = 0;
-    bool in_secondary = false;
+    bool in_secondary = false, before_pipeline = false;
 };
 
 std::mutex mutex;
@@ -39,7 +39,8 @@ VKAPI_ATTR void VKAPI_CALL begin_query(VkCommandBuffer commands, VkQueryPool poo
                                        VkQueryControlFlags flags) {
     {
         const std::lock_guard lock(mutex);
-        begun[{pool, query}] = {flags, recording_of(commands).is_secondary};
+        const Recording& recording = recording_of(commands);
+        begun[{pool, query}] = {flags, recording.is_secondary, !recording.has_pipeline};
     }
     driver_of_handle(commands).CmdBeginQuery(commands, pool, query, flags);
 }
@@ -71,6 +72,7 @@ VKAPI_ATTR VkResult VKAPI_CALL get_query_pool_results(VkDevice device, VkQueryPo
         own.statistics = statistics_of[pool];
         own.is_precise = (how.flags & VK_QUERY_CONTROL_PRECISE_BIT) != 0;
         own.in_secondary = how.in_secondary;
+        own.before_pipeline = how.before_pipeline;
         own.before = counted[pool];
         counted[pool] += own.count;
         alter(hooks().query_result, own);

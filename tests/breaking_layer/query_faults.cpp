@@ -54,6 +54,9 @@ constexpr std::array kFaults = {
     Fault{"door-query-lost",
           "Queries in secondary command buffers count nothing.",
           {.query_result = [](QueryResult& q) { return q.in_secondary && change(q.count, 0); }}},
+    Fault{"door-query-before-pipeline-lost",
+          "Queries that begin before any pipeline is bound count nothing.",
+          {.query_result = [](QueryResult& q) { return q.before_pipeline && change(q.count, 0); }}},
 };
 
 }  // namespace

@@ -14,6 +14,7 @@ void Recording::begin_rendering(bool holds_back) {
     rendering = ++count;
     draws = 0;
     follows_static = false;
+    has_pipeline = false;
     holds_back_ = holds_back;
 }
 
@@ -23,6 +24,7 @@ void Recording::begin(bool secondary) {
     subpass = 0;
     draws = 0;
     follows_static = false;
+    has_pipeline = false;
     set_since_bind.clear();
 }
 

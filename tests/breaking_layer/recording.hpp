@@ -35,6 +35,7 @@ class Recording {
     uint64_t rendering = 0;                  // in this process, from 1
     std::vector<VkImageView> attachments;    // of this rendering
     bool is_secondary = false;
+    bool has_pipeline = false;          // some pipeline, or shader objects, were bound
     bool lacks_feedback = false;        // transform feedback should have been begun
     uint32_t executions = 0;            // of a secondary one, since it was begun
     uint32_t subpass = 0;               // of a render pass object

@@ -196,6 +196,7 @@ VKAPI_ATTR void VKAPI_CALL bind_shaders(VkCommandBuffer commands, uint32_t count
                                         const VkShaderStageFlagBits* stages,
                                         const uint64_t* shaders) {
     recording_of(commands).stages = 0;  // there is no pipeline
+    recording_of(commands).has_pipeline = true;
     driver_of_handle(commands).CmdBindShadersEXT(commands, count, stages, shaders);
 }
 
@@ -209,6 +210,7 @@ VKAPI_ATTR void VKAPI_CALL bind_pipeline(VkCommandBuffer commands, VkPipelineBin
     }
     recording.follows_static = recording.follows_static || is_static(pipeline);
     if (point == VK_PIPELINE_BIND_POINT_GRAPHICS) {
+        recording.has_pipeline = true;
         recording.stages = stages_of(pipeline);
     }
     recording.set_since_bind.clear();

@@ -89,6 +89,31 @@ constexpr std::array kFaults = {
                    return c.region.imageSubresource.mipLevel == 0 && end < c.image.extent.width &&
                           change(c.region.imageOffset.x, c.region.imageOffset.x + 1);
                }}},
+    Fault{"door-area-elsewhere-clears-to-zero",
+          "A rendering whose area does not begin at the origin clears its colours to 0.",
+          {.rendering =
+               [](Rendering& r) {
+                   return r.info.renderArea.offset.x != 0 &&
+                          clear_to_zero(r, [](const ImageFacts&) { return true; });
+               }}},
+    Fault{"door-input-second-of-first",
+          "The second input attachment reads what the first one holds.",
+          {.input_views =
+               [](std::span<VkImageView> views) {
+                   return views.size() > 1 && change(views[1], views[0]);
+               }}},
+    Fault{"door-unused-input-writes-no-green",
+          "A pipeline that describes an input at location 15 does not write the second component.",
+          {.pipeline =
+               [](PipelineCopy& p) {
+                   return std::ranges::any_of(p.inputs,
+                                              [](const auto& i) { return i.location == 15; }) &&
+                          write_no_green(p);
+               }}},
+    Fault{
+        "door-mesh-last-group-lost",
+        "The last group of a mesh shader makes no triangle.",
+        {.mesh_groups = [](uint32_t& groups) { return groups > 0 && change(groups, groups - 1); }}},
     Fault{"door-view-of-first-layer",
           "Every view begins with layer 0.",
           {.view =

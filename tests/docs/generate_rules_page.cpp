@@ -44,9 +44,9 @@ bool print_statements(const LeavesOfRule& leaves) {
     std::set<std::string_view> named;
     fmt::print(
         "\n## What the specifications say\n\n{}\n"
-        "| # | statement | Vulkan | Direct3D | a finding from | how it is judged | rules | "
+        "| statement | Vulkan | Direct3D | a finding from | how it is judged | rules | "
         "reference code |\n"
-        "| --- | --- | --- | --- | --- | --- | --- | --- |\n",
+        "| --- | --- | --- | --- | --- | --- | --- |\n",
         wrapped(
             "The table has every statement of Vulkan 1.4 and Direct3D 11.3 on filled triangles, "
             "how strict it is, and what holds a device to it. *exact* means that there is one "
@@ -64,9 +64,8 @@ bool print_statements(const LeavesOfRule& leaves) {
             const auto count = leaves.find(std::string(id));
             const bool is_met = count != leaves.end() || id == "write.consistent";
             if (rule == nullptr || !is_met) {
-                fmt::print(stderr, "error: statement {} names the rule {}, which {}\n",
-                           statement.number, id,
-                           rule == nullptr ? "does not exist" : "has no case");
+                fmt::print(stderr, "error: statement '{}' names the rule {}, which {}\n",
+                           statement.topic, id, rule == nullptr ? "does not exist" : "has no case");
                 is_complete = false;
                 continue;
             }
@@ -79,17 +78,18 @@ bool print_statements(const LeavesOfRule& leaves) {
             }
         }
         if (rules.empty() && statement.reason.empty()) {
-            fmt::print(stderr, "error: statement {} has neither a rule nor a reason\n",
-                       statement.number);
+            fmt::print(stderr, "error: statement '{}' has neither a rule nor a reason\n",
+                       statement.topic);
             is_complete = false;
         }
-        fmt::print("| {} | {} | {} | {} | {} | {} | {} | {} |\n", statement.number, statement.topic,
+        fmt::print("| {} | {} | {} | {} | {} | {} | {} |\n", statement.topic,
                    to_string(statement.vulkan), to_string(statement.direct3d),
                    rules.empty() ? "not judged" : to_string(statement.from.value_or(profile)),
                    rules.empty() ? statement.reason : statement.judged, rules, code);
         if (statement.from && *statement.from <= profile) {
-            fmt::print(stderr, "error: statement {} is a finding from {} on by its rules already\n",
-                       statement.number, to_string(profile));
+            fmt::print(stderr,
+                       "error: statement '{}' is a finding from {} on by its rules already\n",
+                       statement.topic, to_string(profile));
             is_complete = false;
         }
     }

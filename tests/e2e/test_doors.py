@@ -93,8 +93,10 @@ class Doors(ProgramTest):
         self.assertGreater(sum(pictures.values()), 1500)
         # lavapipe has shader objects since Mesa 25.
         lacking = {d["door"] for d in results["doors"] if d["pictures"] == 0 and d["reason"].startswith("the device lacks ")}
-        self.assertLessEqual(lacking, {"shader-objects"})
-        self.assertEqual({door for door, count in pictures.items() if count == 0}, lacking)
+        self.assertLessEqual(lacking, {"shader-objects", "mesh-shader"})
+        broken = {d["door"] for d in results["doors"] if d["pictures"] == 0 and d.get("skipped_by")}
+        self.assertLessEqual(broken, {"query-first", "transform-feedback"})  # of 22.3 and 25, of 25 and 26
+        self.assertEqual({door for door, count in pictures.items() if count == 0}, lacking | broken)
         # A failure of the plain picture is drawn again without them.
         known = [c for c in results["cases"] if c["status"] == "xfail" and not any(g.get("door") for g in c["groups"])]
         self.assertGreater(len(known), 50)

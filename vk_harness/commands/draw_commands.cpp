@@ -24,7 +24,7 @@ std::vector<VkRect2D> scissors_of(const cases::Draw& draw, const cases::Case& te
     const cases::Rect& own = draw.scissor;
     const auto [tile_width, tile_height] = test.variation.tile;
     if (tile_width == 0 || tile_height == 0) {
-        return {to_vulkan(own)};
+        return {moved(test, to_vulkan(own))};
     }
     // 64 bits: a scissor may end at 2^31 - 1, beyond the target.
     const auto cut = [](int64_t begin, int64_t size, int64_t tile, int64_t tile_size) {
@@ -36,9 +36,10 @@ std::vector<VkRect2D> scissors_of(const cases::Draw& draw, const cases::Case& te
         for (int64_t x = 0; x < test.target.width; x += tile_width) {
             const auto [left, right] = cut(own.x, own.width, x, tile_width);
             if (left < right && top < bottom) {
-                scissors.push_back(
+                scissors.push_back(moved(
+                    test,
                     {{static_cast<int32_t>(left), static_cast<int32_t>(top)},
-                     {static_cast<uint32_t>(right - left), static_cast<uint32_t>(bottom - top)}});
+                     {static_cast<uint32_t>(right - left), static_cast<uint32_t>(bottom - top)}}));
             }
         }
     }
@@ -177,6 +178,17 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
         bind(plan.other_pipeline);
         draw_once(device, commands, plan, vertices);
     }
+    // Elsewhere behind the pipeline, of which lavapipe asks when a query begins
+    // (docs/findings/lavapipe-query-before-pipeline.md).
+    bool has_begun = false;
+    const auto begin_query = [&] {
+        if (of.queries && !std::exchange(has_begun, true)) {
+            of.queries->begin(commands, draw_index);
+        }
+    };
+    if (door == Door::query_first) {
+        begin_query();
+    }
     if (door != Door::state_first) {
         bind(plan.pipeline);
     }
@@ -192,9 +204,6 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
     if (is_dynamic) {
         set_state(device, commands, state, draw.depth.bias.value_or(cases::DepthBias{}));
     }
-    if (of.queries) {
-        of.queries->begin(commands, draw_index);
-    }
     for (const VkRect2D& scissor : scissors_of(draw, test)) {
         if (is_dynamic) {
             replace_scissor(state, draw, scissor);
@@ -204,8 +213,10 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
         if (door == Door::state_first) {
             bind(plan.pipeline);
         }
+        begin_query();
         draw_once(device, commands, plan, vertices);
     }
+    begin_query();  // if no scissor is left of the draw
     if (of.queries) {
         of.queries->end(commands, draw_index);
     }

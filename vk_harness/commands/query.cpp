@@ -41,10 +41,6 @@ Result<uint64_t> read_one(const Device& device, VkQueryPool pool, uint32_t query
     }
 }
 
-}  // namespace
-
-namespace {
-
 // The bit of a statistic; of the kinds of pools 0 is that of occlusion queries.
 VkQueryPipelineStatisticFlags statistic_of(Query query) {
     switch (query) {

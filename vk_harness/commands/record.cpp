@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "vk_harness/target/shader_interface.hpp"
+#include "vk_harness/target/target_way.hpp"
 
 namespace vk_harness {
 
@@ -80,16 +81,14 @@ void record_copy(const Device& device, VkCommandBuffer commands, const CasePlan&
                  size_t attachment, const Rows& rows, VkBuffer readback, VkDeviceSize offset) {
     const cases::Target& target = plan.test->target;
     const Attachment& from = plan.attachments[attachment];
-    const VkImageAspectFlags aspect = from.role == Role::stencil ? VK_IMAGE_ASPECT_STENCIL_BIT
-                                      : from.is_depth()          ? VK_IMAGE_ASPECT_DEPTH_BIT
-                                                                 : VK_IMAGE_ASPECT_COLOR_BIT;
     VkBufferImageCopy region{};
-    region.imageOffset = {0, static_cast<int32_t>(rows.first), 0};
+    const VkOffset2D origin = image_way(*plan.test).origin();
+    region.imageOffset = {origin.x, origin.y + static_cast<int32_t>(rows.first), 0};
     region.imageExtent = {target.width, rows.count, 1};
     region.bufferOffset = offset;
     const Image& image = *plan.images[attachment];
-    region.imageSubresource = {aspect, image.range().baseMipLevel, image.range().baseArrayLayer,
-                               target.layers};  // stacked
+    region.imageSubresource = {from.aspect(), image.range().baseMipLevel,
+                               image.range().baseArrayLayer, target.layers};  // stacked
     device.vk().vkCmdCopyImageToBuffer(commands, image.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                                        readback, 1, &region);
 }
@@ -100,7 +99,7 @@ void record_copies(const Device& device, std::span<const VkPipeline> pipelines,
     const VolkDeviceTable& vk = device.vk();
     const cases::Target& target = plan.test->target;
     for (size_t k = 0; k < plan.images.size(); ++k) {
-        if (plan.attachments[k].samples_of(target) == 1) {
+        if (!plan.attachments[k].has_words(plan.attachments[k].samples_of(target))) {
             record_copy(device, commands, plan, k, {0, target.height}, readback,
                         plan.readback.offset[k]);
         }
@@ -108,15 +107,19 @@ void record_copies(const Device& device, std::span<const VkPipeline> pipelines,
     if (target.samples == 1) {
         return;
     }
-    const std::array<uint32_t, kCopyConstants> constants = {target.width, target.height,
-                                                            target.samples};
+    const VkOffset2D origin = image_way(*plan.test).origin();
+    const std::array<uint32_t, kCopyConstants> constants = {
+        target.width, target.height, target.samples, static_cast<uint32_t>(origin.x),
+        static_cast<uint32_t>(origin.y)};
     const uint32_t groups_x = (target.width + kCopyGroupSize - 1) / kCopyGroupSize;
     const uint32_t groups_y = (target.height + kCopyGroupSize - 1) / kCopyGroupSize;
+    VkPipeline bound = VK_NULL_HANDLE;
     for (size_t k = 0; k < plan.images.size(); ++k) {
-        if (plan.attachments[k].is_resolved()) {
+        if (plan.attachments[k].is_resolved() || plan.attachments[k].is_input) {
             continue;
         }
-        if (k == 0 || pipelines[k] != pipelines[k - 1]) {
+        if (bound != pipelines[k]) {
+            bound = pipelines[k];
             vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines[k]);
             vk.vkCmdPushConstants(commands, copy_layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                   sizeof(constants), constants.data());

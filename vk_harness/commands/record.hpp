@@ -46,6 +46,13 @@ struct ClearDraw {
     uint32_t stencil = 0;
 };
 
+// A draw that reads one attachment as an input attachment and writes it to the read-back buffer.
+struct InputRead {
+    size_t attachment = 0;
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    VkDescriptorSet set = VK_NULL_HANDLE;  // null: nothing is read back
+};
+
 struct CasePlan {
     const cases::Case* test = nullptr;
     size_t slot = 0;           // among the cases of the batch
@@ -57,6 +64,7 @@ struct CasePlan {
     std::shared_ptr<Queries> queries;          // if draws ask for them
     std::vector<VkCommandBuffer> secondaries;  // secondaries_of() many; empty: none
     std::vector<ClearDraw> clears;             // of the door clear_draw
+    std::vector<InputRead> inputs;             // of the door input_attachment
     // Of a door that renders by an object.
     VkRenderPass pass = VK_NULL_HANDLE;
     std::shared_ptr<Handle<VkFramebuffer>> framebuffer;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vk_harness/commands/render_pass.hpp"
 
+#include <array>
 #include <vector>
 
 #include "vk_harness/commands/draw_commands.hpp"
@@ -27,6 +28,34 @@ Result<Handle<VkFramebuffer>> make_framebuffer(const Device& device, const CaseP
                 device.vk().vkDestroyFramebuffer, info);
 }
 
+namespace {
+
+// Has a triangle over the whole target read each of them.
+void read_inputs(const Device& device, const PipelineCache& pipelines, VkCommandBuffer commands,
+                 const CasePlan& plan) {
+    const VolkDeviceTable& vk = device.vk();
+    const cases::Target& target = plan.test->target;
+    const VkViewport viewport = {
+        0, 0, static_cast<float>(target.width), static_cast<float>(target.height), 0, 1};
+    const VkRect2D scissor = {{0, 0}, {target.width, target.height}};
+    const std::array<uint32_t, kInputConstants> constants = {target.width, target.samples};
+    for (const InputRead& input : plan.inputs) {
+        if (input.set == VK_NULL_HANDLE) {
+            continue;
+        }
+        vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, input.pipeline);
+        vk.vkCmdSetViewport(commands, 0, 1, &viewport);
+        vk.vkCmdSetScissor(commands, 0, 1, &scissor);
+        vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                                   pipelines.input_layout(), 0, 1, &input.set, 0, nullptr);
+        vk.vkCmdPushConstants(commands, pipelines.input_layout(), VK_SHADER_STAGE_FRAGMENT_BIT, 0,
+                              sizeof constants, constants.data());
+        vk.vkCmdDraw(commands, 3, 1, 0, 0);
+    }
+}
+
+}  // namespace
+
 void render_by_pass(const Device& device, const PipelineCache& pipelines, VkCommandBuffer commands,
                     const CasePlan& plan, VkBuffer vertices) {
     const cases::Case& test = *plan.test;
@@ -50,6 +79,10 @@ void render_by_pass(const Device& device, const PipelineCache& pipelines, VkComm
             vk.vkCmdNextSubpass(commands, VK_SUBPASS_CONTENTS_INLINE);
         }
         record_draw(device, pipelines, commands, plan, k, vertices);
+    }
+    if (!plan.inputs.empty()) {
+        vk.vkCmdNextSubpass(commands, VK_SUBPASS_CONTENTS_INLINE);
+        read_inputs(device, pipelines, commands, plan);
     }
     vk.vkCmdEndRenderPass(commands);
 }

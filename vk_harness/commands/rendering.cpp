@@ -145,7 +145,6 @@ void record_feedback(const Device& device, VkCommandBuffer commands, const CaseP
 // Clears what is resolved into, by a rendering without draws, and waits for it.
 void clear_resolved(const Device& device, VkCommandBuffer commands, const CasePlan& plan) {
     const VolkDeviceTable& vk = device.vk();
-    const cases::Target& target = plan.test->target;
     std::optional<VkRenderingAttachmentInfo> color, depth;
     for (size_t k = 0; k < plan.images.size(); ++k) {
         const Attachment& a = plan.attachments[k];
@@ -159,7 +158,7 @@ void clear_resolved(const Device& device, VkCommandBuffer commands, const CasePl
         return;
     }
     VkRenderingInfo rendering = Typed{VK_STRUCTURE_TYPE_RENDERING_INFO};
-    rendering.renderArea = {{0, 0}, {target.width, target.height}};
+    rendering.renderArea = render_area(*plan.test);
     rendering.layerCount = 1;
     rendering.viewMask = view_mask(*plan.test);
     rendering.colorAttachmentCount = color ? 1 : 0;
@@ -213,7 +212,7 @@ class Attached {
             }
         }
         info_.flags = flags;
-        info_.renderArea = {{0, 0}, {target.width, target.height}};
+        info_.renderArea = render_area(*plan.test);
         info_.layerCount = target.layers;
         info_.viewMask = view_mask(*plan.test);
         info_.colorAttachmentCount = static_cast<uint32_t>(colors_.size());

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "cases/format/color_format.hpp"
+#include "cases/format/vertex_format.hpp"
 
 namespace vk_harness {
 
@@ -24,6 +25,21 @@ bool has_linear_attachments(VkPhysicalDevice physical) {
         vkGetPhysicalDeviceFormatProperties(physical, static_cast<VkFormat>(format), &offered);
         return (offered.linearTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT) != 0;
     });
+}
+
+// The name since the extension became one of Khronos; structures are the same.
+constexpr const char* kKhronosDivisor = "VK_KHR_vertex_attribute_divisor";
+
+uint32_t offered_vertex_formats(VkPhysicalDevice physical) {
+    uint32_t formats = 0;
+    for (const cases::VertexFormatRow& row : cases::kVertexFormats) {
+        VkFormatProperties offered{};
+        vkGetPhysicalDeviceFormatProperties(physical, static_cast<VkFormat>(row.vulkan), &offered);
+        if ((offered.bufferFeatures & VK_FORMAT_FEATURE_VERTEX_BUFFER_BIT) != 0) {
+            formats |= cases::bit_of(row.format);
+        }
+    }
+    return formats;
 }
 
 bool can_import_vertices(VkPhysicalDevice physical) {
@@ -93,6 +109,21 @@ DoorSupport query_door_support(VkPhysicalDevice physical, HasExtension has_exten
         out.host_import = can_import_vertices(physical);
         out.host_alignment = host.minImportedHostPointerAlignment;
     }
+    for (const char* name : {VK_EXT_VERTEX_ATTRIBUTE_DIVISOR_EXTENSION_NAME, kKhronosDivisor}) {
+        if (out.divisor_extension == nullptr && has_extension(physical, name)) {
+            out.divisor_extension = name;
+            chain(features, optional.divisor);
+        }
+    }
+    const bool has_mesh = has_extension(physical, VK_EXT_MESH_SHADER_EXTENSION_NAME);
+    if (has_mesh) {
+        VkPhysicalDeviceMeshShaderPropertiesEXT mesh =
+            Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MESH_SHADER_PROPERTIES_EXT};
+        get_properties(physical, mesh);
+        out.mesh_layers = mesh.maxMeshOutputLayers;
+        chain(features, optional.mesh);
+    }
+    out.vertex_formats = offered_vertex_formats(physical);
     out.linear = has_linear_attachments(physical);
     vkGetPhysicalDeviceFeatures2(physical, &features);
     const VkPhysicalDeviceExtendedDynamicState3FeaturesEXT& three = optional.dynamic_state3;
@@ -103,6 +134,14 @@ DoorSupport query_door_support(VkPhysicalDevice physical, HasExtension has_exten
                           three.extendedDynamicState3LogicOpEnable == VK_TRUE &&
                           three.extendedDynamicState3AlphaToOneEnable == VK_TRUE &&
                           three.extendedDynamicState3SampleMask == VK_TRUE;
+    // maxVertexAttribDivisor is at least 65535.
+    out.divisor = optional.divisor.vertexAttributeInstanceRateDivisor == VK_TRUE;
+    // Without the first feature a divisor is 1 (VUID-VkVertexInputBindingDivisorDescription
+    // -vertexAttributeInstanceRateDivisor-02229), so the second one alone offers nothing.
+    out.divisor_zero =
+        out.divisor && optional.divisor.vertexAttributeInstanceRateZeroDivisor == VK_TRUE;
+    out.mesh = optional.mesh.meshShader == VK_TRUE;
+    out.fragment_stores = features.features.fragmentStoresAndAtomics == VK_TRUE;
     out.feedback = optional.feedback.transformFeedback == VK_TRUE;
     out.shader_objects = optional.shader_objects.shader_object == VK_TRUE;
     out.library = has_library && optional.library.graphicsPipelineLibrary == VK_TRUE;
@@ -159,6 +198,19 @@ void enable_door_features(const DoorSupport& support, VkPhysicalDeviceFeatures2&
         chain(features, enabled.feedback);
         extensions.push_back(VK_EXT_TRANSFORM_FEEDBACK_EXTENSION_NAME);
     }
+    features.features.fragmentStoresAndAtomics = support.fragment_stores ? VK_TRUE : VK_FALSE;
+    if (support.divisor || support.divisor_zero) {
+        enabled.divisor.vertexAttributeInstanceRateDivisor = support.divisor ? VK_TRUE : VK_FALSE;
+        enabled.divisor.vertexAttributeInstanceRateZeroDivisor =
+            support.divisor_zero ? VK_TRUE : VK_FALSE;
+        chain(features, enabled.divisor);
+        extensions.push_back(support.divisor_extension);
+    }
+    if (support.mesh) {
+        enabled.mesh.meshShader = VK_TRUE;
+        chain(features, enabled.mesh);
+        extensions.push_back(VK_EXT_MESH_SHADER_EXTENSION_NAME);
+    }
     if (support.shader_objects) {
         enabled.shader_objects.shader_object = VK_TRUE;
         chain(features, enabled.shader_objects);
@@ -172,6 +224,21 @@ void enable_door_features(const DoorSupport& support, VkPhysicalDeviceFeatures2&
         chain(features, enabled.multi_draw);
         extensions.push_back(VK_EXT_MULTI_DRAW_EXTENSION_NAME);
     }
+}
+
+std::optional<std::string> missing_mesh_layers(const DoorSupport& support, const cases::Case& c) {
+    if (c.variation.door != cases::Door::mesh_shader) {
+        return std::nullopt;
+    }
+    for (const cases::Draw& draw : c.draws) {
+        if (draw.layer > 0 && draw.layer >= support.mesh_layers) {
+            return fmt::format(
+                "a mesh shader of the device names {} layers (maxMeshOutputLayers), "
+                "and a draw goes to number {}",
+                support.mesh_layers, draw.layer);
+        }
+    }
+    return std::nullopt;
 }
 
 std::optional<std::string> missing_door_support(const DoorSupport& support, cases::Door door) {
@@ -190,6 +257,10 @@ std::optional<std::string> missing_door_support(const DoorSupport& support, case
         (door == Door::transform_feedback && !support.feedback) ||
         (door == Door::shader_objects && !support.shader_objects) ||
         (door == Door::image_linear && !support.linear) ||
+        (door == Door::instance_divisor && !support.divisor) ||
+        (door == Door::instance_divisor_zero && !support.divisor_zero) ||
+        (door == Door::mesh_shader && !support.mesh) ||
+        (door == Door::input_attachment && !support.fragment_stores) ||
         (door == Door::memory_imported && !support.host_import) ||
         ((door == Door::multi_draw || door == Door::multi_draw_empty) && !support.multi_draw);
     return is_missing ? std::optional(fmt::format("the device lacks {}", cases::row_of(door).needs))

@@ -26,9 +26,16 @@ struct DoorSupport {
     bool tessellation = false;        // tessellationShader
     bool feedback = false;            // transformFeedback
     bool shader_objects = false;      // shaderObject
+    bool divisor = false;             // vertexAttributeInstanceRateDivisor
+    bool divisor_zero = false;        // vertexAttributeInstanceRateZeroDivisor
+    bool mesh = false;                // meshShader
+    uint32_t mesh_layers = 0;         // maxMeshOutputLayers: a mesh shader names those below
+    bool fragment_stores = false;     // fragmentStoresAndAtomics
     bool linear = false;              // linear attachments of some format that cases are drawn to
     bool host_import = false;         // of memory that vertices and indices are read from
     VkDeviceSize host_alignment = 1;  // minImportedHostPointerAlignment
+    const char* divisor_extension = nullptr;  // by which it has either divisor
+    uint32_t vertex_formats = 0;              // that vertices are read in: vertex_format.hpp
 };
 
 DoorSupport query_door_support(VkPhysicalDevice physical, HasExtension has_extension);
@@ -48,6 +55,10 @@ struct DoorFeatures {
     ShaderObjectFeatures shader_objects;
     VkPhysicalDeviceTransformFeedbackFeaturesEXT feedback =
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TRANSFORM_FEEDBACK_FEATURES_EXT};
+    VkPhysicalDeviceVertexAttributeDivisorFeaturesEXT divisor =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VERTEX_ATTRIBUTE_DIVISOR_FEATURES_EXT};
+    VkPhysicalDeviceMeshShaderFeaturesEXT mesh =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MESH_SHADER_FEATURES_EXT};
     VkPhysicalDeviceMultiviewFeatures multiview =
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MULTIVIEW_FEATURES};
 };
@@ -58,5 +69,7 @@ void enable_door_features(const DoorSupport& support, VkPhysicalDeviceFeatures2&
 
 // Why the device has no such door: one sentence that names what it lacks; nothing if it has it.
 std::optional<std::string> missing_door_support(const DoorSupport& support, cases::Door door);
+// Why a mesh shader of the device cannot draw the case to its layers; nothing through other doors.
+std::optional<std::string> missing_mesh_layers(const DoorSupport& support, const cases::Case& c);
 
 }  // namespace vk_harness

@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "capture/capture.hpp"
-#include "cases/model/float_bits.hpp"
+#include "cases/model/triangle.hpp"
 #include "vk_harness/device/clip_support.hpp"
 #include "vk_harness/target/shader_interface.hpp"
 
@@ -16,10 +16,10 @@ using cases::Door;
 
 namespace {
 
-constexpr uint32_t kSkippedIndices = 7;      // before the first, if a draw does not begin with it
-constexpr uint32_t kNegativeOffset = 9;      // what is taken off again by vertexOffset
-constexpr uint32_t kInstance = 2;            // the instance that is drawn by instance_rate
-constexpr uint32_t kInstances = 4;           // that there are inputs of
+constexpr uint32_t kSkippedIndices = 7;  // before the first, if a draw does not begin with it
+constexpr uint32_t kNegativeOffset = 9;  // what is taken off again by vertexOffset
+constexpr uint32_t kInstance = 2;        // the element that is read once an instance
+constexpr uint32_t kInstances = shaders::kShownInstance + 1;  // that there are inputs of
 constexpr VkDeviceSize kAlignment = 16;      // of everything that is bound as usual
 constexpr VkDeviceSize kCommandStride = 32;  // of several commands: longer than one is
 
@@ -84,10 +84,10 @@ uint32_t largest_of(VkIndexType type) {
 
 }  // namespace
 
-Feed::Feed(const cases::Case& c, const cases::Draw& draw)
+Feed::Feed(const cases::Case& c, const cases::Draw& draw, const VertexWay& way)
     : draw_(&draw),
       door_(c.variation.door),
-      way_(vertex_way(c, draw)),
+      way_(way),
       bindings_(bindings_of(input_count(c), draw.distances.clip_count, draw.distances.cull_count)) {
     values_[0] = draw.positions;
     for (uint32_t k = 0; k < input_count(c); ++k) {
@@ -102,8 +102,26 @@ Feed::Feed(const cases::Case& c, const cases::Draw& draw)
     values_[kClipBinding] = draw.distances.clip;
     values_[kCullBinding] = draw.distances.cull;
     make_indices();
-    if (way_.instance_rate != 0) {
+    if (way_.has_instances()) {
+        instances_ = kInstances;
+    } else if (way_.instance_rate != 0) {
         first_instance_ = kInstance;
+    }
+    if (door_ == Door::mesh_shader) {
+        make_triangles(c);
+    }
+}
+
+// Each begins with the vertex that provokes, or ends with it, whatever it is a part of.
+void Feed::make_triangles(const cases::Case& c) {
+    const auto number = static_cast<uint32_t>(draw_ - c.draws.data());
+    const size_t place = draw_->provoking == cases::ProvokingVertex::last ? 2 : 0;
+    for (const cases::Triangle& t : cases::assemble(c, number)) {
+        std::array<uint32_t, 3> vertex = t.vertex;
+        for (size_t k = 0; k < 2 && vertex.at(place) != t.provoking; ++k) {
+            std::rotate(vertex.begin(), vertex.begin() + 1, vertex.end());
+        }
+        triangles_.push_back({vertex[0], vertex[1], vertex[2], 0});
     }
 }
 
@@ -216,21 +234,19 @@ void Feed::write_vertices(std::span<std::byte> memory) const {
         if (values.empty()) {
             continue;
         }
-        const size_t size = size_of(way_, array.binding), stride = stride_of(way_, array.binding);
-        const bool is_half = way_.halves && array.binding == 0;
+        const size_t stride = stride_of(way_, array.binding);
+        const cases::VertexFormat format = way_.formats.at(array.binding);
+        const bool is_usual = format == cases::VertexFormat::rgba32_float;
         const auto put = [&](size_t vertex, const glm::vec4& value) {
             std::byte* to = memory.data() + array.offset + vertex * stride;
-            if (is_half) {
-                const std::array<uint16_t, 4> halves = {
-                    *cases::half_bits(value.x), *cases::half_bits(value.y),
-                    *cases::half_bits(value.z), *cases::half_bits(value.w)};
-                std::memcpy(to, halves.data(), size);
+            if (is_usual) {
+                std::memcpy(to, &value, sizeof value);
             } else {
-                std::memcpy(to, &value, size);
+                cases::encode_vertex(format, value, to);
             }
         };
         if ((way_.instance_rate >> array.binding & 1U) != 0) {
-            put(kInstance, values.front());
+            put(way_.divisor == 0 ? 0 : kInstance, values.front());
             continue;
         }
         for (size_t v = 0; v < values.size(); ++v) {
@@ -310,7 +326,9 @@ Result<void> Feed::make_pulled(const Device& device, std::span<const std::byte> 
     constexpr VkDeviceSize kHead = kPulledWords * sizeof(uint32_t);
     const VkDeviceSize first = arrays_.front().begin;
     const auto bytes = memory.subspan(first, arrays_.back().end - first);
-    auto made = Buffer::create(device, kHead + std::max<VkDeviceSize>(bytes.size(), 16),
+    const VkDeviceSize vertices = (bytes.size() + sizeof(glm::vec4) - 1) / sizeof(glm::vec4);
+    const VkDeviceSize triangles = triangles_.size() * sizeof triangles_[0];
+    auto made = Buffer::create(device, kHead + (vertices + 1) * sizeof(glm::vec4) + triangles,
                                VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, HostAccess::write);
     if (!made) {
         return fail(made.error());
@@ -319,7 +337,12 @@ Result<void> Feed::make_pulled(const Device& device, std::span<const std::byte> 
     for (const Array& array : arrays_) {
         head.at(array.binding) = static_cast<uint32_t>((array.offset - first) / sizeof(glm::vec4));
     }
+    head.back() = static_cast<uint32_t>(vertices);
     std::memcpy(made->bytes().data(), head.data(), sizeof head);
+    if (!triangles_.empty()) {
+        std::memcpy(made->bytes().data() + kHead + vertices * sizeof(glm::vec4), triangles_.data(),
+                    triangles);
+    }
     std::copy(bytes.begin(), bytes.end(), made->bytes().begin() + kHead);
     if (auto flushed = made->flush(); !flushed) {
         return flushed;
@@ -426,7 +449,7 @@ void Feed::bind(const Device& device, VkCommandBuffer commands, VkBuffer vertice
             vk.vkCmdBindVertexBuffers(commands, array.binding, 1, &buffer, &offset);
         }
     }
-    if (is_indexed_) {
+    if (is_indexed_ && door_ != Door::mesh_shader) {
         vk.vkCmdBindIndexBuffer(commands, buffers_.empty() ? vertices : buffers_.back().get(),
                                 buffers_.empty() ? index_offset_ : index_offset_ - index_begin_,
                                 index_type_);
@@ -480,13 +503,18 @@ void Feed::draw(const Device& device, VkCommandBuffer commands, VkBuffer vertice
             }
             return;
         }
+        case Door::mesh_shader:
+            if (!triangles_.empty()) {
+                vk.vkCmdDrawMeshTasksEXT(commands, static_cast<uint32_t>(triangles_.size()), 1, 1);
+            }
+            return;
         default:
             break;
     }
     if (is_indexed_) {
-        vk.vkCmdDrawIndexed(commands, count_, 1, first_, vertex_offset_, first_instance_);
+        vk.vkCmdDrawIndexed(commands, count_, instances_, first_, vertex_offset_, first_instance_);
     } else {
-        vk.vkCmdDraw(commands, count_, 1, first_, first_instance_);
+        vk.vkCmdDraw(commands, count_, instances_, first_, first_instance_);
     }
 }
 

@@ -17,7 +17,8 @@ namespace vk_harness {
 
 class Feed {
   public:
-    Feed(const cases::Case& c, const cases::Draw& draw);
+    // `way` is that of the draw's pipeline.
+    Feed(const cases::Case& c, const cases::Draw& draw, const VertexWay& way);
 
     // Assigns places from byte `begin` of the vertex buffer on; returns the end.
     VkDeviceSize place(VkDeviceSize begin);
@@ -55,6 +56,7 @@ class Feed {
     };
     std::span<const glm::vec4> values_of(uint32_t binding) const;
     void make_indices();
+    void make_triangles(const cases::Case& c);
     Result<void> make_pulled(const Device& device, std::span<const std::byte> memory,
                              VkDescriptorSetLayout layout);
     VkDeviceSize index_size() const;
@@ -72,15 +74,16 @@ class Feed {
     bool is_indexed_ = false, has_restart_ = false;
     VkIndexType index_type_ = VK_INDEX_TYPE_UINT32;
     // Of the drawing command.
-    uint32_t count_ = 0, first_ = 0, first_instance_ = 0;
+    uint32_t count_ = 0, first_ = 0, first_instance_ = 0, instances_ = 1;
     int32_t vertex_offset_ = 0;
 
     std::vector<Array> arrays_;
     VkDeviceSize index_begin_ = 0, index_offset_ = 0, index_end_ = 0;
-    VkDeviceSize commands_ = 0, draw_count_ = 0;  // places
-    std::vector<Buffer> buffers_;                 // of the arrays, then of the indices; or none
-    Buffer pulled_;                               // of a shader that reads vertices
-    DescriptorSets pulled_set_;                   // with that buffer
+    VkDeviceSize commands_ = 0, draw_count_ = 0;      // places
+    std::vector<Buffer> buffers_;                     // of the arrays, then of the indices; or none
+    std::vector<std::array<uint32_t, 4>> triangles_;  // of a mesh shader; the last word is 0
+    Buffer pulled_;                                   // of a shader that reads vertices
+    DescriptorSets pulled_set_;                       // with that buffer
 };
 
 }  // namespace vk_harness

@@ -14,6 +14,8 @@ namespace vk_harness {
 // As constructed: an image of the attachment's size and layers, and nothing more.
 struct ImageWay {
     uint32_t more_columns = 0, more_rows = 0;  // to the right and below, in pixels of `level`
+    bool ends_with_it = false;                 // those lie to the left and above instead
+    bool is_input = false;                     // it may be an input attachment
     uint32_t first_layer = 0;                  // of the image, in which the attachment begins
     uint32_t level = 0;                        // of the image; others lie before and behind it
     bool all_usages = false;
@@ -24,6 +26,12 @@ struct ImageWay {
     bool is_multiview = false;
     friend auto operator<=>(const ImageWay&, const ImageWay&) = default;
 
+    // Where in the image's level it begins.
+    VkOffset2D origin() const {
+        return ends_with_it
+                   ? VkOffset2D{static_cast<int32_t>(more_columns), static_cast<int32_t>(more_rows)}
+                   : VkOffset2D{0, 0};
+    }
     uint32_t levels() const { return level > 0 ? level + 2 : 1; }
     // Size of level 0 in texels: an odd one, so that halves are rounded down.
     VkExtent2D extent(const VkExtent2D& attachment) const {

@@ -383,6 +383,9 @@ Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D ex
     if (multisampled && !depth) {
         info.flags |= VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT;
     }
+    if (way.is_input) {
+        info.usage |= VK_IMAGE_USAGE_INPUT_ATTACHMENT_BIT;
+    }
     if (way.all_usages) {
         add_usages(device, info, depth);
     }
@@ -412,7 +415,9 @@ Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D ex
         return fail(made.error());
     }
 
-    VkImageUsageFlags view_usage = attachment;
+    const VkImageUsageFlags input =
+        way.is_input ? VkImageUsageFlags{VK_IMAGE_USAGE_INPUT_ATTACHMENT_BIT} : 0U;
+    VkImageUsageFlags view_usage = attachment | input;
     if (multisampled && depth) {
         view_usage |= VK_IMAGE_USAGE_SAMPLED_BIT;
     }
@@ -437,12 +442,12 @@ Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D ex
         made = add_view(image.bits_view_, format, VK_IMAGE_ASPECT_DEPTH_BIT,
                         VK_IMAGE_USAGE_SAMPLED_BIT);
     }
-    if (made && multisampled && stencil) {  // a descriptor names one aspect
-        made = add_view(image.bits_view_, format, VK_IMAGE_ASPECT_DEPTH_BIT,
-                        VK_IMAGE_USAGE_SAMPLED_BIT);
+    if (made && (multisampled || way.is_input) && stencil) {  // a descriptor names one aspect
+        const VkImageUsageFlags usage =
+            input | (multisampled ? VkImageUsageFlags{VK_IMAGE_USAGE_SAMPLED_BIT} : 0U);
+        made = add_view(image.bits_view_, format, VK_IMAGE_ASPECT_DEPTH_BIT, usage);
         if (made) {
-            made = add_view(image.stencil_view_, format, VK_IMAGE_ASPECT_STENCIL_BIT,
-                            VK_IMAGE_USAGE_SAMPLED_BIT);
+            made = add_view(image.stencil_view_, format, VK_IMAGE_ASPECT_STENCIL_BIT, usage);
         }
     }
     if (!made) {

@@ -91,6 +91,12 @@ class Image {
     VkImageView sample_view() const { return bits_view_ ? bits_view_.get() : view_.get(); }
     // To read single samples of the stencil, if there is one.
     VkImageView stencil_view() const { return stencil_view_.get(); }
+    // As an input attachment: of its own format, of one aspect.
+    VkImageView input_view(VkImageAspectFlags aspect) const {
+        return aspect == VK_IMAGE_ASPECT_STENCIL_BIT ? stencil_view()
+               : aspect == VK_IMAGE_ASPECT_DEPTH_BIT ? sample_view()
+                                                     : view();
+    }
     VkImageAspectFlags aspect() const { return range_.aspectMask; }
     // What of the image the attachment is; of all that it has.
     const VkImageSubresourceRange& range() const { return range_; }

@@ -95,17 +95,6 @@ Result<Handle<VkPipeline>> PipelineCache::make_clear(const ClearKey& key) {
     const std::array<VkPipelineShaderStageCreateInfo, 2> stages = {
         stage_info(VK_SHADER_STAGE_VERTEX_BIT, *vertex),
         stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, *fragment)};
-    const VkPipelineVertexInputStateCreateInfo inputs =
-        Typed{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
-    VkPipelineInputAssemblyStateCreateInfo assembly =
-        Typed{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
-    assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-    VkPipelineViewportStateCreateInfo viewport =
-        Typed{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
-    viewport.viewportCount = viewport.scissorCount = 1;
-    VkPipelineRasterizationStateCreateInfo rasterization =
-        Typed{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
-    rasterization.lineWidth = 1;
     PipelineKey target;
     target.samples = key.samples;
     target.sample_locations = key.sample_locations;
@@ -127,14 +116,10 @@ Result<Handle<VkPipeline>> PipelineCache::make_clear(const ClearKey& key) {
         Typed{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
     blend.attachmentCount = static_cast<uint32_t>(blends.size());
     blend.pAttachments = blends.data();
-    std::vector<VkDynamicState> states = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+    FullTargetState full;
     if (is_depth && key.has_stencil) {
-        states.push_back(VK_DYNAMIC_STATE_STENCIL_REFERENCE);
+        full.dynamic.push_back(VK_DYNAMIC_STATE_STENCIL_REFERENCE);
     }
-    VkPipelineDynamicStateCreateInfo dynamic =
-        Typed{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
-    dynamic.dynamicStateCount = static_cast<uint32_t>(states.size());
-    dynamic.pDynamicStates = states.data();
     VkPipelineRenderingCreateInfo rendering =
         Typed{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
     rendering.colorAttachmentCount = static_cast<uint32_t>(key.colors.size());
@@ -146,15 +131,11 @@ Result<Handle<VkPipeline>> PipelineCache::make_clear(const ClearKey& key) {
     info.pNext = &rendering;
     info.stageCount = static_cast<uint32_t>(stages.size());
     info.pStages = stages.data();
-    info.pVertexInputState = &inputs;
-    info.pInputAssemblyState = &assembly;
-    info.pViewportState = &viewport;
-    info.pRasterizationState = &rasterization;
     info.pMultisampleState = &multisample.info;
     info.pDepthStencilState = &depth;
     info.pColorBlendState = &blend;
-    info.pDynamicState = &dynamic;
     info.layout = layout_.get();
+    full.apply(info);
     return create(info, cache_.get());
 }
 

@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vk_harness/pipeline/draw_state.hpp"
 
+#include <algorithm>
 #include <bit>
+#include <limits>
 
 #include "cases/model/derive.hpp"
 #include "cases/model/sample.hpp"
 #include "vk_harness/target/shader_interface.hpp"
+#include "vk_harness/target/target_way.hpp"
 
 namespace vk_harness {
 
@@ -82,6 +85,19 @@ VkRect2D to_vulkan(const cases::Rect& rect) {
     return {{rect.x, rect.y}, {rect.width, rect.height}};
 }
 
+VkRect2D moved(const cases::Case& c, VkRect2D rect) {
+    const VkOffset2D by = image_way(c).origin();
+    // The end may be the largest that there is.
+    constexpr int64_t kLargest = std::numeric_limits<int32_t>::max();
+    const auto move = [](int32_t& begin, uint32_t& size, int32_t distance) {
+        begin += distance;
+        size = static_cast<uint32_t>(std::min<int64_t>(size, kLargest - begin));
+    };
+    move(rect.offset.x, rect.extent.width, by.x);
+    move(rect.offset.y, rect.extent.height, by.y);
+    return rect;
+}
+
 std::vector<VkViewport> DrawState::vulkan_viewports() const {
     std::vector<VkViewport> out;
     for (const Viewport& viewport : viewports) {
@@ -127,6 +143,7 @@ DrawState draw_state(const cases::Case& c, const cases::Draw& own, bool has_rest
     out.front_face = vulkan_of(own.front_face);
     out.topology = c.variation.door == cases::Door::tessellation ? VK_PRIMITIVE_TOPOLOGY_PATCH_LIST
                                                                  : vulkan_of(own.topology);
+    out.is_assembled = c.variation.door != cases::Door::mesh_shader;
     out.restart = vulkan_of(has_restart);
     out.discard = vulkan_of(own.rasterizer_discard);
     out.compare = static_cast<VkCompareOp>(own.depth.compare);
@@ -144,9 +161,13 @@ DrawState draw_state(const cases::Case& c, const cases::Draw& own, bool has_rest
     out.stencil = {bits_of(own.stencil.front), bits_of(own.stencil.back)};
     out.viewports.assign(viewport_count(c), bits_of(cases::Viewport{0, 0, 1, 1, 0, 1}));
     out.scissors.assign(viewport_count(c), bits_of(VkRect2D{{0, 0}, {1, 1}}));
-    const auto put = [&out](const cases::Draw& draw) {
-        out.viewports[draw.viewport_index] = bits_of(draw.viewport);
-        out.scissors[draw.viewport_index] = bits_of(to_vulkan(draw.scissor));
+    const VkOffset2D origin = image_way(c).origin();
+    const auto put = [&](const cases::Draw& draw) {
+        cases::Viewport viewport = draw.viewport;
+        viewport.x += static_cast<float>(origin.x);
+        viewport.y += static_cast<float>(origin.y);
+        out.viewports[draw.viewport_index] = bits_of(viewport);
+        out.scissors[draw.viewport_index] = bits_of(moved(c, to_vulkan(draw.scissor)));
     };
     for (const cases::Draw& draw : c.draws) {
         put(draw);
@@ -207,8 +228,10 @@ void set_state(const Device& device, VkCommandBuffer commands, const DrawState& 
     const VolkDeviceTable& vk = device.vk();
     vk.vkCmdSetCullMode(commands, state.cull);
     vk.vkCmdSetFrontFace(commands, state.front_face);
-    vk.vkCmdSetPrimitiveTopology(commands, state.topology);
-    vk.vkCmdSetPrimitiveRestartEnable(commands, state.restart);
+    if (state.is_assembled) {
+        vk.vkCmdSetPrimitiveTopology(commands, state.topology);
+        vk.vkCmdSetPrimitiveRestartEnable(commands, state.restart);
+    }
     vk.vkCmdSetRasterizerDiscardEnable(commands, state.discard);
     vk.vkCmdSetDepthCompareOp(commands, state.compare);
     vk.vkCmdSetDepthWriteEnable(commands, state.depth_write);

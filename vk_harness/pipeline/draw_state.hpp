@@ -22,6 +22,7 @@ struct DrawState {
     using StencilFace = std::array<uint32_t, 7>;  // as VkStencilOpState
     VkCullModeFlags cull = VK_CULL_MODE_NONE;
     VkFrontFace front_face = VK_FRONT_FACE_COUNTER_CLOCKWISE;
+    bool is_assembled = true;  // there are a topology and restarts: no mesh shader
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     VkBool32 restart = VK_FALSE, discard = VK_FALSE;
     VkCompareOp compare = VK_COMPARE_OP_ALWAYS;
@@ -42,6 +43,8 @@ struct DrawState {
 };
 
 VkRect2D to_vulkan(const cases::Rect& rect);
+// As far to the right and down as the door draws the case (target_way.hpp).
+VkRect2D moved(const cases::Case& c, VkRect2D rect);
 
 // The viewport and scissor of each draw stand at its index, those of `own` at theirs; what no draw
 // has is a viewport of one pixel. Each draw picks its own by gl_ViewportIndex.

@@ -142,6 +142,9 @@ void bind_objects(const Device& device, VkCommandBuffer commands, const ShaderPa
     if (doors.geometry) {
         stages.push_back(VK_SHADER_STAGE_GEOMETRY_BIT);
     }
+    if (doors.mesh) {
+        stages.push_back(VK_SHADER_STAGE_MESH_BIT_EXT);
+    }
     objects.resize(stages.size(), VK_NULL_HANDLE);
     device.shader_objects().bind(commands, static_cast<uint32_t>(stages.size()), stages.data(),
                                  objects.data());

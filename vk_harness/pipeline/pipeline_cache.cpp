@@ -42,7 +42,9 @@ Result<Handle<VkDescriptorSetLayout>> make_set_layout(
 
 VkShaderStageFlags draw_stages(const Device& device) {
     const VkShaderStageFlags always = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
-    return device.capabilities().doors.geometry ? always | VK_SHADER_STAGE_GEOMETRY_BIT : always;
+    const DoorSupport& doors = device.capabilities().doors;
+    return always | (doors.geometry ? VkShaderStageFlags{VK_SHADER_STAGE_GEOMETRY_BIT} : 0U) |
+           (doors.mesh ? VkShaderStageFlags{VK_SHADER_STAGE_MESH_BIT_EXT} : 0U);
 }
 
 Result<PipelineCache> PipelineCache::create(const Device& device) {
@@ -65,11 +67,23 @@ Result<PipelineCache> PipelineCache::create(const Device& device) {
         return make_layout(device, draw_stages(device), sizeof(shaders::DrawConstants), sets);
     };
     then(cache.layout_, [&] { return draw_layout({cache.texture_set_layout_.get()}); });
+    const VkShaderStageFlags readers =
+        VkShaderStageFlags{VK_SHADER_STAGE_VERTEX_BIT} |
+        (device.capabilities().doors.mesh ? VkShaderStageFlags{VK_SHADER_STAGE_MESH_BIT_EXT} : 0U);
     const std::array<VkDescriptorSetLayoutBinding, 1> inputs = {
-        {{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_VERTEX_BIT, nullptr}}};
+        {{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, readers, nullptr}}};
     then(cache.pulled_set_layout_, [&] { return make_set_layout(device, inputs); });
     then(cache.pulled_layout_, [&] {
         return draw_layout({cache.texture_set_layout_.get(), cache.pulled_set_layout_.get()});
+    });
+    const std::array<VkDescriptorSetLayoutBinding, 2> reads = {
+        {{0, VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
+         {1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr}}};
+    then(cache.input_set_layout_, [&] { return make_set_layout(device, reads); });
+    then(cache.input_layout_, [&] {
+        const VkDescriptorSetLayout set = cache.input_set_layout_.get();
+        return make_layout(device, VK_SHADER_STAGE_FRAGMENT_BIT, kInputConstants * sizeof(uint32_t),
+                           {&set, 1});
     });
     const std::array<VkDescriptorSetLayoutBinding, 2> copies = {
         {{0, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr},
@@ -141,7 +155,10 @@ Result<VkPipeline> PipelineCache::get_copy(const Attachment& attachment) {
 }
 
 Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) {
-    auto vertex = shader_module(shaders::capture_vertex(vertex_variant(key)));
+    const bool is_mesh = key.stages == StageWay::mesh;
+    auto vertex =
+        is_mesh ? shader_module(shaders::capture_mesh(geometry_variant(key)))
+                : shader_module(shaders::capture_vertex(vertex_variant(key)), vertex_changes(key));
     if (!vertex) {
         return fail(vertex.error());
     }
@@ -153,7 +170,7 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
     }
     std::vector<VkPipelineShaderStageCreateInfo> stages = {
         stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, *fragment),
-        stage_info(VK_SHADER_STAGE_VERTEX_BIT, *vertex)};
+        stage_info(is_mesh ? VK_SHADER_STAGE_MESH_BIT_EXT : VK_SHADER_STAGE_VERTEX_BIT, *vertex)};
     Specialization specialization;
     specialize(key, specialization);
     stages[0].pSpecializationInfo = &specialization.info;
@@ -168,6 +185,11 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
         if (stage == VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT) {
             stages.back().pSpecializationInfo = &patch.info;
         }
+    }
+    if (key.fixed && key.fixed->discard == VK_TRUE) {
+        // What discards for good has no fragment shader
+        // (VUID-VkGraphicsPipelineCreateInfo-pStages-06894).
+        stages.erase(stages.begin());
     }
     VertexInputState vertex_input;
     vertex_input_state(key, vertex_input);
@@ -217,8 +239,8 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
     }
     info.stageCount = static_cast<uint32_t>(stages.size());
     info.pStages = stages.data();
-    info.pVertexInputState = &vertex_input.info;
-    info.pInputAssemblyState = &assembly;
+    info.pVertexInputState = is_mesh ? nullptr : &vertex_input.info;
+    info.pInputAssemblyState = is_mesh ? nullptr : &assembly;
     info.pTessellationState = key.stages == StageWay::tessellation ? &tessellation : nullptr;
     info.pViewportState = &viewport.info;
     info.pRasterizationState = &rasterization.info;
@@ -226,7 +248,8 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
     info.pDepthStencilState = &depth;
     info.pColorBlendState = &color.info;
     info.pDynamicState = &dynamic;
-    info.layout = key.way.pulled ? pulled_layout_.get() : layout_.get();
+    // Nothing is bound to the second set where no shader has it.
+    info.layout = key.way.pulled || key.unused_interface ? pulled_layout_.get() : layout_.get();
     switch (key.made) {
         case PipelineWay::usual:
             break;

@@ -12,6 +12,7 @@
 
 #include "shaders/spirv_variant.hpp"
 #include "vk_harness/pipeline/clear_pipeline.hpp"
+#include "vk_harness/pipeline/input_pipeline.hpp"
 #include "vk_harness/pipeline/pipeline_key.hpp"
 #include "vk_harness/pipeline/shader_stage.hpp"
 #include "vk_harness/target/attachments.hpp"
@@ -35,6 +36,8 @@ class PipelineCache {
     Result<VkPipeline> get_feedback(uint32_t attribute_count);
     // The pipeline that clears by a draw, made at the first call.
     Result<VkPipeline> get_clear(const ClearKey& key);
+    // The pipeline that reads an input attachment, made at the first call.
+    Result<VkPipeline> get_input(const InputKey& key);
     // The compute pipeline that copies the samples of an attachment to a buffer.
     Result<VkPipeline> get_copy(const Attachment& attachment);
 
@@ -45,6 +48,8 @@ class PipelineCache {
     // pushed with layout() stays in force.
     VkPipelineLayout pulled_layout() const { return pulled_layout_.get(); }
     VkDescriptorSetLayout pulled_set_layout() const { return pulled_set_layout_.get(); }
+    VkPipelineLayout input_layout() const { return input_layout_.get(); }
+    VkDescriptorSetLayout input_set_layout() const { return input_set_layout_.get(); }
     VkPipelineLayout copy_layout() const { return copy_layout_.get(); }
     VkDescriptorSetLayout copy_set_layout() const { return copy_set_layout_.get(); }
 
@@ -78,6 +83,7 @@ class PipelineCache {
                                              std::span<const uint32_t> code,
                                              const VkSpecializationInfo* specialization);
     Result<Handle<VkPipeline>> make_feedback(uint32_t attribute_count);
+    Result<Handle<VkPipeline>> make_input(const InputKey& key);
     Result<Handle<VkPipeline>> make_clear(const ClearKey& key);
     Result<Handle<VkPipeline>> create(const VkGraphicsPipelineCreateInfo& info,
                                       VkPipelineCache cache);
@@ -88,12 +94,15 @@ class PipelineCache {
     Handle<VkPipelineLayout> layout_;
     Handle<VkDescriptorSetLayout> pulled_set_layout_;
     Handle<VkPipelineLayout> pulled_layout_;
+    Handle<VkDescriptorSetLayout> input_set_layout_;
+    Handle<VkPipelineLayout> input_layout_;
     Handle<VkDescriptorSetLayout> copy_set_layout_;
     Handle<VkPipelineLayout> copy_layout_;
     // By the embedded code's address and the changes.
     std::map<std::tuple<const uint32_t*, ShaderChanges>, Handle<VkShaderModule>> modules_;
     std::map<PassKey, Handle<VkRenderPass>> passes_;
     std::map<ClearKey, Handle<VkPipeline>> clears_;
+    std::map<InputKey, Handle<VkPipeline>> inputs_;
     std::map<uint32_t, Handle<VkPipeline>> feedbacks_;  // by attributes
     std::map<PipelineKey, std::array<Handle<ShaderObject>, 2>> objects_;
     std::map<PipelineKey, Handle<VkPipeline>> pipelines_;
@@ -103,8 +112,10 @@ class PipelineCache {
 
 // Stages that see shaders::DrawConstants.
 VkShaderStageFlags draw_stages(const Device& device);
-// Words of push constants: width, height, samples (compute stage).
-inline constexpr uint32_t kCopyConstants = 3;
+// Words of push constants: width, height, samples, first column, first row (compute stage).
+inline constexpr uint32_t kCopyConstants = 5;
+// The same of the pipelines that read input attachments: width, samples (fragment stage).
+inline constexpr uint32_t kInputConstants = 2;
 inline constexpr uint32_t kCopyGroupSize = 8;  // local size of copy_samples.comp
 
 }  // namespace vk_harness

@@ -46,6 +46,8 @@ StageWay stage_way(cases::Door door) {
             return StageWay::geometry;
         case cases::Door::tessellation:
             return StageWay::tessellation;
+        case cases::Door::mesh_shader:
+            return StageWay::mesh;
         default:
             return StageWay::vertex;
     }
@@ -65,6 +67,13 @@ ColorKey color_key(const cases::ColorTarget& target, const cases::ColorOutput& o
                         static_cast<uint8_t>(a.destination), static_cast<uint8_t>(a.op)};
     }
     return key;
+}
+
+// The location of the first colour: behind those of the instruments.
+uint32_t first_color(const PipelineKey& key) {
+    return key.instruments ? (key.layout.split ? kSplitAttachments : kPackedAttachments) +
+                                 key.attribute_count * key.layout.attribute_attachments()
+                           : 0;
 }
 
 // Whether no attachment of the rendering has depth, and none stencil, in whatever image.
@@ -122,7 +131,7 @@ PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw,
     key.layer = names_layers(c);
     key.clip_count = draw.distances.clip_count;
     key.cull_count = draw.distances.cull_count;
-    key.way = vertex_way(c, draw);
+    key.way = vertex_way(c, draw, layout.vertex_formats);
     key.negative_one_to_one = draw.depth.negative_one_to_one;
     key.provoking = draw.provoking;
     key.writes_mask = draw.multisample.shader_mask.has_value();
@@ -177,14 +186,23 @@ PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw,
     if (c.variation.door == cases::Door::state_unused) {
         switch_on_unused(key);
     }
+    if (c.variation.door == cases::Door::stage_unused) {
+        key.unused_interface = true;
+        // A shader with two sources for a colour has no others (maxFragmentDualSrcAttachments).
+        const uint32_t location = first_color(key) + static_cast<uint32_t>(key.colors.size());
+        if (location < layout.most_colors && key.color != shaders::ColorKind::two_numbers) {
+            key.unused_color = location;
+        }
+    }
     return key;
 }
 
 shaders::VertexVariant vertex_variant(const PipelineKey& key) {
     // The last stage before rasterization chooses layer and viewport.
     const bool is_last = key.stages == StageWay::vertex;
-    return {key.attribute_count,           key.clip_count, key.cull_count, is_last && key.layer,
-            is_last && key.viewport_index, key.way.pulled};
+    return {
+        key.attribute_count,           key.clip_count, key.cull_count,         is_last && key.layer,
+        is_last && key.viewport_index, key.way.pulled, key.way.has_instances()};
 }
 
 shaders::VertexVariant geometry_variant(const PipelineKey& key) {
@@ -196,10 +214,7 @@ shaders::OutputChange output_change(const PipelineKey& key) {
     if (key.color != shaders::ColorKind::several) {
         return out;
     }
-    if (key.instruments) {
-        out.first_location = (key.layout.split ? kSplitAttachments : kPackedAttachments) +
-                             key.attribute_count * key.layout.attribute_attachments();
-    }
+    out.first_location = first_color(key);
     for (const ColorKey& color : key.colors) {
         out.integers.push_back(color.is_integer);
     }

@@ -44,7 +44,7 @@ struct ColorKey {
 // How a pipeline is made, by doors of the group `state`; base: so that others may be derived.
 enum class PipelineWay : uint8_t { usual, unoptimized, library, base, derived, cached };
 // What stands between vertices and rasterization.
-enum class StageWay : uint8_t { vertex, geometry, tessellation };
+enum class StageWay : uint8_t { vertex, geometry, tessellation, mesh };
 
 struct PipelineKey {
     uint32_t attribute_count = 0;
@@ -93,6 +93,9 @@ struct PipelineKey {
     bool alpha_to_one = false;
     // Tests are on of which there is no attachment; so are those of bounds.
     bool unused_tests = false, unused_bounds = false;
+    // Shaders have outputs that nobody reads; of the fragment shader at this location, if any.
+    bool unused_interface = false;
+    std::optional<uint32_t> unused_color = {};
     friend auto operator<=>(const PipelineKey&, const PipelineKey&) = default;
 };
 

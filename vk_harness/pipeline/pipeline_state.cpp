@@ -20,17 +20,18 @@ void vertex_input_state(const PipelineKey& key, VertexInputState& state) {
     uint32_t offset = 0;
     for (const uint32_t binding : bindings) {
         const uint32_t size = size_of(key.way, binding);
-        const VkFormat format = size == 8    ? VK_FORMAT_R16G16B16A16_SFLOAT
-                                : size == 12 ? VK_FORMAT_R32G32B32_SFLOAT
-                                             : VK_FORMAT_R32G32B32A32_SFLOAT;
+        const auto format = static_cast<VkFormat>(row_of(key.way.formats.at(binding)).vulkan);
         if (key.way.interleaved) {
             state.inputs.push_back({binding, 0, format, offset});
             offset += size;
             continue;
         }
-        const VkVertexInputRate rate = (key.way.instance_rate >> binding & 1U) != 0
-                                           ? VK_VERTEX_INPUT_RATE_INSTANCE
-                                           : VK_VERTEX_INPUT_RATE_VERTEX;
+        const bool is_of_instance = (key.way.instance_rate >> binding & 1U) != 0;
+        const VkVertexInputRate rate =
+            is_of_instance ? VK_VERTEX_INPUT_RATE_INSTANCE : VK_VERTEX_INPUT_RATE_VERTEX;
+        if (is_of_instance && key.way.divisor != 1) {
+            state.divisors.push_back({binding, key.way.divisor});
+        }
         const uint32_t stride =
             key.way.dynamic_stride ? kIgnoredStride : stride_of(key.way, binding);
         state.bindings.push_back({binding, stride, rate});
@@ -39,7 +40,16 @@ void vertex_input_state(const PipelineKey& key, VertexInputState& state) {
     if (key.way.interleaved) {
         state.bindings.push_back({0, offset, VK_VERTEX_INPUT_RATE_VERTEX});
     }
+    if (key.unused_interface) {  // part of what is bound for positions
+        state.inputs.push_back({kUnusedInput, 0, VK_FORMAT_R32_SFLOAT, 0});
+    }
     state.info.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
+    if (!state.divisors.empty()) {
+        state.divided.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_DIVISOR_STATE_CREATE_INFO_EXT;
+        state.divided.vertexBindingDivisorCount = static_cast<uint32_t>(state.divisors.size());
+        state.divided.pVertexBindingDivisors = state.divisors.data();
+        state.info.pNext = &state.divided;
+    }
     state.info.vertexBindingDescriptionCount = static_cast<uint32_t>(state.bindings.size());
     state.info.pVertexBindingDescriptions = state.bindings.data();
     state.info.vertexAttributeDescriptionCount = static_cast<uint32_t>(state.inputs.size());
@@ -270,19 +280,16 @@ void color_state(const PipelineKey& key, ColorState& state) {
 
 std::vector<VkDynamicState> dynamic_states(const PipelineKey& key) {
     std::vector<VkDynamicState> out;
+    if (!key.fixed && key.stages != StageWay::mesh) {
+        out = {VK_DYNAMIC_STATE_PRIMITIVE_TOPOLOGY, VK_DYNAMIC_STATE_PRIMITIVE_RESTART_ENABLE};
+    }
     if (!key.fixed) {
-        out = {VK_DYNAMIC_STATE_BLEND_CONSTANTS,
-               VK_DYNAMIC_STATE_DEPTH_COMPARE_OP,
-               VK_DYNAMIC_STATE_DEPTH_WRITE_ENABLE,
-               VK_DYNAMIC_STATE_DEPTH_BIAS_ENABLE,
-               VK_DYNAMIC_STATE_DEPTH_BIAS,
-               VK_DYNAMIC_STATE_VIEWPORT,
-               VK_DYNAMIC_STATE_SCISSOR,
-               VK_DYNAMIC_STATE_CULL_MODE,
-               VK_DYNAMIC_STATE_FRONT_FACE,
-               VK_DYNAMIC_STATE_PRIMITIVE_TOPOLOGY,
-               VK_DYNAMIC_STATE_PRIMITIVE_RESTART_ENABLE,
-               VK_DYNAMIC_STATE_RASTERIZER_DISCARD_ENABLE};
+        out.insert(out.end(),
+                   {VK_DYNAMIC_STATE_BLEND_CONSTANTS, VK_DYNAMIC_STATE_DEPTH_COMPARE_OP,
+                    VK_DYNAMIC_STATE_DEPTH_WRITE_ENABLE, VK_DYNAMIC_STATE_DEPTH_BIAS_ENABLE,
+                    VK_DYNAMIC_STATE_DEPTH_BIAS, VK_DYNAMIC_STATE_VIEWPORT,
+                    VK_DYNAMIC_STATE_SCISSOR, VK_DYNAMIC_STATE_CULL_MODE,
+                    VK_DYNAMIC_STATE_FRONT_FACE, VK_DYNAMIC_STATE_RASTERIZER_DISCARD_ENABLE});
     }
     if (!key.fixed && key.has_stencil) {
         out.insert(out.end(),
@@ -305,6 +312,27 @@ std::vector<VkDynamicState> dynamic_states(const PipelineKey& key) {
         out.push_back(VK_DYNAMIC_STATE_VERTEX_INPUT_BINDING_STRIDE);
     }
     return out;
+}
+
+FullTargetState::FullTargetState() {
+    inputs_ = Typed{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+    assembly_ = Typed{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
+    assembly_.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    viewport_ = Typed{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
+    viewport_.viewportCount = viewport_.scissorCount = 1;
+    rasterization_ = Typed{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
+    rasterization_.lineWidth = 1;
+    dynamic_ = Typed{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
+}
+
+void FullTargetState::apply(VkGraphicsPipelineCreateInfo& info) {
+    dynamic_.dynamicStateCount = static_cast<uint32_t>(dynamic.size());
+    dynamic_.pDynamicStates = dynamic.data();
+    info.pVertexInputState = &inputs_;
+    info.pInputAssemblyState = &assembly_;
+    info.pViewportState = &viewport_;
+    info.pRasterizationState = &rasterization_;
+    info.pDynamicState = &dynamic_;
 }
 
 }  // namespace vk_harness

@@ -15,8 +15,12 @@ namespace vk_harness {
 struct VertexInputState {
     std::vector<VkVertexInputBindingDescription> bindings;
     std::vector<VkVertexInputAttributeDescription> inputs;
+    std::vector<VkVertexInputBindingDivisorDescriptionEXT> divisors;
+    VkPipelineVertexInputDivisorStateCreateInfoEXT divided{};
     VkPipelineVertexInputStateCreateInfo info{};
 };
+// The location of an input that no shader has: a device has 16 at least.
+inline constexpr uint32_t kUnusedInput = 15;
 void vertex_input_state(const PipelineKey& key, VertexInputState& state);
 
 struct RasterizationState {
@@ -54,6 +58,22 @@ struct ColorState {
     VkPipelineColorBlendStateCreateInfo info{};
 };
 void color_state(const PipelineKey& key, ColorState& state);
+
+// A triangle over the whole target, of a vertex shader without inputs; viewport and scissor are
+// dynamic, and what is added to `dynamic`. apply() is the last thing before the pipeline is made.
+struct FullTargetState {
+    std::vector<VkDynamicState> dynamic = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+
+    FullTargetState();
+    void apply(VkGraphicsPipelineCreateInfo& info);
+
+  private:
+    VkPipelineVertexInputStateCreateInfo inputs_{};
+    VkPipelineInputAssemblyStateCreateInfo assembly_{};
+    VkPipelineViewportStateCreateInfo viewport_{};
+    VkPipelineRasterizationStateCreateInfo rasterization_{};
+    VkPipelineDynamicStateCreateInfo dynamic_{};
+};
 
 // What is given when a draw is recorded.
 std::vector<VkDynamicState> dynamic_states(const PipelineKey& key);

@@ -48,7 +48,8 @@ VkAttachmentReference2 reference(uint32_t number, VkImageLayout layout) {
 
 // What the subpasses refer to: not to be moved.
 struct References {
-    std::vector<VkAttachmentReference2> colors, resolves;
+    std::vector<uint32_t> preserved;
+    std::vector<VkAttachmentReference2> colors, resolves, inputs;
     std::optional<VkAttachmentReference2> depth, resolved_depth;
     VkSubpassDescriptionDepthStencilResolve depth_resolve =
         Typed{VK_STRUCTURE_TYPE_SUBPASS_DESCRIPTION_DEPTH_STENCIL_RESOLVE};
@@ -77,11 +78,32 @@ struct References {
                     break;
             }
         }
+        for (const PassKey::Input& input : key.inputs) {
+            inputs.push_back(reference(input.part, input_layout(input.aspect)));
+            inputs.back().aspectMask = input.aspect;
+        }
+        for (uint32_t k = 0; k < key.parts.size(); ++k) {
+            if (std::ranges::none_of(key.inputs,
+                                     [k](const auto& input) { return input.part == k; })) {
+                preserved.push_back(k);
+            }
+        }
         if (resolved_depth) {
             depth_resolve.depthResolveMode = resolve_mode(key.depth_resolve);
             depth_resolve.stencilResolveMode = VK_RESOLVE_MODE_NONE;
             depth_resolve.pDepthStencilResolveAttachment = &*resolved_depth;
         }
+    }
+
+    VkSubpassDescription2 reading() const {
+        VkSubpassDescription2 out = Typed{VK_STRUCTURE_TYPE_SUBPASS_DESCRIPTION_2};
+        out.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
+        out.inputAttachmentCount = static_cast<uint32_t>(inputs.size());
+        out.pInputAttachments = inputs.data();
+        // What is neither read nor preserved would be undefined, and is copied behind the pass.
+        out.preserveAttachmentCount = static_cast<uint32_t>(preserved.size());
+        out.pPreserveAttachments = preserved.data();
+        return out;
     }
 
     VkSubpassDescription2 subpass(bool resolved) const {
@@ -103,7 +125,8 @@ struct References {
 }  // namespace
 
 bool has_pass(const cases::Case& c) {
-    return c.variation.door == Door::render_pass || c.variation.door == Door::subpasses;
+    return c.variation.door == Door::render_pass || c.variation.door == Door::subpasses ||
+           c.variation.door == Door::input_attachment;
 }
 
 PassKey pass_key(const cases::Case& c, const std::vector<Attachment>& attachments) {
@@ -113,6 +136,9 @@ PassKey pass_key(const cases::Case& c, const std::vector<Attachment>& attachment
             key.parts.back().has_stencil = true;
         } else {
             key.parts.push_back({a.role, a.format, false});
+        }
+        if (a.is_input) {
+            key.inputs.push_back({static_cast<uint32_t>(key.parts.size() - 1), a.aspect()});
         }
     }
     key.samples = c.target.samples;
@@ -126,6 +152,11 @@ uint32_t subpass_of(const cases::Case& c, size_t draw) {
     return c.variation.door == Door::subpasses && (draw > 0 || c.draws.size() == 1) ? 1 : 0;
 }
 
+VkImageLayout input_layout(VkImageAspectFlags aspect) {
+    return aspect == VK_IMAGE_ASPECT_COLOR_BIT ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
+                                               : VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
+}
+
 Result<Handle<VkRenderPass>> make_render_pass(const Device& device, const PassKey& key) {
     std::vector<VkAttachmentDescription2> descriptions;
     for (const PassKey::Part& part : key.parts) {
@@ -135,6 +166,9 @@ Result<Handle<VkRenderPass>> make_render_pass(const Device& device, const PassKe
     std::vector<VkSubpassDescription2> subpasses;
     for (uint32_t k = 0; k < key.subpasses; ++k) {
         subpasses.push_back(references.subpass(k + 1 == key.subpasses));
+    }
+    if (!key.inputs.empty()) {
+        subpasses.push_back(references.reading());
     }
     VkSubpassDependency2 next = Typed{VK_STRUCTURE_TYPE_SUBPASS_DEPENDENCY_2};
     next.srcSubpass = 0;
@@ -146,14 +180,35 @@ Result<Handle<VkRenderPass>> make_render_pass(const Device& device, const PassKe
         VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT |
         VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
     next.dependencyFlags = VK_DEPENDENCY_BY_REGION_BIT;
+    std::vector<VkSubpassDependency2> dependencies;
+    if (key.subpasses > 1) {
+        dependencies.push_back(next);
+    }
+    if (!key.inputs.empty()) {
+        VkSubpassDependency2 read = next;
+        read.dstStageMask = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
+        read.dstAccessMask = VK_ACCESS_INPUT_ATTACHMENT_READ_BIT;
+        // A region is a sample where all are drawn singly; the shader reads all of a pixel.
+        read.dependencyFlags =
+            key.samples > 1 ? 0U : VkDependencyFlags{VK_DEPENDENCY_BY_REGION_BIT};
+        dependencies.push_back(read);
+        // What has been read changes its layout at the end, and is copied then.
+        VkSubpassDependency2 end = next;
+        end.srcSubpass = 1;
+        end.dstSubpass = VK_SUBPASS_EXTERNAL;
+        end.srcStageMask = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
+        end.srcAccessMask = VK_ACCESS_INPUT_ATTACHMENT_READ_BIT;
+        end.dependencyFlags = 0;
+        dependencies.push_back(end);
+    }
 
     VkRenderPassCreateInfo2 info = Typed{VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO_2};
     info.attachmentCount = static_cast<uint32_t>(descriptions.size());
     info.pAttachments = descriptions.data();
-    info.subpassCount = key.subpasses;
+    info.subpassCount = static_cast<uint32_t>(subpasses.size());
     info.pSubpasses = subpasses.data();
-    info.dependencyCount = key.subpasses - 1;
-    info.pDependencies = &next;
+    info.dependencyCount = static_cast<uint32_t>(dependencies.size());
+    info.pDependencies = dependencies.data();
     return make(device, Stage::pipeline, "vkCreateRenderPass2", device.vk().vkCreateRenderPass2,
                 device.vk().vkDestroyRenderPass, info);
 }

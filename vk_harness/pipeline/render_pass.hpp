@@ -25,6 +25,13 @@ struct PassKey {
     uint32_t samples = 1;
     cases::Resolve color_resolve = cases::Resolve::none, depth_resolve = cases::Resolve::none;
     uint32_t subpasses = 1;  // 1 or 2, which draw to the same attachments; the last one resolves
+    // What one more subpass, which draws to none, reads as input attachments; empty: there is none.
+    struct Input {
+        uint32_t part = 0;
+        VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT;
+        friend auto operator<=>(const Input&, const Input&) = default;
+    };
+    std::vector<Input> inputs = {};
     friend auto operator<=>(const PassKey&, const PassKey&) = default;
 };
 
@@ -33,6 +40,9 @@ bool has_pass(const cases::Case& c);
 PassKey pass_key(const cases::Case& c, const std::vector<Attachment>& attachments);
 // The subpass of draw number `draw`.
 uint32_t subpass_of(const cases::Case& c, size_t draw);
+
+// In which the subpass of PassKey::inputs reads such an attachment.
+VkImageLayout input_layout(VkImageAspectFlags aspect);
 
 Result<Handle<VkRenderPass>> make_render_pass(const Device& device, const PassKey& key);
 

@@ -100,9 +100,25 @@ std::vector<shaders::InputChange> input_changes(const PipelineKey& key, bool has
     return changes;
 }
 
+ShaderChanges vertex_changes(const PipelineKey& key) {
+    ShaderChanges out;
+    if (key.unused_interface) {
+        out.unused_outputs = {shaders::kPrimitiveLocation + 1};  // behind those that are read
+    }
+    return out;
+}
+
 ShaderChanges fragment_changes(const PipelineKey& key, bool has_primitive_id) {
-    return {input_changes(key, has_primitive_id), execution_modes(key), ending_of(key),
-            output_change(key)};
+    ShaderChanges out = {input_changes(key, has_primitive_id),
+                         execution_modes(key),
+                         ending_of(key),
+                         output_change(key),
+                         {},
+                         {}};
+    if (key.unused_color) {
+        out.unused_outputs = {*key.unused_color};
+    }
+    return out;
 }
 
 Result<std::vector<uint32_t>> changed_code(std::span<const uint32_t> code,
@@ -116,6 +132,14 @@ Result<std::vector<uint32_t>> changed_code(std::span<const uint32_t> code,
     }
     if (changed) {
         changed = shaders::with_outputs(*changed, changes.outputs);
+    }
+    for (const uint32_t location : changes.unused_outputs) {
+        if (changed) {
+            changed = shaders::with_unused_output(*changed, location);
+        }
+    }
+    if (changed && changes.input_index) {
+        changed = shaders::with_input_index(*changed, *changes.input_index);
     }
     if (!changed) {
         return fail(Stage::shader, changed.error());
@@ -148,10 +172,22 @@ void specialize_patch(const PipelineKey& key, Specialization& out) {
     tie(out);
 }
 
+void specialize_input(const InputKey& key, Specialization& out) {
+    add(out, shaders::kInputWords, key.words);
+    add(out, shaders::kInputKind, static_cast<uint32_t>(key.kind));
+    for (uint32_t k = 0; k < key.bits.size(); ++k) {
+        add(out, shaders::kInputBits + k, key.bits.at(k));
+        add(out, shaders::kInputFirstBits + k, key.first_bit.at(k));
+    }
+    tie(out);
+}
+
 std::vector<std::pair<VkShaderStageFlagBits, std::span<const uint32_t>>> stages_between(
     const PipelineKey& key) {
     switch (key.stages) {
         case StageWay::vertex:
+            break;
+        case StageWay::mesh:  // in the place of the vertex shader
             break;
         case StageWay::geometry:
             return {

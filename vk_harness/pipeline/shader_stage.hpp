@@ -5,12 +5,14 @@
 // constants; which stages there are.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "shaders/spirv_variant.hpp"
 #include "vk_harness/device/api.hpp"
+#include "vk_harness/pipeline/input_pipeline.hpp"
 #include "vk_harness/pipeline/pipeline_key.hpp"
 
 namespace vk_harness {
@@ -29,8 +31,12 @@ struct ShaderChanges {
     std::vector<uint32_t> modes;
     shaders::Ending ending = shaders::Ending::kill;
     shaders::OutputChange outputs;
+    std::vector<uint32_t> unused_outputs;  // locations of outputs that are added
+    std::optional<uint32_t> input_index;   // of the one subpass input
     friend auto operator<=>(const ShaderChanges&, const ShaderChanges&) = default;
 };
+// Of the vertex shader.
+ShaderChanges vertex_changes(const PipelineKey& key);
 // Of the fragment shader.
 ShaderChanges fragment_changes(const PipelineKey& key, bool has_primitive_id);
 Result<std::vector<uint32_t>> changed_code(std::span<const uint32_t> code,
@@ -45,6 +51,9 @@ struct Specialization {
 void specialize(const PipelineKey& key, Specialization& out);
 // The same of capture.tese.
 void specialize_patch(const PipelineKey& key, Specialization& out);
+
+// The same of input.frag.
+void specialize_input(const InputKey& key, Specialization& out);
 
 // The stages between the vertex shader and rasterization, with their code.
 std::vector<std::pair<VkShaderStageFlagBits, std::span<const uint32_t>>> stages_between(

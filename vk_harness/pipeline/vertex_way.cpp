@@ -37,9 +37,27 @@ uint32_t constant_bindings(const cases::Case& c, const cases::Draw& draw) {
     return bits;
 }
 
+// The numbers of different bindings and draws lie in different formats, where there are several.
+void choose_formats(const cases::Case& c, const cases::Draw& draw, uint32_t offered,
+                    VertexWay& way) {
+    const size_t salt = draw.positions.size() / 3;
+    const auto choose = [&](uint32_t binding, std::span<const glm::vec4> values) {
+        way.formats.at(binding) = cases::other_vertex_format(values, offered, salt + binding);
+    };
+    choose(0, draw.positions);
+    for (uint32_t k = 0; k < input_count(c); ++k) {
+        const cases::Attribute* attribute = input_attribute(c, draw, k);
+        if (attribute != nullptr && attribute->source == cases::Source::vertex) {
+            choose(1 + k, attribute->values);
+        }
+    }
+    choose(kClipBinding, draw.distances.clip);
+    choose(kCullBinding, draw.distances.cull);
+}
+
 }  // namespace
 
-VertexWay vertex_way(const cases::Case& c, const cases::Draw& draw) {
+VertexWay vertex_way(const cases::Case& c, const cases::Draw& draw, uint32_t formats) {
     VertexWay way;
     switch (c.variation.door) {
         case cases::Door::stride_padded:
@@ -54,15 +72,29 @@ VertexWay vertex_way(const cases::Case& c, const cases::Draw& draw) {
             way.interleaved = true;
             break;
         case cases::Door::vertices_pulled:
+        case cases::Door::mesh_shader:
             way.pulled = true;
             break;
         case cases::Door::three_components:
-            way.three_components =
-                std::all_of(draw.positions.begin(), draw.positions.end(),
-                            [](const glm::vec4& p) { return p.w >= 1 && p.w <= 1; });
+            if (cases::holds(cases::VertexFormat::rgb32_float, draw.positions)) {
+                way.formats[0] = cases::VertexFormat::rgb32_float;
+            }
             break;
         case cases::Door::half_floats:
-            way.halves = cases::are_half_floats(draw.positions);
+            if (cases::holds(cases::VertexFormat::rgba16_float, draw.positions)) {
+                way.formats[0] = cases::VertexFormat::rgba16_float;
+            }
+            break;
+        case cases::Door::exact_formats:
+            choose_formats(c, draw, formats, way);
+            break;
+        case cases::Door::instance_divisor:
+            way.instance_rate = constant_bindings(c, draw);
+            way.divisor = 3;
+            break;
+        case cases::Door::instance_divisor_zero:
+            way.instance_rate = constant_bindings(c, draw);
+            way.divisor = 0;
             break;
         case cases::Door::instance_rate:
             way.instance_rate = constant_bindings(c, draw);
@@ -74,10 +106,7 @@ VertexWay vertex_way(const cases::Case& c, const cases::Draw& draw) {
 }
 
 uint32_t size_of(const VertexWay& way, uint32_t binding) {
-    if (binding != 0) {
-        return 16;
-    }
-    return way.halves ? 8 : way.three_components ? 12 : 16;
+    return cases::bytes_of(way.formats.at(binding));
 }
 
 uint32_t stride_of(const VertexWay& way, uint32_t binding) {

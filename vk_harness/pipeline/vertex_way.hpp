@@ -4,31 +4,37 @@
 // How the vertices of a draw lie in memory and are read, as far as its pipeline knows of it.
 #pragma once
 
+#include <array>
 #include <compare>
 #include <cstdint>
 
+#include "cases/format/vertex_format.hpp"
 #include "cases/model/case.hpp"
+#include "shaders/shaders.hpp"
 
 namespace vk_harness {
 
 // As constructed: every input is an array of vec4 of its own.
 struct VertexWay {
-    bool padded = false;            // stride_of() has room between vertices
-    bool dynamic_stride = false;    // the strides are given with the buffers
-    bool interleaved = false;       // all inputs lie in binding 0
-    bool three_components = false;  // positions are three numbers
-    bool halves = false;            // positions are of binary16
-    bool pulled = false;            // the shader reads them from a storage buffer
-    uint32_t instance_rate = 0;     // bit b: binding b is read once an instance
+    bool padded = false;                           // stride_of() has room between vertices
+    bool dynamic_stride = false;                   // the strides are given with the buffers
+    bool interleaved = false;                      // all inputs lie in binding 0
+    std::array<cases::VertexFormat, 7> formats{};  // by binding
+    bool pulled = false;                           // the shader reads them from a storage buffer
+    uint32_t instance_rate = 0;  // bit b: binding b is read once for `divisor` instances
+    uint32_t divisor = 1;        // 0: for all of them
+    // Several instances are drawn, and the shader leaves shaders::kShownInstance of them.
+    bool has_instances() const { return instance_rate != 0 && divisor != 1; }
     friend auto operator<=>(const VertexWay&, const VertexWay&) = default;
 };
 
 // The descriptor set of a vertex shader that reads its inputs, whose binding 0 is a storage buffer:
 // eight words, by binding the number of the first vec4 that would be bound there; then the vec4
-// (capture.vert).
+// (capture.vert). A mesh shader finds the number of its first triangle in the last of them.
 inline constexpr uint32_t kPulledSet = 1, kPulledWords = 8;
 
-VertexWay vertex_way(const cases::Case& c, const cases::Draw& draw);
+// `formats`: those that the device reads vertices in, a bit each.
+VertexWay vertex_way(const cases::Case& c, const cases::Draw& draw, uint32_t formats);
 
 // Bytes of one vertex of a binding, and from one vertex to the next.
 uint32_t size_of(const VertexWay& way, uint32_t binding);

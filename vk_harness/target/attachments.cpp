@@ -70,6 +70,22 @@ void append_resolved(const cases::Target& target, std::vector<Attachment>& out) 
     }
 }
 
+// Whether the bits of a texel follow from what a shader reads of it: not of sRGB, of which it gets
+// another number, nor of binary16, whose denormal numbers it may lose, nor of D24, where c / (2^24
+// - 1) in binary32 may be more than half a code off: c times the rounded reciprocal 2^-24 (1 +
+// 2^-23), as lavapipe computes it, makes 0.37500006 of code 6291456, whose successor is 0.37500008.
+// A code of up to 16 bits is found again: what is read is within a few 2^-24 of code / largest, and
+// half a code is 2^-17 or more. What is not looked at and what is resolved is copied, too.
+bool can_be_input(const cases::Target& target, const Attachment& a) {
+    const auto is_code_or_binary32 = [](cases::ComponentKind kind) {
+        return kind != cases::ComponentKind::srgb && kind != cases::ComponentKind::half;
+    };
+    const bool is_wide_depth =
+        a.role == Role::depth && target.depth_format == cases::DepthFormat::d24_unorm;
+    return !a.is_resolved() && !a.halves && !is_wide_depth && a.role != Role::other_color &&
+           (a.role != Role::color || is_code_or_binary32(row_of(target.color->format).kind));
+}
+
 }  // namespace
 
 std::vector<Attachment> attachments_of(const cases::Case& c, const TargetLayout& layout) {
@@ -124,6 +140,11 @@ std::vector<Attachment> attachments_of(const cases::Case& c, const TargetLayout&
         out.push_back({Role::stencil, layout.stencil_format, clear, 1, 4});
     }
     append_resolved(c.target, out);
+    if (c.variation.door == cases::Door::input_attachment) {
+        for (Attachment& a : out) {
+            a.is_input = can_be_input(c.target, a);
+        }
+    }
     return out;
 }
 

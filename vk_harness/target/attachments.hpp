@@ -40,8 +40,14 @@ struct Attachment {
     uint32_t draws = 1;            // of the case: what packed_id goes by
     bool halves = false;           // hits, and ids beside them, are binary16
     bool is_beside_depth = false;  // a stencil in the image of the attachment before it
+    bool is_input = false;         // read back as an input attachment, in whole words a sample
     bool is_depth() const { return role == Role::depth || role == Role::resolved_depth; }
     bool is_depth_stencil() const { return is_depth() || role == Role::stencil; }
+    VkImageAspectFlags aspect() const {
+        return role == Role::stencil ? VK_IMAGE_ASPECT_STENCIL_BIT
+               : is_depth()          ? VK_IMAGE_ASPECT_DEPTH_BIT
+                                     : VK_IMAGE_ASPECT_COLOR_BIT;
+    }
     bool is_resolved() const {
         return role == Role::resolved_color || role == Role::resolved_depth;
     }
@@ -49,9 +55,11 @@ struct Attachment {
     uint32_t samples_of(const cases::Target& target) const {
         return is_resolved() ? 1 : target.samples;
     }
+    // Whether a shader writes it to read-back memory, in whole words, instead of a copy.
+    bool has_words(uint32_t samples) const { return samples > 1 || is_input; }
     // Bytes of one sample in read-back memory.
     uint32_t copied_bytes(uint32_t samples) const {
-        return samples > 1 ? sample_bytes : texel_bytes;
+        return has_words(samples) ? sample_bytes : texel_bytes;
     }
 };
 

@@ -15,8 +15,9 @@ namespace vk_harness {
 namespace {
 
 // Depth as the capture holds it (capture/capture.hpp). Copied texels of D16 are 2 bytes and of
-// X8_D24 the low 24 bits of a word; with several samples a shader has written binary32.
-void decode_depth(const cases::Target& target, std::span<const std::byte> from, float* to) {
+// X8_D24 the low 24 bits of a word; with words a shader has written binary32.
+void decode_depth(const cases::Target& target, bool has_words, std::span<const std::byte> from,
+                  float* to) {
     const size_t count = size_t{target.width} * target.rows() * target.samples;
     const auto* words = reinterpret_cast<const uint32_t*>(from.data());
     const auto poison_float = std::bit_cast<float>(capture::kPoison);
@@ -24,7 +25,7 @@ void decode_depth(const cases::Target& target, std::span<const std::byte> from, 
         std::memcpy(to, words, count * sizeof(float));
         return;
     }
-    if (target.samples > 1) {
+    if (has_words) {
         std::transform(words, words + count, to, [&](uint32_t word) {
             return word == capture::kPoison
                        ? poison_float
@@ -155,13 +156,14 @@ void widen(const Words& first, const Words& second, size_t count, const VkClearV
     }
 }
 
-// Stencil as the capture holds it: copied texels are bytes, with several samples a shader has
-// written words. A quarter of the poison is a stencil like any other; a copy that never happened
-// leaves it everywhere.
-void decode_stencil(const cases::Target& target, std::span<const std::byte> from, uint32_t* to) {
+// Stencil as the capture holds it: copied texels are bytes, or a shader has written words. A
+// quarter of the poison is a stencil like any other; a copy that never happened leaves it
+// everywhere.
+void decode_stencil(const cases::Target& target, bool has_words, std::span<const std::byte> from,
+                    uint32_t* to) {
     const size_t count = size_t{target.width} * target.rows() * target.samples;
     const auto* words = reinterpret_cast<const uint32_t*>(from.data());
-    if (target.samples > 1) {
+    if (has_words) {
         std::copy(words, words + count, to);
         return;
     }
@@ -357,6 +359,7 @@ void read_planes(const std::vector<Attachment>& attachments, const ReadbackLayou
         const cases::Target shape = shape_of(attachment, to.target);
         const auto from = memory.subspan(layout.offset[k]);
         const size_t count = size_t{shape.width} * shape.rows() * shape.samples;
+        const bool has_words = attachment.has_words(shape.samples);
         switch (attachment.role) {
             case Role::attribute:
                 decode_attribute(attachments, layout, memory, count, k,
@@ -368,16 +371,16 @@ void read_planes(const std::vector<Attachment>& attachments, const ReadbackLayou
                 decode_color(shape, attachment, from.data(), to.color.data());
                 break;
             case Role::depth:
-                decode_depth(shape, from, to.depth.data());
+                decode_depth(shape, has_words, from, to.depth.data());
                 break;
             case Role::stencil:
-                decode_stencil(shape, from, to.stencil.data());
+                decode_stencil(shape, has_words, from, to.stencil.data());
                 break;
             case Role::resolved_color:
                 decode_color(shape, attachment, from.data(), to.resolved_color.data());
                 break;
             case Role::resolved_depth:
-                decode_depth(shape, from, to.resolved_depth.data());
+                decode_depth(shape, has_words, from, to.resolved_depth.data());
                 break;
             default:
                 decode_instrument(attachments, layout, memory, count, k, to);

@@ -9,12 +9,13 @@
 namespace vk_harness {
 
 VkDeviceSize attachment_bytes(const cases::Target& target,
-                              const std::vector<Attachment>& attachments) {
+                              const std::vector<Attachment>& attachments, const ImageWay& way) {
     // At most 16 bytes a sample and attachment; below 2^14 * 2^14 * 2^8 * 2^6 * 2^8 = 2^50.
     const VkDeviceSize bytes =
         std::accumulate(attachments.begin(), attachments.end(), VkDeviceSize{0},
                         [](VkDeviceSize sum, const Attachment& a) { return sum + a.sample_bytes; });
-    return VkDeviceSize{target.width} * target.rows() * target.samples * bytes;
+    const VkExtent2D whole = {target.width + way.more_columns, target.height + way.more_rows};
+    return VkDeviceSize{whole.width} * whole.height * target.layers * target.samples * bytes;
 }
 
 TargetCache::Shelf& TargetCache::shelf(VkFormat format, const cases::Target& target,

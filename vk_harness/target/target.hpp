@@ -13,9 +13,10 @@
 
 namespace vk_harness {
 
-// Bytes that drawing a case takes: what the device has to hold in attachments.
+// Bytes that drawing a case takes: what the device has to hold in attachments, or, that way, in
+// what they are a part of.
 VkDeviceSize attachment_bytes(const cases::Target& target,
-                              const std::vector<Attachment>& attachments);
+                              const std::vector<Attachment>& attachments, const ImageWay& way = {});
 
 class TargetCache {
   public:

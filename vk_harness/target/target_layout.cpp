@@ -85,6 +85,13 @@ cases::DepthFormat depth_beside_stencil(const Capabilities& c, const cases::Targ
 TargetLayout target_layout(const Capabilities& c, const cases::Case& test) {
     TargetLayout layout;
     layout.unused = unused_state(c, test);
+    if (test.variation.door == cases::Door::exact_formats) {
+        layout.vertex_formats = c.doors.vertex_formats;
+    } else if (test.variation.door == cases::Door::stage_unused) {
+        layout.most_colors =
+            std::min({c.info.max_color_attachments, c.limits.maxFragmentOutputAttachments,
+                      c.limits.maxFragmentCombinedOutputResources});
+    }
     if (test.target.has_stencil) {
         layout.stencil_format = depth_stencil_format(depth_beside_stencil(c, test.target));
     }

@@ -34,6 +34,10 @@ struct TargetLayout {
         friend auto operator<=>(const Unused&, const Unused&) = default;
     };
     Unused unused = {};
+    // Of the door exact_formats: what vertices are read in, a bit each (vertex_format.hpp).
+    uint32_t vertex_formats = 0;
+    // Of the door stage_unused: a fragment shader may write so many colours.
+    uint32_t most_colors = 0;
 
     // Numbers in an attribute's only attachment, or in either of its pair. 4 beyond the last
     // attribute that a case may have.

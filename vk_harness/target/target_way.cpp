@@ -19,6 +19,14 @@ ImageWay image_way(const cases::Case& c) {
             way.more_columns = 29;
             way.more_rows = 19;
             break;
+        case cases::Door::target_last_tile:
+            way.more_columns = cases::kMovedColumns;
+            way.more_rows = cases::kMovedRows;
+            way.ends_with_it = true;
+            break;
+        case cases::Door::input_attachment:
+            way.is_input = true;
+            break;
         case cases::Door::image_layer:
             way.first_layer = 2;
             break;
@@ -62,6 +70,43 @@ bool has_linear_attachment(const Capabilities& capabilities, const cases::Case& 
     });
 }
 
+bool has_inputs(const Capabilities& capabilities, const cases::Case& c) {
+    const std::vector<Attachment> attachments = attachments_of(c, target_layout(capabilities, c));
+    const uint32_t samples = c.target.samples;
+    return std::ranges::all_of(attachments, [&](const Attachment& a) {
+        const VkImageUsageFlags usage =
+            VK_IMAGE_USAGE_INPUT_ATTACHMENT_BIT |
+            VkImageUsageFlags{samples > 1 ? VK_IMAGE_USAGE_SAMPLED_BIT
+                                          : VK_IMAGE_USAGE_TRANSFER_SRC_BIT} |
+            VkImageUsageFlags{a.is_depth_stencil() ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
+                                                   : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT};
+        VkImageFormatProperties offered{};
+        const VkResult result = vkGetPhysicalDeviceImageFormatProperties(
+            capabilities.physical, a.format, VK_IMAGE_TYPE_2D, VK_IMAGE_TILING_OPTIMAL, usage,
+            a.is_depth_stencil() ? 0U : color_flags(samples), &offered);
+        return !a.is_input || (result == VK_SUCCESS && (offered.sampleCounts & samples) != 0);
+    });
+}
+
+// Why the device has no room for the case so far to the right and down.
+std::optional<std::string> missing_place(const Capabilities& capabilities, const cases::Case& c,
+                                         const VkOffset2D& origin) {
+    const VkPhysicalDeviceLimits& limits = capabilities.limits;
+    const auto x = static_cast<float>(origin.x), y = static_cast<float>(origin.y);
+    const float high = limits.viewportBoundsRange[1];
+    const bool is_beyond =
+        (origin.x > 0 || origin.y > 0) &&
+        std::ranges::any_of(c.draws, [&](const cases::Draw& draw) {
+            const cases::Viewport& v = draw.viewport;
+            return v.x + x + v.width > high || std::max(v.y, v.y + v.height) + y > high;
+        });
+    return is_beyond
+               ? std::optional(fmt::format("a viewport {} columns and {} rows further leaves the "
+                                           "device's range, which ends at {} pixels",
+                                           origin.x, origin.y, high))
+               : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<std::string> missing_images(const Capabilities& capabilities, const cases::Case& c) {
@@ -82,10 +127,20 @@ std::optional<std::string> missing_images(const Capabilities& capabilities, cons
     if (layers > 1 && c.target.samples > 1 && !capabilities.portability.multisampled_arrays) {
         return "the device lacks the feature multisampleArrayImage (VK_KHR_portability_subset)";
     }
+    if (auto missing = missing_place(capabilities, c, way.origin())) {
+        return missing;
+    }
+    if (way.is_input && !has_inputs(capabilities, c)) {
+        return "the device has no images for attachments like these that may be input attachments";
+    }
     if (way.is_linear && !has_linear_attachment(capabilities, c)) {
         return fmt::format("the device lacks {}", cases::row_of(c.variation.door).needs);
     }
     return std::nullopt;
+}
+
+VkRect2D render_area(const cases::Case& c) {
+    return {image_way(c).origin(), {c.target.width, c.target.height}};
 }
 
 uint32_t view_mask(const cases::Case& c) {

@@ -17,6 +17,9 @@ ImageWay image_way(const cases::Case& c);
 // Why the device has no such images: one sentence; nothing if it has them.
 std::optional<std::string> missing_images(const Capabilities& capabilities, const cases::Case& c);
 
+// What of its attachments a case is drawn to.
+VkRect2D render_area(const cases::Case& c);
+
 // The views that the rendering of a case draws to, one bit a view; 0: there is no multiview.
 uint32_t view_mask(const cases::Case& c);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "ref/value/accept/candidate_reach.hpp"
 
@@ -38,6 +39,38 @@ double difference(const Form<Ball>& a, const Form<Ball>& b, std::span<const Poin
     return most;
 }
 
+// A basis's three barycentrics come first, its planes behind them.
+constexpr size_t kBary = 3;
+const Form<Ball>& form_of(const Basis<Ball>& basis, size_t k) {
+    return k < kBary ? basis.bary.at(k) : basis.planes[k - kBary].form;
+}
+FilterPlane held(const Form<Ball>& form, double budget) {
+    return {form.x.v,       form.y.v,       form.c.v,
+            form.x.e * kUp, form.y.e * kUp, form.c.e * kUp + ball::kTiny,
+            budget};
+}
+
+// Not less than the sum of the magnitudes of a basis's barycentrics at any of the points: as
+// spread_budgets(), which gives the largest to all of them.
+double spread_at(std::span<const FilterPlane> planes, std::span<const Point<Ball>> points) {
+    double most = 0;
+    for (const Point<Ball>& p : points) {
+        double sum = 0;
+        for (const FilterPlane& b : planes.first(kBary)) {
+            const Evaluated at = evaluate(b, {p.x.v, p.y.v});
+            sum += std::fabs(at.v) + at.e;
+        }
+        most = std::max(most, sum);
+    }
+    return most * kUp;
+}
+
+// A noperspective value of a triangle that reaches behind the eye: as in add_candidate().
+bool is_without_plane(const Asked& asked, size_t index) {
+    const Quantity& q = asked.quantities[index];
+    return q.kind == Kind::linear && q.id.is_attribute() && !asked.is_projectable;
+}
+
 }  // namespace
 
 SetBounds::SetBounds(const CandidateSet<Ball>& set, const PixelBox& box)
@@ -55,33 +88,42 @@ SetBounds::SetBounds(const CandidateSet<Ball>& set, const PixelBox& box)
     for (const Candidate<Ball>& candidate : set.candidates) {
         is_free = is_free || candidate.is_free;
         has_unbounded_ = has_unbounded_ || candidate.is_unbounded;
+        if (groups_.empty() || !is_any_of_all_) {
+            groups_.push_back({bases_.size(), 0, false});
+        }
+        Group& group = groups_.back();
+        group.size += candidate.bases.size();
+        group.has_unbounded = group.has_unbounded || candidate.is_unbounded;
         for (const Basis<Ball>& basis : candidate.bases) {
-            Site<Ball> most;  // each term of a budget at its largest in the box
+            Site<Ball> most;  // the extents at their largest in the box
             for (const Point<Ball>& corner : corners) {
                 const Site<Ball> s = make_site(basis, basis.planes[kPlaneInvW], corner, set.factor);
                 most.extent_x = larger(most.extent_x, s.extent_x);
                 most.extent_y = larger(most.extent_y, s.extent_y);
-                most.spread = larger(most.spread, s.spread);
             }
             const bool is_first = first == nullptr;
             first = is_first ? &basis : first;
-            for (size_t k = 0; k < basis.planes.size(); ++k) {
-                const Plane<Ball>& plane = basis.planes[k];
-                const double budget =
-                    upper(plane.budget(most.extent_x, most.extent_y, most.spread));
-                if (is_first) {
-                    planes_.push_back({plane.form.x.v, plane.form.y.v, plane.form.c.v,
-                                       plane.form.x.e * kUp, plane.form.y.e * kUp,
-                                       plane.form.c.e * kUp + ball::kTiny, budget});
-                    continue;
-                }
-                FilterPlane& all = planes_[k];
-                all.budget = std::max(all.budget, budget);
-                all.ec = std::max(all.ec, (first->planes[k].form.c.e +
-                                           difference(plane.form, first->planes[k].form, corners)) *
-                                                  kUp +
-                                              ball::kTiny);
+            Planes own;
+            own.reserve(basis.planes.size() + 3);
+            for (const Form<Ball>& form : basis.bary) {
+                own.push_back(held(form, 0));
             }
+            for (const Plane<Ball>& plane : basis.planes) {
+                own.push_back(
+                    held(plane.form, upper(plane.budget(most.extent_x, most.extent_y, Ball(1.0)))));
+            }
+            if (is_first) {
+                all_ = own;
+            }
+            for (size_t k = 0; k < own.size() && !is_first; ++k) {
+                FilterPlane& all = all_[k];
+                const Form<Ball>& here = form_of(*first, k);
+                all.budget = std::max(all.budget, own[k].budget);
+                all.ec = std::max(
+                    all.ec,
+                    (here.c.e + difference(form_of(basis, k), here, corners)) * kUp + ball::kTiny);
+            }
+            bases_.push_back(std::move(own));
             // The extents of the vertices alone and a spread of 1 give the least budget there is.
             const double depth_budget = lower(basis.planes[kPlaneDepth].budget(
                 basis.high_x - basis.low_x, basis.high_y - basis.low_y, Ball(1.0)));
@@ -95,23 +137,32 @@ SetBounds::SetBounds(const CandidateSet<Ball>& set, const PixelBox& box)
     }
 }
 
-std::optional<SetBounds::Bound> SetBounds::bound_at(const Quantity& q, const Point<Ball>& p) const {
+void SetBounds::Bound::widen(const Bound& other) {
+    low = std::min(low, other.low);
+    high = std::max(high, other.high);
+    reach = std::max(reach, other.reach);
+}
+
+std::optional<SetBounds::Bound> SetBounds::bound_at(const Planes& planes, const Quantity& q,
+                                                    const Point<Ball>& p, double spread) const {
     const bool is_inside =
         p.x.v >= box_.low_x && p.x.v <= box_.high_x && p.y.v >= box_.low_y && p.y.v <= box_.high_y;
     if (!is_inside || p.x.e > 0 || p.y.e > 0) {
         return std::nullopt;
     }
     const Point<double> at{p.x.v, p.y.v};
-    const FilterPlane& plane = planes_[q.plane];
+    const FilterPlane& plane = planes[kBary + q.plane];
+    const double budget = plane.budget * spread * kUp;
     const Evaluated n = evaluate(plane, at);
     if (q.kind == Kind::linear) {
-        return Bound{n.v - n.e * kUp, n.v + n.e * kUp, factor_ * plane.budget * kUp};
+        return Bound{n.v - n.e * kUp, n.v + n.e * kUp, factor_ * budget * kUp};
     }
-    const FilterPlane& inv_w = planes_[kPlaneInvW];
+    const FilterPlane& inv_w = planes[kBary + kPlaneInvW];
+    const double inv_w_budget = inv_w.budget * spread * kUp;
     const Evaluated d = evaluate(inv_w, at);
     const double d_low = (d.v - d.e) * kDown;
     const double d_high = (d.v + d.e) * kUp;
-    const double safe = (d_low - factor_ * inv_w.budget * kUp) * kDown;
+    const double safe = (d_low - factor_ * inv_w_budget * kUp) * kDown;
     if (!(safe > 0)) {
         return std::nullopt;
     }
@@ -122,8 +173,7 @@ std::optional<SetBounds::Bound> SetBounds::bound_at(const Quantity& q, const Poi
     out.high = n_high / (n_high < 0 ? d_high : d_low);
     const double most = std::max(std::fabs(out.low), std::fabs(out.high)) * kUp;
     // As value_at().
-    out.reach =
-        factor_ * ((plane.budget + most * inv_w.budget) / safe + 2 * kUnitRoundoff * most) * kUp;
+    out.reach = factor_ * ((budget + most * inv_w_budget) / safe + 2 * kUnitRoundoff * most) * kUp;
     return out;
 }
 
@@ -134,10 +184,40 @@ bool SetBounds::is_inside_depths(const Bound& bound) const {
            bound.high <= depths_.high + least_depth_budget_;
 }
 
-bool SetBounds::takes_hull(const Asked& asked, size_t index) const {
+bool SetBounds::is_outside(std::span<const Planes> bases, bool has_unbounded,
+                           const Evaluation<Ball>& where, const Asked& asked, size_t index) const {
     const Quantity& q = asked.quantities[index];
-    return has_unbounded_ ||
-           (q.kind == Kind::linear && q.id.is_attribute() && !asked.is_projectable);
+    const bool is_depth_like = is_depth(q) || is_frag_coord_z(q);
+    const double device = asked.got(index);
+    std::optional<Bound> all;
+    const std::span<const Point<Ball>> points = points_at(where, place_of(q, where));
+    for (const Planes& planes : bases) {
+        const double spread = spread_at(planes, points);
+        for (const Point<Ball>& p : points) {
+            const std::optional<Bound> one = bound_at(planes, q, p, spread);
+            if (!one || (is_depth_like && !is_inside_depths(*one))) {
+                return false;
+            }
+            if (all) {
+                all->widen(*one);
+            } else {
+                all = one;
+            }
+            if (device >= all->low && device <= all->high) {
+                return false;
+            }
+        }
+    }
+    if (!all) {
+        return false;
+    }
+    if (has_unbounded || is_without_plane(asked, index)) {
+        all->widen({lower(hulls_[index].low), upper(hulls_[index].high), 0});
+    }
+    // A store of fixed point takes either neighbour.
+    const double step = is_depth(q) && steps_ > 0 ? 2 / steps_ : 0;
+    const double slack = all->reach + step + (std::fabs(all->low) + std::fabs(all->high)) * 0x1p-48;
+    return device < all->low - slack * kUp || device > all->high + slack * kUp;
 }
 
 bool SetBounds::rejects(std::span<const Evaluation<Ball>> evaluations, const Asked& asked,
@@ -147,34 +227,13 @@ bool SetBounds::rejects(std::span<const Evaluation<Ball>> evaluations, const Ask
     if (!is_usable_ || !is_numeric(q) || evaluations.empty() || (is_depth_like && has_bias_)) {
         return false;
     }
-    const double device = asked.got(index);
-    for (const Evaluation<Ball>& where : evaluations) {
-        std::optional<Bound> all;
-        for (const Point<Ball>& p : points_at(where, place_of(q, where))) {
-            const std::optional<Bound> one = bound_at(q, p);
-            if (!one || (is_depth_like && !is_inside_depths(*one))) {
-                return false;
-            }
-            all = all ? Bound{std::min(all->low, one->low), std::max(all->high, one->high),
-                              std::max(all->reach, one->reach)}
-                      : *one;
-        }
-        if (!all) {
-            return false;
-        }
-        if (takes_hull(asked, index)) {
-            all->low = std::min(all->low, lower(hulls_[index].low));
-            all->high = std::max(all->high, upper(hulls_[index].high));
-        }
-        // A store of fixed point takes either neighbour.
-        const double step = is_depth(q) && steps_ > 0 ? 2 / steps_ : 0;
-        const double slack =
-            all->reach + step + (std::fabs(all->low) + std::fabs(all->high)) * 0x1p-48;
-        if (!(device < all->low - slack * kUp || device > all->high + slack * kUp)) {
-            return false;
-        }
-    }
-    return true;
+    return std::all_of(evaluations.begin(), evaluations.end(), [&](const auto& where) {
+        return is_outside({&all_, 1}, has_unbounded_, where, asked, index) ||
+               std::all_of(groups_.begin(), groups_.end(), [&](const Group& group) {
+                   return is_outside(std::span(bases_).subspan(group.first, group.size),
+                                     group.has_unbounded, where, asked, index);
+               });
+    });
 }
 
 bool SetBounds::accepts(const Evaluation<Ball>& where, const Asked& asked, size_t index) const {
@@ -184,7 +243,7 @@ bool SetBounds::accepts(const Evaluation<Ball>& where, const Asked& asked, size_
         return false;
     }
     const double device = asked.got(index);
-    if (takes_hull(asked, index) && device >= upper(hulls_[index].low) &&
+    if ((has_unbounded_ || is_without_plane(asked, index)) && device >= upper(hulls_[index].low) &&
         device <= lower(hulls_[index].high)) {
         return true;
     }
@@ -193,7 +252,7 @@ bool SetBounds::accepts(const Evaluation<Ball>& where, const Asked& asked, size_
         return false;
     }
     // A quotient is accepted around its value where its denominator is safe.
-    if (q.kind == Kind::perspective && !bound_at(q, at.front())) {
+    if (q.kind == Kind::perspective && !bound_at(all_, q, at.front(), spread_at(all_, at))) {
         return false;
     }
     const Point<double> p{at.front().x.v, at.front().y.v};

@@ -8,10 +8,10 @@
 // The planes of all bases differ little inside the triangle's bounding box. The difference of two
 // linear functions is largest at a corner of the box, so the first basis's plane, with the largest
 // difference at the four corners as its bound, holds every plane of the set in the whole box.
-// Budgets are the largest of any basis at any corner, because each of their terms (the extents, and
-// the spread as a sum of magnitudes of linear functions) is convex. What lies outside of the values
-// that these bounds leave, widened as value_at() widens one value, is accepted by none
-// (docs/precision.md, "All set-ups at once").
+// Budgets are the largest of any basis at any corner, because the extents are convex, times the
+// spread at the point, a sum of magnitudes of linear functions that are held likewise. What lies
+// outside of the values that these bounds leave, widened as value_at() widens one value, is
+// accepted by none (docs/precision.md, "All set-ups at once").
 #pragma once
 
 #include <optional>
@@ -45,22 +45,38 @@ class SetBounds {
     bool accepts(const Evaluation<Ball>& where, const Asked& asked, size_t index) const;
 
   private:
+    // The barycentrics and the planes of a basis, or of several in one; each `budget` is the
+    // largest in the box for a spread of 1.
+    using Planes = std::vector<FilterPlane>;
+    // Bases between whose values all is accepted: those of a candidate, or of all candidates where
+    // each value stands alone.
+    struct Group {
+        size_t first = 0, size = 0;  // in bases_
+        bool has_unbounded = false;  // some candidate takes the hull of the vertex values
+    };
     // All values that some basis has at a point, and the most that is accepted around them.
     struct Bound {
         double low = 0, high = 0, reach = 0;
+
+        void widen(const Bound& other);
     };
     // Nothing if a denominator may not be safe, or if the point lies outside of the box.
-    std::optional<Bound> bound_at(const Quantity& q, const Point<Ball>& p) const;
+    std::optional<Bound> bound_at(const Planes& planes, const Quantity& q, const Point<Ball>& p,
+                                  double spread) const;
     bool is_inside_depths(const Bound& bound) const;
-    bool takes_hull(const Asked& asked, size_t index) const;
+    // Whether the device's value lies outside of all that these bases accept.
+    bool is_outside(std::span<const Planes> bases, bool has_unbounded,
+                    const Evaluation<Ball>& where, const Asked& asked, size_t index) const;
 
     PixelBox box_;
     bool is_usable_ = false;
     bool is_any_of_all_ = false;
-    bool has_unbounded_ = false;       // some candidate takes the hull of the vertex values
-    double factor_ = 0;                // K or a little more
-    std::vector<FilterPlane> planes_;  // of all bases; `budget` is the largest
-    Filter first_;                     // of the first basis; its budgets are the least
+    bool has_unbounded_ = false;  // some candidate takes the hull of the vertex values
+    double factor_ = 0;           // K or a little more
+    Planes all_;                  // of all bases in one
+    std::vector<Planes> bases_;   // each by itself
+    std::vector<Group> groups_;
+    Filter first_;  // of the first basis; its budgets are the least
     double least_depth_budget_ = 0;
     std::vector<Range<Ball>> hulls_;  // of the vertex values, by quantity
     bool has_bias_ = false;

@@ -10,9 +10,9 @@
 #include <limits>
 #include <set>
 
+#include "cases/base/float_bits.hpp"
 #include "cases/load/loader.hpp"
 #include "cases/model/derive.hpp"
-#include "cases/model/float_bits.hpp"
 #include "cases/model/rule.hpp"
 #include "cases/wire/case_bytes.hpp"
 #include "cases/write/to_toml.hpp"
@@ -70,8 +70,10 @@ TEST(Door, EveryRowHasAWordASentenceAndARule) {
 TEST(Door, ATriangleTakesAllButWhatNeedsMore) {
     const std::set<std::string_view> taken = takes(case_of(door_file("", kDoorTriangle)));
     for (const DoorRow& row : all_doors()) {
-        const bool needs_more = row.door == Door::restart_extra ||
-                                row.door == Door::instance_rate || row.door == Door::secondary_each;
+        const bool needs_more =
+            row.door == Door::restart_extra || row.door == Door::instance_rate ||
+            row.door == Door::instance_divisor || row.door == Door::instance_divisor_zero ||
+            row.door == Door::secondary_each || row.door == Door::query_first;
         EXPECT_EQ(taken.contains(row.word), !needs_more) << row.word;
     }
 }
@@ -153,6 +155,78 @@ TEST(Door, OnlyNumbersOfBinary16GoThroughHalves) {
     EXPECT_FALSE(are_half_floats(Positions{}));
     EXPECT_EQ(half_bits(-0.0F), 0x8000);
     EXPECT_EQ(half_bits(1.0F), 0x3c00);
+}
+
+// Half of 19 is 9.5, and 2 x / 19 - 1 no number of binary32: its window coordinate is rounded, and
+// another number further to the right.
+TEST(Door, OnlyWhatIsExactInTheWindowIsMoved) {
+    Case c = case_of(door_file("", kDoorTriangle));
+    EXPECT_TRUE(can_take(Door::target_last_tile, c));
+    const auto takes_with = [&c](auto change) {
+        Case other = c;
+        change(other.draws.front());
+        return can_take(Door::target_last_tile, other);
+    };
+    EXPECT_FALSE(takes_with([](Draw& d) { d.positions[0] = {1 / 3.0F, 0, 0, 1}; }));
+    EXPECT_TRUE(takes_with([](Draw& d) { d.positions[0] = {1 / 16.0F, 0, 0, 1}; }));
+    EXPECT_FALSE(takes_with([](Draw& d) { d.positions[0] = {0x1p-20F, 0, 0, 1}; }));
+    EXPECT_FALSE(takes_with([](Draw& d) { d.positions[0] = {1.5F, 0, 0, 1}; }));
+    EXPECT_FALSE(takes_with([](Draw& d) { d.positions[0] = {0, 0, 1.5F, 1}; }));
+    EXPECT_FALSE(takes_with([](Draw& d) { d.positions[0] = {0, 0, 0, 2}; }));
+    EXPECT_FALSE(takes_with([](Draw& d) { d.distances.clip_count = 1; }));
+    // Within two pixels of the target's corner the budgets are too small for the other place.
+    EXPECT_FALSE(takes_with([](Draw& d) {
+        d.viewport.width = 1;
+        d.viewport.height = 16;
+    }));
+    EXPECT_FALSE(takes_with([](Draw& d) {
+        d.viewport.width = 16;
+        d.viewport.height = 1;
+    }));
+    EXPECT_EQ(kMovedColumns % 2, 0U);
+    EXPECT_EQ(kMovedRows % 2, 0U);
+}
+
+TEST(Door, WhatAShaderMayLoseIsNotReadAsInput) {
+    Case c = case_of(door_file("", kDoorTriangle));
+    EXPECT_TRUE(can_take(Door::input_attachment, c));
+    Attribute a;
+    a.values.assign(3, glm::vec4(1, -2, 0, 0.5F));
+    c.draws.front().attributes = {a};
+    EXPECT_TRUE(can_take(Door::input_attachment, c));
+    for (const float lost : {0x1p-130F, 0x1p-31F, std::numeric_limits<float>::infinity(),
+                             std::numeric_limits<float>::quiet_NaN()}) {
+        c.draws.front().attributes[0].values[1].w = lost;
+        EXPECT_FALSE(can_take(Door::input_attachment, c)) << lost;
+    }
+    c.draws.front().attributes.clear();
+    const auto takes_with = [&c](auto change) {
+        Case other = c;
+        change(other.draws.front());
+        return can_take(Door::input_attachment, other);
+    };
+    EXPECT_FALSE(takes_with([](Draw& d) { d.positions[1].z = 0x1p-40F; }));
+    EXPECT_FALSE(takes_with([](Draw& d) { d.positions[1].w = 0x1p40F; }));
+    EXPECT_FALSE(takes_with([](Draw& d) { d.viewport.max_depth = 0x1p-40F; }));
+    EXPECT_FALSE(takes_with([](Draw& d) { d.depth.bias.emplace(); }));
+    EXPECT_FALSE(takes_with([](Draw& d) { d.frag_depth = FragDepth{false, 0x1p-40F}; }));
+    c.target.layers = 2;
+    EXPECT_FALSE(can_take(Door::input_attachment, c));
+}
+
+TEST(Door, OnlyACaseWithAQueryBeginsOneFirst) {
+    Case c = case_of(door_file("", kDoorTriangle));
+    EXPECT_FALSE(can_take(Door::query_first, c));
+    c.draws.front().query = Query::occlusion;
+    EXPECT_TRUE(can_take(Door::query_first, c));
+}
+
+TEST(Door, AMeshHasAGroupForEachTriangle) {
+    Case c = case_of(door_file("", kDoorTriangle));
+    c.draws.front().positions.resize(size_t{3} * 65535);
+    EXPECT_TRUE(can_take(Door::mesh_shader, c));
+    c.draws.front().positions.resize(size_t{3} * 65536);
+    EXPECT_FALSE(can_take(Door::mesh_shader, c));
 }
 
 TEST(Door, WhatRestartsTakesNoLargestIndex) {

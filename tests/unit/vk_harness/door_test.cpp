@@ -32,7 +32,23 @@ bool is_drawn_as(const capture::Capture& plain, const capture::Capture& door) {
 }
 
 TEST(DoorSupport, EveryNeedIsAskedFor) {
-    DoorSupport all{true, true, true, true, true, true, true, true, true, true, true, true, true};
+    const DoorSupport all{.index_8 = true,
+                          .indirect_count = true,
+                          .multi_indirect = true,
+                          .multi_draw = true,
+                          .dynamic_outputs = true,
+                          .library = true,
+                          .multiview = true,
+                          .geometry = true,
+                          .tessellation = true,
+                          .feedback = true,
+                          .shader_objects = true,
+                          .divisor = true,
+                          .divisor_zero = true,
+                          .mesh = true,
+                          .fragment_stores = true,
+                          .linear = true,
+                          .host_import = true};
     for (const cases::DoorRow& row : cases::all_doors()) {
         const auto missing = missing_door_support(DoorSupport{}, row.door);
         EXPECT_EQ(missing.has_value(), !row.needs.empty()) << row.word;
@@ -41,6 +57,36 @@ TEST(DoorSupport, EveryNeedIsAskedFor) {
         }
         EXPECT_FALSE(missing_door_support(all, row.door)) << row.word;
     }
+}
+
+TEST(DoorSupport, AMeshShaderNamesSoManyLayers) {
+    cases::Case test = two_triangles(cases::Door::mesh_shader);
+    test.target.layers = 9;
+    DoorSupport support;
+    support.mesh_layers = 8;
+    test.draws[0].layer = 7;
+    EXPECT_EQ(missing_mesh_layers(support, test), std::nullopt);
+    test.draws[0].layer = 8;
+    EXPECT_EQ(
+        missing_mesh_layers(support, test),
+        "a mesh shader of the device names 8 layers (maxMeshOutputLayers), and a draw goes to "
+        "number 8");
+    test.variation.door = cases::Door::geometry;
+    EXPECT_EQ(missing_mesh_layers(support, test), std::nullopt);
+}
+
+TEST(DoorImages, AViewportThatIsMovedStaysInTheDevicesRange) {
+    Capabilities c;
+    c.limits.maxImageDimension2D = 4096;
+    c.limits.maxImageArrayLayers = 1;
+    c.limits.viewportBoundsRange[1] = 16 + cases::kMovedColumns;
+    cases::Case test = two_triangles(cases::Door::target_last_tile);
+    EXPECT_EQ(missing_images(c, test), std::nullopt);
+    test.draws[0].viewport.width += 1;
+    EXPECT_EQ(
+        missing_images(c, test),
+        "a viewport 296 columns and 200 rows further leaves the device's range, which ends at "
+        "312 pixels");
 }
 
 TEST(DoorImages, ThatAreLargerThanTheDeviceHasAreToldByTheirSize) {

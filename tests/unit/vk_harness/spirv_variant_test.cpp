@@ -218,6 +218,44 @@ TEST(SpirvVariant, EveryEmbeddedModuleIsValid) {
     EXPECT_GE(count, 200U);
 }
 
+TEST(SpirvVariant, AnUnusedOutputIsAdded) {
+    for (const std::span<const uint32_t> code :
+         {shaders::capture_vertex({0, 0, 0, false, false, false, false}),
+          shaders::capture_vertex({2, 1, 0, false, false, true, false}),
+          shaders::capture_fragment({}), shaders::clear_depth()}) {
+        auto once = shaders::with_unused_output(code, 8);
+        ASSERT_TRUE(once) << once.error();
+        EXPECT_EQ(validator_says(*once), "");
+        const auto twice = shaders::with_unused_output(*once, 13);
+        ASSERT_TRUE(twice) << twice.error();
+        EXPECT_EQ(validator_says(*twice), "");
+        const auto again = shaders::with_unused_output(*once, 8);
+        ASSERT_FALSE(again);
+        EXPECT_EQ(again.error(), "the module has an output at location 8");
+    }
+    EXPECT_FALSE(shaders::with_unused_output(small_module().words(), 8));
+}
+
+TEST(SpirvVariant, TheSubpassInputIsRenumbered) {
+    for (const bool is_integer : {false, true}) {
+        for (const bool has_samples : {false, true}) {
+            const auto code = shaders::read_input(is_integer, has_samples);
+            const auto changed = shaders::with_input_index(code, 5);
+            ASSERT_TRUE(changed) << changed.error();
+            EXPECT_EQ(validator_says(*changed), "");
+            EXPECT_EQ(changed->size(), code.size());
+            size_t differing = 0;
+            for (size_t k = 0; k < code.size(); ++k) {
+                differing += (*changed)[k] != code[k] ? 1U : 0U;
+            }
+            EXPECT_EQ(differing, 1U);
+        }
+    }
+    const auto none = shaders::with_input_index(shaders::clear_vertex(), 5);
+    ASSERT_FALSE(none);
+    EXPECT_EQ(none.error(), "the module has 0 subpass inputs");
+}
+
 // Every interpolation with every auxiliary qualifier, on devices with and without primitive ids.
 TEST(SpirvVariant, EveryChangedModuleIsValid) {
     using cases::Auxiliary;
