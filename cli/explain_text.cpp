@@ -217,8 +217,7 @@ std::string counted_text(const cases::Case& c, const ref::Expectation& expectati
     const ref::SampleExpectation& sample = expectation.samples[index];
     const std::span<const ref::CountedDraw> counted = expectation.counted_of(sample);
     for (uint32_t draw = 0; draw < c.draws.size(); ++draw) {
-        const cases::Query query = c.draws[draw].query;
-        if (query != cases::Query::occlusion && query != cases::Query::occlusion_precise) {
+        if (!cases::is_occlusion(c.draws[draw].query)) {
             continue;
         }
         const auto found = std::ranges::find(counted, draw, &ref::CountedDraw::draw);

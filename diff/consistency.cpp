@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "cases/model/rule.hpp"
+#include "cases/model/sample.hpp"
 
 namespace diff {
 
@@ -142,9 +143,10 @@ uint32_t original_of(uint32_t plane, const capture::CaptureView& base,
 
 class BitComparison {
   public:
-    BitComparison(const capture::CaptureView& base, const capture::CaptureView& derived,
-                  const cases::Derivation& derivation)
-        : base_(base),
+    BitComparison(const cases::Case& c, const capture::CaptureView& base,
+                  const capture::CaptureView& derived, const cases::Derivation& derivation)
+        : draws_(c.draws),
+          base_(base),
           variation_(derivation.variation),
           theirs_(planes_of(derived)),
           counted_(derived.counted),
@@ -191,10 +193,12 @@ class BitComparison {
         return true;
     }
 
-    // The same samples pass in both, so that the queries count as many.
+    // The same samples pass in both, so that occlusion queries count as many. Statistics may
+    // differ: how often a device does a thing is no part of the state that repeats
+    // ("Repeatability").
     void compare_counts() {
         for (uint32_t k = 0; k < base_.counted.size() && k < counted_.size(); ++k) {
-            if (counted_[k] == capture::kNotAsked) {
+            if (cases::is_statistic(draws_[k].query)) {
                 continue;
             }
             ++result_.compared;
@@ -227,6 +231,7 @@ class BitComparison {
         }
     }
 
+    const std::vector<cases::Draw>& draws_;
     const capture::CaptureView& base_;
     const cases::Variation& variation_;
     std::array<PlaneWords, kPlanes> ours_, theirs_;
@@ -340,9 +345,9 @@ void vary_plane(std::vector<T>& plane, uint32_t id, std::span<const capture::Sam
 
 }  // namespace
 
-Consistency compare_bits(const capture::CaptureView& base, const capture::CaptureView& derived,
-                         const cases::Derivation& derivation) {
-    return BitComparison(base, derived, derivation).run();
+Consistency compare_bits(const cases::Case& c, const capture::CaptureView& base,
+                         const capture::CaptureView& derived, const cases::Derivation& derivation) {
+    return BitComparison(c, base, derived, derivation).run();
 }
 
 void vary(capture::Capture& capture, const cases::Variation& variation) {

@@ -60,8 +60,8 @@ struct Consistency {
 
 // `base` is the case as it stands, `derived` what cases::derive() drew. Samples of `base` that
 // contradict themselves or were not copied are passed over: compare() reports them.
-Consistency compare_bits(const capture::CaptureView& base, const capture::CaptureView& derived,
-                         const cases::Derivation& derivation);
+Consistency compare_bits(const cases::Case& c, const capture::CaptureView& base,
+                         const capture::CaptureView& derived, const cases::Derivation& derivation);
 
 // Makes a capture of a case into what the variation should have drawn (fakes in tests, and the
 // reference as a device).

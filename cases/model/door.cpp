@@ -323,7 +323,7 @@ bool can_be_meshes(const Case& c) {
     });
 }
 
-// Statistics are asked of the plain rendering alone.
+// Statistics are not asked through doors.
 bool has_occlusion_query(const Case& c) {
     return any_draw(c, [](const Draw& draw) { return is_occlusion(draw.query); });
 }

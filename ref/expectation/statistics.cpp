@@ -143,7 +143,10 @@ std::array<double, 2> pixel_of(const Draw& draw, uint32_t vertex) {
                 (static_cast<double>(at.y) / w + 1) / 2 * static_cast<double>(v.height)};
 }
 
-// Whether a triangle before the eye has an area that snapping does not take: more than a pixel.
+// Whether a triangle before the eye must have a sample, however its corners are snapped: no device
+// may leave it out as one without. Its incircle's radius is twice its area by its perimeter, which
+// is at most 4 sqrt(2) times the larger of two sides' extents; a disc of radius sqrt(1/2) has the
+// centre of some pixel. Snapping takes less than the fifth part of it.
 bool has_area(const Draw& draw, const cases::Triangle& t) {
     const auto a = pixel_of(draw, t.vertex[0]);
     const auto b = pixel_of(draw, t.vertex[1]);
@@ -151,7 +154,7 @@ bool has_area(const Draw& draw, const cases::Triangle& t) {
     const double area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     const double span = std::max({std::fabs(b[0] - a[0]), std::fabs(c[0] - a[0]),
                                   std::fabs(b[1] - a[1]), std::fabs(c[1] - a[1])});
-    return std::fabs(area) > 2 && std::fabs(area) > span / 8;
+    return std::fabs(area) > 5 * span;
 }
 
 // The triangles that must cover a sample: those that alone may have written one that is hit.
@@ -162,6 +165,15 @@ std::vector<bool> must_cover(const Expectation& expectation) {
         if (sample.hits.total_min > 0 && sample.writers_count == 1) {
             out[expectation.writers_of(sample).front()] = true;
         }
+    }
+    return out;
+}
+
+uint64_t covering(size_t draw, const Expectation& expectation) {
+    const std::vector<bool> covers = must_cover(expectation);
+    uint64_t out = 0;
+    for (size_t t = 0; t < expectation.triangles.size(); ++t) {
+        out += expectation.triangles[t].draw == draw && covers[t] ? 1U : 0U;
     }
     return out;
 }
@@ -193,9 +205,10 @@ CountBounds clipping_primitives(const Draw& draw, size_t number, const Assembly&
     return out;
 }
 
-// The quads of pixels that a draw's fragments may lie in, primitive by primitive: those of the
-// rectangle around it, or of the scissor.
-uint64_t quads_of(const Draw& draw, size_t number, const Expectation& expectation) {
+// The quads of pixels that a draw's fragments may lie in, or no bound: primitive by primitive those
+// of the rectangle around it, or of the scissor, for each piece that clipping may make of it.
+// Pieces share quads along their common sides.
+std::optional<uint64_t> quads_of(const Draw& draw, size_t number, const Expectation& expectation) {
     const cases::Target& target = expectation.target;
     const auto quads = [](double low, double high) {
         return high > low ? std::ceil(high / 2) - std::floor(low / 2) : 0.0;
@@ -208,6 +221,10 @@ uint64_t quads_of(const Draw& draw, size_t number, const Expectation& expectatio
     for (const cases::Triangle& t : expectation.triangles) {
         if (t.draw != number) {
             continue;
+        }
+        const Clipped clipped = clipped_of(draw, t);
+        if (!clipped.is_known) {
+            return std::nullopt;
         }
         std::array<double, 4> box{x0, y0, x1, y1};
         const bool is_bounded =
@@ -226,7 +243,8 @@ uint64_t quads_of(const Draw& draw, size_t number, const Expectation& expectatio
             box = {std::max(x0, std::floor(own[0])), std::max(y0, std::floor(own[1])),
                    std::min(x1, std::ceil(own[2])), std::min(y1, std::ceil(own[3]))};
         }
-        out += quads(box[0], box[2]) * quads(box[1], box[3]);
+        out +=
+            static_cast<double>(1 + clipped.planes) * quads(box[0], box[2]) * quads(box[1], box[3]);
     }
     return static_cast<uint64_t>(out);
 }
@@ -265,7 +283,9 @@ CountBounds fragment_invocations(const cases::Case& c, size_t number,
     }
     if (expectation.profile == Profile::direct3d && !draw.rasterizer_discard) {
         const bool is_split = value::shading_rate(draw, samples) != value::ShadingRate::fragment;
-        out.most = 4 * quads_of(draw, number, expectation) * (is_split ? samples : 1);
+        if (const auto quads = quads_of(draw, number, expectation)) {
+            out.most = 4 * *quads * (is_split ? samples : 1);
+        }
     }
     return out;
 }
@@ -296,7 +316,10 @@ CountBounds statistic_bounds(const cases::Case& c, size_t draw, const Expectatio
             out = {a.distinct, 3 * a.primitives + a.leftover};
             break;
         case Query::clipping_invocations:
-            out = {d.rasterizer_discard ? 0 : a.primitives, a.primitives + a.incomplete};
+            out = {d.rasterizer_discard ? 0
+                   : is_direct3d        ? a.primitives
+                                        : covering(draw, expectation),
+                   a.primitives + a.incomplete};
             break;
         case Query::clipping_primitives:
             out = clipping_primitives(d, draw, a, expectation);

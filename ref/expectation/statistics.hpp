@@ -11,13 +11,19 @@
 //   vertices and primitives   of complete primitives ("incomplete primitives may be counted"); of
 //                             indices that name a vertex twice it counts once
 //   vertex invocations        one a vertex: its results may be reused
-//   clipping invocations      one a primitive, of whatever face; none with rasterizer discard
+//   clipping invocations      one for each triangle with a sample that it must cover: devices leave
+//   out
+//                             what cannot have one before they clip; none with rasterizer discard
 //   clipping primitives       one for each triangle with a vertex inside the clip volume and a
 //                             sample that it must cover
 //   fragment invocations      one a fragment that shows; from practice on one for each of its
 //   samples
 //                             if sample shading asks for that, and one for what the shader discards
 //                             after early tests, which were no invocations if they did not count
+//
+// A fragment that shows was shaded, since a query goes with the attachments that count hits: their
+// values differ from pixel to pixel, and add up. Else one invocation might do for several fragments
+// ("if a fragment shader statically computes the same values"), or a later draw hide it.
 //
 // Direct3D bounds them. Assembled vertices ("not subtracting any caching") and primitives are exact
 // up to what incomplete primitives add; shading and clipping lie between two numbers: an infinite

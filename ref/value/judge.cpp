@@ -84,7 +84,7 @@ void ValueReference::Impl::judge_sign(uint32_t t, const FragmentValues& device,
         return;
     }
     const float got = device.attributes.at(draw.discard_attribute).x;
-    if (got <= -cases::kLeastNormal) {
+    if (std::isfinite(got) && got <= -cases::kLeastNormal) {
         const QuantityId id = QuantityId::of_attribute(draw.discard_attribute, 0);
         const auto found = std::ranges::find(quantities_of(t), id, &Quantity::id);
         add_mismatch(

@@ -42,10 +42,10 @@ Sign sign_of(const value::AcceptedRange<Ball>& accepted) {
 }
 
 Sign sign_of(float flat) {
-    return flat <= -kLeastNormal                    ? Sign::negative
-           : flat >= 0 && std::isfinite(flat)       ? Sign::not_negative
-           : std::isinf(flat) && std::signbit(flat) ? Sign::negative
-                                                    : Sign::open;
+    return !std::isfinite(flat)    ? Sign::open
+           : flat <= -kLeastNormal ? Sign::negative
+           : flat >= 0             ? Sign::not_negative
+                                   : Sign::open;
 }
 
 }  // namespace

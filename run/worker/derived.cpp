@@ -170,7 +170,7 @@ std::vector<RenderedCase> render_with_derived(
             damage(origin.of, derived);
         }
         diff::Consistency& found = result.consistency[origin.derivation];
-        found = diff::compare_bits(view_of(own), view_of(derived), derivation);
+        found = diff::compare_bits(batch[origin.of], view_of(own), view_of(derived), derivation);
         if (is_door && found.different > 0) {
             judge_door(batch[origin.of], own, derived, backend.device(),
                        cases::row_of(derivation.variation.door).promise, found);

@@ -33,6 +33,7 @@ bool each_feature(void* structure, Visit&& visit) {
             DEVICE_CLASSES_FEATURE(dualSrcBlend)
             DEVICE_CLASSES_FEATURE(logicOp)
             DEVICE_CLASSES_FEATURE(alphaToOne)
+            DEVICE_CLASSES_FEATURE(pipelineStatisticsQuery)
             DEVICE_CLASSES_FEATURE(multiDrawIndirect)
             DEVICE_CLASSES_FEATURE(depthClamp)
             DEVICE_CLASSES_FEATURE(depthBiasClamp)

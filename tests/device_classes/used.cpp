@@ -14,6 +14,7 @@ namespace {
 struct Driver : vulkan_layer::Device {
     PFN_vkCreateImage CreateImage = nullptr;
     PFN_vkCreateShaderModule CreateShaderModule = nullptr;
+    PFN_vkCreateQueryPool CreateQueryPool = nullptr;
     PFN_vkCreateGraphicsPipelines CreateGraphicsPipelines = nullptr;
     PFN_vkCmdSetPrimitiveTopology CmdSetPrimitiveTopology = nullptr;
 };
@@ -156,7 +157,15 @@ VKAPI_ATTR void VKAPI_CALL set_primitive_topology(VkCommandBuffer commands,
     driver_of(commands).CmdSetPrimitiveTopology(commands, topology);
 }
 
+VKAPI_ATTR VkResult VKAPI_CALL create_query_pool(VkDevice device, const VkQueryPoolCreateInfo* info,
+                                                 const VkAllocationCallbacks* allocator,
+                                                 VkQueryPool* out) {
+    need(info->queryType == VK_QUERY_TYPE_PIPELINE_STATISTICS, "pipelineStatisticsQuery");
+    return driver_of(device).CreateQueryPool(device, info, allocator, out);
+}
+
 const vulkan_layer::OwnCommand kCommands[] = {
+    VULKAN_LAYER_OWN(CreateQueryPool, create_query_pool),
     VULKAN_LAYER_OWN(CreateImage, create_image),
     VULKAN_LAYER_OWN(CreateShaderModule, create_shader_module),
     VULKAN_LAYER_OWN(CreateGraphicsPipelines, create_graphics_pipelines),
@@ -216,6 +225,7 @@ std::unique_ptr<Device> load_device(VkDevice device, PFN_vkGetDeviceProcAddr nex
     };
     load(driver->CreateImage, "vkCreateImage");
     load(driver->CreateShaderModule, "vkCreateShaderModule");
+    load(driver->CreateQueryPool, "vkCreateQueryPool");
     load(driver->CreateGraphicsPipelines, "vkCreateGraphicsPipelines");
     load(driver->CmdSetPrimitiveTopology, "vkCmdSetPrimitiveTopology");
     return driver;

@@ -144,6 +144,25 @@ vertices = [[0, 0], [3, 0], [0, 3]]
         self.assertEqual(nearest, 0.46875)
         self.assertTrue(low < nearest < high < low + 1e-5)
         self.assertNotIn("exact", writer)
+        self.write_case("fam/counted", """format = 1
+description = "a"
+rules = ["query.statistics"]
+target = { size = [4, 4] }
+[[draw]]
+query = "input-vertices"
+topology = "triangle-strip"
+vertices = [[0, 0], [4, 0], [0, 4], [4, 4]]
+[[draw]]
+query = "fragment-invocations"
+vertices = [[0, 0], [4, 0], [0, 4]]
+""")
+        # Six samples lie below the diagonal; four quads of 2 x 2 pixels lie around them.
+        self.assertEqual(self.json("fam/counted", "--profile", "direct3d")["queries"],
+                         [{"draw": 0, "query": "input-vertices", "counted": [4, 4]},
+                          {"draw": 1, "query": "fragment-invocations", "counted": [6, 16]}])
+        self.assertEqual(self.json("fam/counted", "--profile", "vulkan")["queries"],
+                         [{"draw": 0, "query": "input-vertices", "counted": [4, None]},
+                          {"draw": 1, "query": "fragment-invocations", "counted": [6, None]}])
         self.write_case("fam/thirds", """format = 1
 description = "a"
 rules = ["cover.inside"]

@@ -119,6 +119,11 @@ class Explain(TerminalTest):
         # Below the diagonal, whose own samples belong to the other side.
         self.assertIn("\nthe query of draw 0 has to give 6\n"
                       "the query of draw 1 is not precise: of 6 samples it has to give any number but 0\n", text)
+        (self.folder / "counted.toml").write_text(
+            'format = 1\ndescription = "a"\ncatches = "b"\nrules = ["query.statistics"]\ntarget = { size = [4, 4] }\n'
+            '[[draw]]\nquery = "vertex-invocations"\nvertices = [[0, 0], [4, 0], [0, 4]]\nindices = [0, 1, 2, 2, 1, 0]\n')
+        counted = self.edgecase("explain", self.folder / "counted.toml", check=0).stdout
+        self.assertIn("\nthe query of draw 0 has to give 3 to 6 vertex-invocations\n", counted)
         text = self.edgecase("explain", self.folder / "asked.toml", "--pixel", "0,0", check=0).stdout
         self.assertIn("\nthe query of draw 0 counts 1 here\nthe query of draw 1 counts 1 here\n", text)
         self.assertIn("\nthe query of draw 0 has to give 6\n", text)

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Queries around the draws of a case, of occlusion and of pipeline statistics. The latter are asked
-// in the case's own rendering alone: through a door a draw may be other vertices.
+// where a case is drawn as it is: through a door a draw may be other vertices.
 #pragma once
 
 #include <cstdint>

@@ -170,7 +170,10 @@ inline std::string fragment_shader(const Context& gl, const Json& draw, size_t a
         body += "gl_SampleMask[0] = shader_mask;\n";
     }
     if (draw["discard"] != "none") {  // at the end, so that derivatives see every fragment
-        body += "if (" + picked(draw["discard"]) + ") discard;\n";
+        const std::string value = "attribute" + draw["discard_attribute"].dump() + ".x";
+        body += "if (" +
+                (draw["discard"] == "negative" ? value + " < 0.0" : picked(draw["discard"])) +
+                ") discard;\n";
     }
     return head + "void main() {\n" + body + "}\n";
 }

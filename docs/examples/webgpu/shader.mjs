@@ -63,7 +63,8 @@ export function shader(draw, number, attributes, color, hasPrimitives) {
     writes.push(`out.depth = ${coord ? 'in.position.z' : chosen};`);
   }
   if (draw.discard !== 'none') { // at the end, so that derivatives see every fragment
-    writes.push(`if (${PICKED[draw.discard]}) { discard; }`);
+    const condition = draw.discard === 'negative' ? `in.a${draw.discard_attribute}.x < 0` : PICKED[draw.discard];
+    writes.push(`if (${condition}) { discard; }`);
   }
   const clipIn = clips > 0 ? '@location(5) clips: vec4f' : '';
   const clipOut = clips > 0 ? `@builtin(clip_distances) clips: array<f32, ${clips}>,` : '';

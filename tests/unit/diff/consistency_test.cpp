@@ -60,7 +60,7 @@ TEST(Consistency, EveryRelationAcceptsWhatItDemands) {
         for (const Derivation& d : scene.derivations()) {
             capture::Capture derived = scene.base;
             vary(derived, d.variation);
-            const Consistency found = compare_bits(scene.base, derived, d);
+            const Consistency found = compare_bits(scene.test, scene.base, derived, d);
             EXPECT_EQ(found.compared, 64U) << d.name;
             EXPECT_EQ(found.different, 0U) << d.name;
         }
@@ -75,7 +75,7 @@ TEST(Consistency, EveryBitOfEveryPlaneCounts) {
             capture::Capture derived = scene.base;
             vary(derived, d.variation);
             flip_each(derived, [&](size_t sample, uint32_t plane, uint32_t word) {
-                const Consistency found = compare_bits(scene.base, derived, d);
+                const Consistency found = compare_bits(scene.test, scene.base, derived, d);
                 ASSERT_EQ(found.different, 1U) << d.name << " plane " << plane;
                 ASSERT_EQ(found.differences.size(), 1U);
                 EXPECT_EQ(found.differences[0].sample, sample);
@@ -90,7 +90,7 @@ TEST(Consistency, UnchangedAttachmentsBreakOtherClearsAndMasks) {
     for (const RelationKind kind : {RelationKind::other_clears, RelationKind::write_masks}) {
         const Scene scene(kind);
         for (const Derivation& d : scene.derivations()) {
-            EXPECT_GT(compare_bits(scene.base, scene.base, d).different, 0U) << d.name;
+            EXPECT_GT(compare_bits(scene.test, scene.base, scene.base, d).different, 0U) << d.name;
         }
     }
 }
@@ -118,12 +118,12 @@ TEST(Consistency, NaNsAreComparedByTheirBits) {
     const Derivation d = scene.derivations()[0];
     scene.base.attributes[0][18].y = std::bit_cast<float>(0x7fc00001U);
     capture::Capture derived = scene.base;
-    EXPECT_EQ(compare_bits(scene.base, derived, d).different, 0U);
+    EXPECT_EQ(compare_bits(scene.test, scene.base, derived, d).different, 0U);
     derived.attributes[0][18].y = std::bit_cast<float>(0x7fc00002U);
-    EXPECT_EQ(compare_bits(scene.base, derived, d).different, 1U);
+    EXPECT_EQ(compare_bits(scene.test, scene.base, derived, d).different, 1U);
     scene.base.attributes[0][18].y = 0.0F;
     derived.attributes[0][18].y = -0.0F;
-    EXPECT_EQ(compare_bits(scene.base, derived, d).different, 1U);
+    EXPECT_EQ(compare_bits(scene.test, scene.base, derived, d).different, 1U);
 }
 
 TEST(Consistency, FewerAttributesCompareTheRest) {
@@ -133,9 +133,9 @@ TEST(Consistency, FewerAttributesCompareTheRest) {
     capture::Capture derived = scene.base;
     derived.attribute_count = 0;
     derived.attributes[0].clear();
-    EXPECT_EQ(compare_bits(scene.base, derived, d).different, 0U);
+    EXPECT_EQ(compare_bits(scene.test, scene.base, derived, d).different, 0U);
     derived.hits[18].x += 1;
-    EXPECT_EQ(compare_bits(scene.base, derived, d).different, 1U);
+    EXPECT_EQ(compare_bits(scene.test, scene.base, derived, d).different, 1U);
 }
 
 TEST(Consistency, CopiesOfAttributesEqualTheirOriginals) {
@@ -145,9 +145,9 @@ TEST(Consistency, CopiesOfAttributesEqualTheirOriginals) {
     capture::Capture derived = scene.base;
     derived.attribute_count = 2;
     derived.attributes[1] = derived.attributes[0];
-    EXPECT_EQ(compare_bits(scene.base, derived, d).different, 0U);
+    EXPECT_EQ(compare_bits(scene.test, scene.base, derived, d).different, 0U);
     derived.attributes[1][18].x = std::nextafter(derived.attributes[1][18].x, 9.0F);
-    const Consistency found = compare_bits(scene.base, derived, d);
+    const Consistency found = compare_bits(scene.test, scene.base, derived, d);
     ASSERT_EQ(found.different, 1U);
     EXPECT_EQ(plane_name(found.differences[0].plane, found.differences[0].word), "attribute 1.x");
 }
@@ -157,7 +157,7 @@ TEST(Consistency, FindingsNameSampleBitsAndRule) {
     const std::vector<Derivation> d = scene.derivations();
     capture::Capture derived = scene.base;
     derived.hits[18].x += 1;
-    const std::vector<Consistency> found = {compare_bits(scene.base, derived, d[0])};
+    const std::vector<Consistency> found = {compare_bits(scene.test, scene.base, derived, d[0])};
     Verdict verdict;
     verdict.profile = cases::Profile::vulkan;
     verdict.marks.assign(64, SampleMark::ok);
@@ -183,8 +183,8 @@ TEST(Consistency, AllDifferentSamplesAreCountedAndTheFirstOnesKept) {
     for (float& depth : derived.depth) {
         depth += 1.0F;
     }
-    const std::vector<Consistency> found = {compare_bits(scene.base, derived, d[0]),
-                                            compare_bits(scene.base, scene.base, d[1])};
+    const std::vector<Consistency> found = {compare_bits(scene.test, scene.base, derived, d[0]),
+                                            compare_bits(scene.test, scene.base, scene.base, d[1])};
     EXPECT_EQ(found[0].different, 64U);
     EXPECT_EQ(found[0].differences.size(), kMaxDifferences);
     Verdict verdict;
@@ -225,20 +225,20 @@ std::vector<Derivation> through(Scene& scene, cases::Door door) {
 TEST(Consistency, ADoorMovesTheNumbersOfVerticesAndNothingElse) {
     Scene scene;
     const Derivation d = through(scene, cases::Door::vertex_offset).front();
-    EXPECT_EQ(compare_bits(scene.base, scene.base, d).different, 15U);
+    EXPECT_EQ(compare_bits(scene.test, scene.base, scene.base, d).different, 15U);
     capture::Capture moved = scene.base;
     vary(moved, d.variation);
-    EXPECT_EQ(compare_bits(scene.base, moved, d).different, 0U);
+    EXPECT_EQ(compare_bits(scene.test, scene.base, moved, d).different, 0U);
     EXPECT_EQ(moved.writers[2 * 8 + 2].provoking_vertex,
               scene.base.writers[2 * 8 + 2].provoking_vertex + cases::kMovedVertices);
     flip_each(moved, [&](size_t sample, uint32_t plane, uint32_t word) {
-        const Consistency found = compare_bits(scene.base, moved, d);
+        const Consistency found = compare_bits(scene.test, scene.base, moved, d);
         ASSERT_EQ(found.different, 1U) << plane << " " << word;
         EXPECT_EQ(found.differences.front().sample, sample);
     });
     const Derivation plain = through(scene, cases::Door::index_16).front();
-    EXPECT_EQ(compare_bits(scene.base, scene.base, plain).different, 0U);
-    EXPECT_NE(compare_bits(scene.base, moved, plain).different, 0U);
+    EXPECT_EQ(compare_bits(scene.test, scene.base, scene.base, plain).different, 0U);
+    EXPECT_NE(compare_bits(scene.test, scene.base, moved, plain).different, 0U);
 }
 
 TEST(Consistency, WhatIsMaskedHoldsItsClearValueInEveryWord) {
@@ -261,7 +261,7 @@ TEST(Consistency, PrimitivesOfASplitDrawMayBeginAgainAndNothingElse) {
     vary(derived, d.variation);
     const auto different = [&](uint32_t primitive) {
         derived.writers[at].primitive = primitive;
-        return compare_bits(base, derived, d).different;
+        return compare_bits(scene.test, base, derived, d).different;
     };
     EXPECT_EQ(different(4), 0U);
     EXPECT_EQ(different(2), 0U);

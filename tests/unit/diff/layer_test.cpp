@@ -132,7 +132,7 @@ TEST(LayeredCompare, ADifferenceOfARelationIsInItsLayer) {
     capture::Capture again = k.capture;
     again.depth[k.at(1, 0, 2)] = 0.25F;
     std::vector<diff::Consistency> found(derivations.size());
-    found[0] = diff::compare_bits(k.capture, again, derivations[0]);
+    found[0] = diff::compare_bits(k.c, k.capture, again, derivations[0]);
     diff::Verdict v = diff::compare(k.c, k.e, k.capture);
     diff::add_differences(k.c, derivations, found, v);
     ASSERT_EQ(v.findings.size(), 1U);

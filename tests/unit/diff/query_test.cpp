@@ -89,7 +89,7 @@ TEST(QueryJudge, ACountThatADoorChangesBelongsToNoSample) {
     derived.counted[2] = 63;
     std::vector<Consistency> found;
     for (const cases::Derivation& derivation : derivations) {
-        found.push_back(compare_bits(base, derived, derivation));
+        found.push_back(compare_bits(c, base, derived, derivation));
     }
     Verdict verdict = verdict_of(c, base);
     add_differences(c, derivations, found, verdict);
@@ -150,16 +150,17 @@ TEST(QueryJudge, StatisticsHaveALeastAndAtDirect3DAMost) {
     }
 }
 
-TEST(QueryJudge, StatisticsThatWereNotAskedAreNotCompared) {
+TEST(QueryJudge, StatisticsOfOtherRenderingsAreNotCompared) {
     cases::Case c = asked(Query::vertex_invocations);
     c.relations = {{cases::RelationKind::same_twice, {}}};
     const capture::Capture base = rasterizers::draw_by_reference(c);
     capture::Capture derived = base;
-    derived.counted.assign(3, capture::kNotAsked);
+    // A cache of vertices, or an early test, may do its work in one of them and not in the other.
+    derived.counted[1] += 5;
     const std::vector<cases::Derivation> derivations = cases::derivations(c);
-    EXPECT_EQ(compare_bits(base, derived, derivations[0]).different, 0U);
-    derived.counted[1] = 77;
-    EXPECT_EQ(compare_bits(base, derived, derivations[0]).different, 1U);
+    EXPECT_EQ(compare_bits(c, base, derived, derivations[0]).different, 0U);
+    derived.counted[1] = capture::kNotAsked;
+    EXPECT_EQ(compare_bits(c, base, derived, derivations[0]).different, 0U);
 }
 
 TEST(QueryJudge, DrawsWithoutQueriesAreNotJudged) {
@@ -246,7 +247,7 @@ TEST(QueryJudge, OtherPipelinesMayCountWhatIsDiscardedEarly) {
         capture::Capture other = base;
         vary(other, derivation.variation);
         other.counted[2] = 32;
-        const std::vector<Consistency> found = {compare_bits(base, other, derivation)};
+        const std::vector<Consistency> found = {compare_bits(c, base, other, derivation)};
         for (const Profile profile : cases::kProfiles) {
             Verdict verdict = verdict_of(c, base, profile);
             add_differences(c, std::span(&derivation, 1), found, verdict);
@@ -263,9 +264,9 @@ TEST(QueryJudge, OtherRenderingsCountAsMany) {
     const capture::Capture base = rasterizers::draw_by_reference(c);
     capture::Capture other = base;
     const std::vector<cases::Derivation> derivations = cases::derivations(c);
-    EXPECT_EQ(compare_bits(base, other, derivations[0]).different, 0U);
+    EXPECT_EQ(compare_bits(c, base, other, derivations[0]).different, 0U);
     other.counted[2] = 63;
-    const Consistency found = compare_bits(base, other, derivations[0]);
+    const Consistency found = compare_bits(c, base, other, derivations[0]);
     EXPECT_EQ(found.different, 1U);
     Verdict verdict = verdict_of(c, base);
     add_differences(c, derivations, std::vector{found, Consistency{}}, verdict);

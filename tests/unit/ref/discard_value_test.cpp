@@ -5,6 +5,7 @@
 // oracle, samples by hand, and what else of the picture depends on them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 
 #include "cases/model/sample.hpp"
@@ -152,8 +153,11 @@ TEST(DiscardValue, FlatValuesAreDecided) {
     // A device may flush it to 0.
     EXPECT_EQ(of_flat(-0x1p-149F).total_min, 0U);
     EXPECT_EQ(of_flat(-0x1p-149F).total_max, 1U);
-    EXPECT_EQ(of_flat(std::nanf("")).total_max, 1U);
-    EXPECT_EQ(of_flat(std::nanf("")).total_min, 0U);
+    // NaN and infinity need not arrive.
+    for (const float none : {std::nanf(""), HUGE_VALF, -HUGE_VALF}) {
+        EXPECT_EQ(of_flat(none).total_max, 1U) << none;
+        EXPECT_EQ(of_flat(none).total_min, 0U) << none;
+    }
 }
 
 // Two triangles share the diagonal, whose samples belong to one of them: where that one may be
@@ -225,6 +229,13 @@ TEST(DiscardValue, AShownNegativeValueIsWrong) {
             EXPECT_EQ(verdict.mismatches[0].rule, "discard.value");
             EXPECT_EQ(verdict.mismatches[0].level, Profile::vulkan);
             EXPECT_EQ(verdict.mismatches[0].expected, "0 or more");
+        }
+        device.attributes[0].x = -HUGE_VALF;
+        for (const FragmentVerdict& verdict :
+             {values.judge(0, {3, 2, 0, 0}, device), values.judge_exact(0, {3, 2, 0, 0}, device)}) {
+            EXPECT_TRUE(std::ranges::none_of(verdict.mismatches, [](const auto& mismatch) {
+                return mismatch.rule == "discard.value";
+            }));
         }
     }
 }

@@ -126,11 +126,14 @@ TEST(Statistics, ClippingLiesBetweenGuardBandAndViewport) {
     EXPECT_EQ(clipped(around, Profile::vulkan).least, 0U);
 }
 
+// Below direct3d those that have no sample may be culled before.
 TEST(Statistics, CulledTrianglesReachClipping) {
     cases::Case c =
         case_of(Topology::triangle_list, {{1, 1, 0.5F, 1}, {7, 1, 0.5F, 1}, {1, 7, 0.5F, 1}});
-    c.draws[0].cull = cases::CullMode::front_and_back;
     EXPECT_EQ(bounds(c, Query::clipping_invocations, Profile::vulkan).least, 1U);
+    c.draws[0].cull = cases::CullMode::front_and_back;
+    EXPECT_EQ(bounds(c, Query::clipping_invocations, Profile::direct3d), (CountBounds{1, 1}));
+    EXPECT_EQ(bounds(c, Query::clipping_invocations, Profile::practice).least, 0U);
     EXPECT_EQ(bounds(c, Query::clipping_primitives, Profile::vulkan).least, 0U);
     EXPECT_EQ(bounds(c, Query::clipping_primitives, Profile::direct3d), (CountBounds{1, 1}));
     c.draws[0].rasterizer_discard = true;
@@ -155,6 +158,23 @@ TEST(Statistics, FragmentsAreThoseThatShow) {
     c.draws[0].early_tests = true;
     EXPECT_EQ(bounds(c, Query::fragment_invocations, Profile::practice).least, 28U);
     EXPECT_EQ(bounds(c, Query::fragment_invocations, Profile::vulkan).least, 16U);
+}
+
+// A sliver of 6 pixels whose area is more than a pixel, and which has no sample: a device may leave
+// it out.
+TEST(Statistics, ATriangleBetweenSamplesMayBeLeftOut) {
+    const std::vector<glm::vec4> sliver = {
+        {1, 1.5625F, 0.5F, 1}, {7, 1.5625F, 0.5F, 1}, {1, 2.4375F, 0.5F, 1}};
+    EXPECT_EQ(clipped(sliver, Profile::direct3d), (CountBounds{0, 1}));
+}
+
+// One corner lies before the near plane: two pieces, whose quads of helpers may count twice.
+TEST(Statistics, PiecesOfAClippedTriangleShareQuads) {
+    cases::Case c =
+        case_of(Topology::triangle_list, {{0, 0, 0.5F, 1}, {8, 0, 0.5F, 1}, {0, 8, -0.25F, 1}});
+    const CountBounds cut = bounds(c, Query::fragment_invocations, Profile::direct3d);
+    EXPECT_EQ(cut.most, 128U);
+    EXPECT_GT(cut.least, 0U);
 }
 
 TEST(Statistics, SamplesThatAreShadedOneByOneCountEach) {

@@ -325,6 +325,25 @@ TEST(CaseCheck, Draw) {
     expect_rejected(m, c, unsupported, "the device lacks the feature triangleFans");
 }
 
+TEST(CaseCheck, Queries) {
+    using enum Rendered::Status;
+    Capabilities m = made_up();
+    cases::Case c = good();
+    c.draws[0].query = cases::Query::occlusion;
+    EXPECT_FALSE(check_case(m, c).has_value());
+    c.draws[0].query = cases::Query::occlusion_precise;
+    expect_rejected(m, c, unsupported, "the device lacks the feature occlusionQueryPrecise");
+    m.precise_queries = true;
+    EXPECT_FALSE(check_case(m, c).has_value());
+    for (const cases::Query query :
+         {cases::Query::input_vertices, cases::Query::fragment_invocations}) {
+        c.draws[0].query = query;
+        expect_rejected(m, c, unsupported, "the device lacks the feature pipelineStatisticsQuery");
+    }
+    m.pipeline_statistics = true;
+    EXPECT_FALSE(check_case(m, c).has_value());
+}
+
 TEST(CaseCheck, Attribute) {
     using enum Rendered::Status;
     Capabilities m = made_up();
