@@ -143,23 +143,55 @@ std::array<double, 2> pixel_of(const Draw& draw, uint32_t vertex) {
                 (static_cast<double>(at.y) / w + 1) / 2 * static_cast<double>(v.height)};
 }
 
-// Whether a triangle before the eye must have a sample, however its corners are snapped: no device
-// may leave it out as one without. Its incircle's radius is twice its area by its perimeter, which
-// is at most 4 sqrt(2) times the larger of two sides' extents; a disc of radius sqrt(1/2) has the
-// centre of some pixel. Snapping takes less than the fifth part of it.
+// Whether the centre of some pixel must lie in a triangle before the eye, however its corners are
+// snapped: that of every disc with radius sqrt(1/2) does, and snapping moves sides by less than
+// 1/20.
 bool has_area(const Draw& draw, const cases::Triangle& t) {
-    const auto a = pixel_of(draw, t.vertex[0]);
-    const auto b = pixel_of(draw, t.vertex[1]);
-    const auto c = pixel_of(draw, t.vertex[2]);
-    const double area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-    const double span = std::max({std::fabs(b[0] - a[0]), std::fabs(c[0] - a[0]),
-                                  std::fabs(b[1] - a[1]), std::fabs(c[1] - a[1])});
-    return std::fabs(area) > 5 * span;
+    std::array<std::array<double, 2>, 3> at{};
+    std::ranges::transform(t.vertex, at.begin(), [&](uint32_t v) { return pixel_of(draw, v); });
+    double perimeter = 0;
+    double area = 0;  // twice that
+    for (size_t k = 0; k < 3; ++k) {
+        const auto& [x0, y0] = at.at(k);
+        const auto& [x1, y1] = at.at((k + 1) % 3);
+        perimeter += std::hypot(x1 - x0, y1 - y0);
+        area += x0 * y1 - x1 * y0;
+    }
+    return std::fabs(area) >
+           0.76 * perimeter;  // twice the area by the perimeter is the incircle's radius
 }
 
-// The triangles that must cover a sample: those that alone may have written one that is hit.
-std::vector<bool> must_cover(const Expectation& expectation) {
+// Whether a triangle in the clip volume must cover a sample by its place alone, whatever else is
+// drawn.
+bool has_sample(const Draw& draw, const cases::Triangle& t, const cases::Target& target) {
+    const double x0 = std::max<double>(draw.scissor.x, 0);
+    const double y0 = std::max<double>(draw.scissor.y, 0);
+    const double x1 = std::min(static_cast<double>(draw.scissor.x) + draw.scissor.width,
+                               static_cast<double>(target.width));
+    const double y1 = std::min(static_cast<double>(draw.scissor.y) + draw.scissor.height,
+                               static_cast<double>(target.height));
+    const bool has_centre = target.samples == 1 && target.sample_locations.empty() &&
+                            draw.multisample.sample_mask % 2 == 1;
+    return has_centre && draw.cull == cases::CullMode::none &&
+           draw.conservative == cases::Conservative::none && has_area(draw, t) &&
+           std::ranges::all_of(t.vertex, [&](uint32_t v) {
+               const auto at = pixel_of(draw, v);
+               return at[0] >= x0 && at[0] <= x1 && at[1] >= y0 && at[1] <= y1;
+           });
+}
+
+// The triangles of a draw that must cover a sample: those that have one by their place, and those
+// that alone may have written one that is hit.
+std::vector<bool> must_cover(const Draw& draw, size_t number, const Expectation& expectation) {
     std::vector<bool> out(expectation.triangles.size(), false);
+    for (size_t t = 0; t < out.size(); ++t) {
+        const cases::Triangle& triangle = expectation.triangles[t];
+        if (triangle.draw == number && draw.distances.cull_count == 0) {
+            const Clipped clipped = clipped_of(draw, triangle);
+            out[t] = clipped.is_known && clipped.is_inside &&
+                     has_sample(draw, triangle, expectation.target);
+        }
+    }
     for (size_t index = 0; index < expectation.samples.size(); ++index) {
         const SampleExpectation& sample = expectation.samples[index];
         if (sample.hits.total_min > 0 && sample.writers_count == 1) {
@@ -169,11 +201,11 @@ std::vector<bool> must_cover(const Expectation& expectation) {
     return out;
 }
 
-uint64_t covering(size_t draw, const Expectation& expectation) {
-    const std::vector<bool> covers = must_cover(expectation);
+uint64_t covering(const Draw& draw, size_t number, const Expectation& expectation) {
+    const std::vector<bool> covers = must_cover(draw, number, expectation);
     uint64_t out = 0;
     for (size_t t = 0; t < expectation.triangles.size(); ++t) {
-        out += expectation.triangles[t].draw == draw && covers[t] ? 1U : 0U;
+        out += expectation.triangles[t].draw == number && covers[t] ? 1U : 0U;
     }
     return out;
 }
@@ -181,7 +213,7 @@ uint64_t covering(size_t draw, const Expectation& expectation) {
 CountBounds clipping_primitives(const Draw& draw, size_t number, const Assembly& assembly,
                                 const Expectation& expectation) {
     const bool is_direct3d = expectation.profile == Profile::direct3d;
-    const std::vector<bool> covers = must_cover(expectation);
+    const std::vector<bool> covers = must_cover(draw, number, expectation);
     CountBounds out{0, assembly.incomplete};
     for (size_t t = 0; t < expectation.triangles.size(); ++t) {
         const cases::Triangle& triangle = expectation.triangles[t];
@@ -318,7 +350,7 @@ CountBounds statistic_bounds(const cases::Case& c, size_t draw, const Expectatio
         case Query::clipping_invocations:
             out = {d.rasterizer_discard ? 0
                    : is_direct3d        ? a.primitives
-                                        : covering(draw, expectation),
+                                        : covering(d, draw, expectation),
                    a.primitives + a.incomplete};
             break;
         case Query::clipping_primitives:

@@ -246,7 +246,7 @@ std::vector<ExpectedCatch> expected_color_catches() {
          Profile::vulkan,
          {"statistics/assembly", "combination/statistics"}},
         {Fault::statistics_without_culled,
-         Profile::vulkan,
+         Profile::direct3d,
          {"statistics/clipping", "combination/statistics"}},
         {Fault::statistics_clipping_lossless,
          Profile::direct3d,

@@ -64,7 +64,7 @@ Judged judged(const cases::Case& c, const Device& base, const Device& other, Pro
     for (const cases::Derivation& d : derivations) {
         capture::Capture derived = captured(cases::derive(c, d), other);
         diff::vary(derived, d.variation);
-        found.push_back(diff::compare_bits(own, derived, d));
+        found.push_back(diff::compare_bits(c, own, derived, d));
     }
     diff::add_differences(c, derivations, found, out.related);
     return out;

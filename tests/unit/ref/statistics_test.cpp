@@ -168,6 +168,23 @@ TEST(Statistics, ATriangleBetweenSamplesMayBeLeftOut) {
     EXPECT_EQ(clipped(sliver, Profile::direct3d), (CountBounds{0, 1}));
 }
 
+// However much lies over it.
+TEST(Statistics, ATriangleWithASampleReachesClippingAndLeavesIt) {
+    cases::Case c =
+        case_of(Topology::triangle_list, {{1, 1, 0.5F, 1}, {7, 1, 0.5F, 1}, {1, 7, 0.5F, 1}});
+    c.draws.push_back(c.draws[0]);
+    c.draws.push_back(c.draws[0]);
+    for (const Query query : {Query::clipping_invocations, Query::clipping_primitives}) {
+        EXPECT_EQ(bounds(c, query, Profile::vulkan), (CountBounds{1, kNoMost}));
+        cases::Case masked = c;
+        masked.draws[0].multisample.sample_mask = 2;
+        EXPECT_EQ(bounds(masked, query, Profile::vulkan).least, 0U);
+        cases::Case cut = c;
+        cut.draws[0].scissor = {2, 0, 6, 8};
+        EXPECT_EQ(bounds(cut, query, Profile::vulkan).least, 0U);
+    }
+}
+
 // One corner lies before the near plane: two pieces, whose quads of helpers may count twice.
 TEST(Statistics, PiecesOfAClippedTriangleShareQuads) {
     cases::Case c =
@@ -181,9 +198,10 @@ TEST(Statistics, SamplesThatAreShadedOneByOneCountEach) {
     cases::Case c =
         case_of(Topology::triangle_list, {{0, 0, 0.5F, 1}, {16, 0, 0.5F, 1}, {0, 16, 0.5F, 1}});
     c.target.samples = 4;
-    EXPECT_EQ(bounds(c, Query::fragment_invocations, Profile::direct3d), (CountBounds{64, 64}));
+    // Beyond two borders it may be cut into three pieces.
+    EXPECT_EQ(bounds(c, Query::fragment_invocations, Profile::direct3d), (CountBounds{64, 192}));
     c.draws[0].multisample.min_sample_shading = 1;
-    EXPECT_EQ(bounds(c, Query::fragment_invocations, Profile::direct3d), (CountBounds{256, 256}));
+    EXPECT_EQ(bounds(c, Query::fragment_invocations, Profile::direct3d), (CountBounds{256, 768}));
     c.draws[0].multisample.sample_mask = 5;
     EXPECT_EQ(bounds(c, Query::fragment_invocations, Profile::practice).least, 128U);
     EXPECT_EQ(bounds(c, Query::fragment_invocations, Profile::vulkan).least, 64U);
