@@ -60,7 +60,7 @@ bool swap_first_attributes(PipelineCopy& p) {
     return true;
 }
 
-constexpr std::array kFaults = {
+constexpr std::array kAssemblyFaults = {
     Fault{"cull-off",
           "Nothing is culled.",
           {.cull_mode = [](VkCullModeFlags& m) { return change(m, VK_CULL_MODE_NONE); }}},
@@ -150,7 +150,7 @@ constexpr std::array kFaults = {
 }  // namespace
 
 std::span<const Fault> assembly_faults() {
-    return kFaults;
+    return kAssemblyFaults;
 }
 
 }  // namespace breaking

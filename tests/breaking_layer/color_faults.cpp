@@ -144,7 +144,7 @@ bool no_constants(std::span<float, 4> c) {
 constexpr auto kSourceAlpha = VK_BLEND_FACTOR_SRC_ALPHA;
 constexpr auto kOne = VK_BLEND_FACTOR_ONE;
 
-constexpr std::array kFaults = {
+constexpr std::array kColorFaults = {
     Fault{"blend-off", "Nothing is blended.", {.pipeline = each<disable>}},
     Fault{"blend-off-but-adding",
           "Only equations that add are blended.",
@@ -220,7 +220,7 @@ constexpr std::array kFaults = {
 }  // namespace
 
 std::span<const Fault> color_faults() {
-    return kFaults;
+    return kColorFaults;
 }
 
 }  // namespace breaking

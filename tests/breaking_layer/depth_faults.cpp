@@ -57,7 +57,7 @@ bool operate(StencilOps& ops) {
     return is_altered;
 }
 
-constexpr std::array kFaults = {
+constexpr std::array kDepthFaults = {
     Fault{"depth-compare-less-or-equal",
           "LESS lets equal depths pass.",
           {.depth_compare = compare<VK_COMPARE_OP_LESS, VK_COMPARE_OP_LESS_OR_EQUAL>}},
@@ -154,7 +154,7 @@ constexpr std::array kFaults = {
 }  // namespace
 
 std::span<const Fault> depth_faults() {
-    return kFaults;
+    return kDepthFaults;
 }
 
 }  // namespace breaking

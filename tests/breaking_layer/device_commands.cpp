@@ -423,7 +423,7 @@ VKAPI_ATTR void VKAPI_CALL dispatch(VkCommandBuffer commands, uint32_t x, uint32
     driver_of_handle(commands).CmdDispatch(commands, x, y, z);
 }
 
-const OwnCommand kCommands[] = {
+const OwnCommand kDeviceCommands[] = {
     BREAKING_OWN(CreateShaderModule, create_shader_module),
     BREAKING_OWN(CreateBuffer, create_buffer),
     BREAKING_OWN(AllocateMemory, allocate_memory),
@@ -543,7 +543,7 @@ PFN_vkVoidFunction own_instance_command(const char* /*name*/) {
 }
 
 PFN_vkVoidFunction own_device_command(const char* name) {
-    for (const auto table : {std::span<const breaking::OwnCommand>(breaking::kCommands),
+    for (const auto table : {std::span<const breaking::OwnCommand>(breaking::kDeviceCommands),
                              breaking::state_commands(), breaking::indirect_commands(),
                              breaking::recording_commands(), breaking::query_commands()}) {
         if (const PFN_vkVoidFunction own = find_command(table, name); own != nullptr) {

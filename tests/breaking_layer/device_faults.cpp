@@ -20,7 +20,7 @@ Answer every_nth(uint64_t number) {
     return number % parameter() == 0 ? answer : Answer::as_asked;
 }
 
-constexpr std::array kFaults = {
+constexpr std::array kDeviceFaults = {
     Fault{
         "nothing-every-nth",
         "Every N-th rendering draws nothing.",
@@ -64,7 +64,7 @@ constexpr std::array kFaults = {
 }  // namespace
 
 std::span<const Fault> device_faults() {
-    return kFaults;
+    return kDeviceFaults;
 }
 
 }  // namespace breaking

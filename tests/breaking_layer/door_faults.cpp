@@ -148,7 +148,7 @@ bool keep_only(MultiDraw& multi, size_t number) {
     return altered;
 }
 
-constexpr std::array kFaults = {
+constexpr std::array kDoorFaults = {
     Fault{"door-index-8-as-16",
           "Indices of 8 bits are read as indices of 16 bits.",
           {.index_type = take_for<VK_INDEX_TYPE_UINT8_EXT, VK_INDEX_TYPE_UINT16>}},
@@ -339,7 +339,7 @@ constexpr std::array kFaults = {
 }  // namespace
 
 std::span<const Fault> door_faults() {
-    return kFaults;
+    return kDoorFaults;
 }
 
 }  // namespace breaking

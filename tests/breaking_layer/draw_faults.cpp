@@ -36,7 +36,7 @@ bool drop_last(std::vector<uint32_t>& order) {
     return true;
 }
 
-constexpr std::array kFaults = {
+constexpr std::array kDrawFaults = {
     Fault{"draw-dropped",
           "Nothing is drawn.",
           {.draw = [](DrawCall& d) { return change(d.times, 0); }}},
@@ -110,7 +110,7 @@ constexpr std::array kFaults = {
 }  // namespace
 
 std::span<const Fault> draw_faults() {
-    return kFaults;
+    return kDrawFaults;
 }
 
 }  // namespace breaking

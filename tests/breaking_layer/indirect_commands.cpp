@@ -165,7 +165,7 @@ VKAPI_ATTR void VKAPI_CALL draw_mesh_tasks(VkCommandBuffer commands, uint32_t x,
     driver_of_handle(commands).CmdDrawMeshTasksEXT(commands, x, y, z);
 }
 
-const OwnCommand kCommands[] = {
+const OwnCommand kIndirectCommands[] = {
     BREAKING_OWN(CmdDrawMeshTasksEXT, draw_mesh_tasks),
     BREAKING_OWN(CmdDrawIndirect, draw_indirect),
     BREAKING_OWN(CmdDrawIndexedIndirect, draw_indexed_indirect),
@@ -178,7 +178,7 @@ const OwnCommand kCommands[] = {
 }  // namespace
 
 std::span<const OwnCommand> indirect_commands() {
-    return kCommands;
+    return kIndirectCommands;
 }
 
 }  // namespace breaking

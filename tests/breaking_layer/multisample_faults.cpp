@@ -97,7 +97,7 @@ bool depth_sample_zero(Rendering& r) {
     return r.depth && r.depth->resolveMode != VK_RESOLVE_MODE_NONE &&
            change(r.depth->resolveMode, VK_RESOLVE_MODE_SAMPLE_ZERO_BIT);
 }
-constexpr std::array kFaults = {
+constexpr std::array kMultisampleFaults = {
     Fault{"sample-mask-ignored",
           "The sample mask of the pipeline counts as all ones.",
           {.pipeline = no_mask}},
@@ -152,7 +152,7 @@ constexpr std::array kFaults = {
 }  // namespace
 
 std::span<const Fault> multisample_faults() {
-    return kFaults;
+    return kMultisampleFaults;
 }
 
 }  // namespace breaking

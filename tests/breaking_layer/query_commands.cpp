@@ -81,7 +81,7 @@ VKAPI_ATTR VkResult VKAPI_CALL get_query_pool_results(VkDevice device, VkQueryPo
     return result;
 }
 
-const OwnCommand kCommands[] = {
+const OwnCommand kQueryCommands[] = {
     BREAKING_OWN(CreateQueryPool, create_query_pool),
     BREAKING_OWN(CmdBeginQuery, begin_query),
     BREAKING_OWN(CmdResetQueryPool, reset_query_pool),
@@ -91,7 +91,7 @@ const OwnCommand kCommands[] = {
 }  // namespace
 
 std::span<const OwnCommand> query_commands() {
-    return kCommands;
+    return kQueryCommands;
 }
 
 }  // namespace breaking

@@ -11,7 +11,7 @@ namespace breaking {
 
 namespace {
 
-constexpr std::array kFaults = {
+constexpr std::array kQueryFaults = {
     Fault{"query-halved",
           "Queries give half of what they counted.",
           {.query_result = [](QueryResult& q) { return change(q.count, q.count / 2); }}},
@@ -62,7 +62,7 @@ constexpr std::array kFaults = {
 }  // namespace
 
 std::span<const Fault> query_faults() {
-    return kFaults;
+    return kQueryFaults;
 }
 
 }  // namespace breaking

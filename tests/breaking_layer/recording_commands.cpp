@@ -80,7 +80,7 @@ VKAPI_ATTR void VKAPI_CALL end_feedback(VkCommandBuffer commands, uint32_t first
     }
 }
 
-const OwnCommand kCommands[] = {
+const OwnCommand kRecordingCommands[] = {
     BREAKING_OWN(CmdBeginTransformFeedbackEXT, begin_feedback),
     BREAKING_OWN(CmdEndTransformFeedbackEXT, end_feedback),
     BREAKING_OWN(CmdBeginRenderPass, begin_render_pass),
@@ -93,7 +93,7 @@ const OwnCommand kCommands[] = {
 }  // namespace
 
 std::span<const OwnCommand> recording_commands() {
-    return kCommands;
+    return kRecordingCommands;
 }
 
 }  // namespace breaking

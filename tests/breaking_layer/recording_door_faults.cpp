@@ -27,7 +27,7 @@ bool load_as_clear(VkRenderingAttachmentInfo& attachment) {
 
 constexpr VkRenderingFlags kParts = VK_RENDERING_SUSPENDING_BIT | VK_RENDERING_RESUMING_BIT;
 
-constexpr std::array kFaults = {
+constexpr std::array kRecordingDoorFaults = {
     Fault{"door-bind-resets-topology",
           "Binding a pipeline sets the dynamic topology to that of the pipeline.",
           {.bind =
@@ -231,7 +231,7 @@ constexpr std::array kFaults = {
 }  // namespace
 
 std::span<const Fault> recording_door_faults() {
-    return kFaults;
+    return kRecordingDoorFaults;
 }
 
 }  // namespace breaking

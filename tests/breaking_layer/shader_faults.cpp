@@ -20,7 +20,7 @@ bool add(ShaderWords& words) {
     return words.decorate_plain_inputs(decoration);
 }
 
-constexpr std::array kFaults = {
+constexpr std::array kShaderFaults = {
     Fault{"flat-removed", "Flat inputs are interpolated.", {.shader = replace<kFlat, 0>}},
     Fault{"flat-as-noperspective",
           "Flat inputs are interpolated without perspective.",
@@ -100,7 +100,7 @@ constexpr std::array kFaults = {
 }  // namespace
 
 std::span<const Fault> shader_faults() {
-    return kFaults;
+    return kShaderFaults;
 }
 
 }  // namespace breaking

@@ -314,7 +314,7 @@ VKAPI_ATTR void VKAPI_CALL bind_index_buffer(VkCommandBuffer commands, VkBuffer 
     });
 }
 
-const OwnCommand kCommands[] = {
+const OwnCommand kStateCommands[] = {
     BREAKING_OWN(CmdSetViewport, set_viewport),
     BREAKING_OWN(CmdSetScissor, set_scissor),
     BREAKING_OWN(CmdSetCullMode, set_cull_mode),
@@ -348,7 +348,7 @@ const OwnCommand kCommands[] = {
 }  // namespace
 
 std::span<const OwnCommand> state_commands() {
-    return kCommands;
+    return kStateCommands;
 }
 
 }  // namespace breaking

@@ -38,7 +38,7 @@ bool lose_last_triangle(DrawCall& d, VkShaderStageFlags stage) {
     return (d.stages & stage) != 0 && change(d.count, d.count - std::min(d.count, 3U));
 }
 
-constexpr std::array kFaults = {
+constexpr std::array kTargetDoorFaults = {
     Fault{"door-half-positions-flat",
           "Of a position in binary16 the first two numbers are read, and the others are 0 and 1.",
           {.pipeline =
@@ -177,7 +177,7 @@ constexpr std::array kFaults = {
 }  // namespace
 
 std::span<const Fault> target_door_faults() {
-    return kFaults;
+    return kTargetDoorFaults;
 }
 
 }  // namespace breaking

@@ -81,7 +81,7 @@ bool turn_clears(Rendering& r) {
     return !std::equal(std::begin(last.uint32), std::end(last.uint32), std::begin(before.uint32));
 }
 
-constexpr std::array kFaults = {
+constexpr std::array kTargetFaults = {
     Fault{"targets-state-as-before",
           "The last attachment is blended and masked as the one before it.",
           {.pipeline = state_as_before}},
@@ -105,7 +105,7 @@ constexpr std::array kFaults = {
 }  // namespace
 
 std::span<const Fault> target_faults() {
-    return kFaults;
+    return kTargetFaults;
 }
 
 }  // namespace breaking

@@ -141,7 +141,7 @@ bool always_nearest(VkImageBlit& /*b*/, VkFilter& filter) {
     return change(filter, VK_FILTER_NEAREST);
 }
 
-constexpr std::array kFaults = {
+constexpr std::array kTransferFaults = {
     Fault{"clear-color-lost", "Colour attachments are not cleared.", {.rendering = no_color_clear}},
     Fault{"clear-depth-lost", "Depth attachments are not cleared.", {.rendering = no_depth_clear}},
     Fault{"clear-stencil-one",
@@ -203,7 +203,7 @@ constexpr std::array kFaults = {
 }  // namespace
 
 std::span<const Fault> transfer_faults() {
-    return kFaults;
+    return kTransferFaults;
 }
 
 }  // namespace breaking

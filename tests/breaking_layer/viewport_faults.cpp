@@ -119,7 +119,7 @@ bool no_scissor(VkRect2D& s) {
     return altered;
 }
 
-constexpr std::array kFaults = {
+constexpr std::array kViewportFaults = {
     Fault{"viewport-x-256th",
           "The viewport lies 1/256 pixel too far right.",
           {.viewports = each<move_x<kSubpixel>>}},
@@ -188,7 +188,7 @@ constexpr std::array kFaults = {
 }  // namespace
 
 std::span<const Fault> viewport_faults() {
-    return kFaults;
+    return kViewportFaults;
 }
 
 }  // namespace breaking
