@@ -212,6 +212,7 @@ const std::map<std::string_view, const char*>& hidden() {
          "triStripVertexOrderIndependentOfProvokingVertex; a run judges by it"},
         {"rasterizes-degenerates",
          "devices tell it: degenerateTrianglesRasterized; a run judges by it"},
+        {"counts-most", "it shows in pipeline statistics alone, which no experiment asks for"},
     };
     return kHidden;
 }
