@@ -554,6 +554,9 @@ std::optional<Rejection> check_case(const Capabilities& capabilities, const case
         if (auto missing = missing_door_support(capabilities.doors, c.variation.door)) {
             return unsupported("{}", *missing);
         }
+        if (auto missing = missing_core_support(capabilities.core, c.variation.door)) {
+            return unsupported("{}", *missing);
+        }
         if (auto missing = missing_mesh_layers(capabilities.doors, c)) {
             return unsupported("{}", *missing);
         }

@@ -30,9 +30,8 @@ bool has_unused_state(const cases::Case& c, const cases::Draw& draw, const Targe
     plain.variation.door = cases::Door::none;
     const PipelineKey with = pipeline_key(c, draw, layout);
     const PipelineKey without = pipeline_key(plain, draw, layout);
-    const bool restarts = draw.primitive_restart;
     return !c.target.has_stencil || with.colors != without.colors || with.logic != without.logic ||
-           with.unused_bounds || draw_state(c, draw, restarts) != draw_state(plain, draw, restarts);
+           with.unused_bounds || draw_state(c, draw) != draw_state(plain, draw);
 }
 
 // Why nothing of what the door is for has come about; nothing if some has.
@@ -109,8 +108,8 @@ bool BatchRenderer::plan(CasePlan& plan, Rendered& result) {
         }
         if (test.variation.door == cases::Door::state_after_static) {
             PipelineKey key = pipeline_key(test, draw, layout);
-            key.fixed =
-                other_state(draw_state(test, draw, draw.primitive_restart), Leaves::scissors_empty);
+            key.fixed = other_state(draw_state(test, draw), Leaves::scissors_empty);
+            key.sets_numbers = false;
             auto other = pipelines_.get(key);
             if (!other) {
                 reject(result, other.error());
@@ -174,8 +173,8 @@ bool BatchRenderer::plan(CasePlan& plan, Rendered& result) {
             return false;
         }
     }
-    if (has_pass(test)) {
-        if (auto made = plan_pass(plan); !made) {
+    if (has_pass(test, layout)) {
+        if (auto made = plan_pass(plan, layout); !made) {
             reject(result, made.error());
             return false;
         }
@@ -225,8 +224,8 @@ Result<void> BatchRenderer::plan_clears(CasePlan& plan) {
     return {};
 }
 
-Result<void> BatchRenderer::plan_pass(CasePlan& plan) {
-    const PassKey key = pass_key(*plan.test, plan.attachments);
+Result<void> BatchRenderer::plan_pass(CasePlan& plan, const TargetLayout& layout) {
+    const PassKey key = pass_key(*plan.test, layout);
     if (auto got = put(plan.pass, pipelines_.get_pass(key)); !got) {
         return got;
     }

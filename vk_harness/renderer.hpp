@@ -103,7 +103,7 @@ class BatchRenderer {
                             const std::function<void(std::string_view)>& step,
                             const PlaneStore& store, std::vector<GuardDamage>& damage);
     // The render pass and framebuffer of a case whose door asks for them.
-    Result<void> plan_pass(CasePlan& plan);
+    Result<void> plan_pass(CasePlan& plan, const TargetLayout& layout);
     // What reads the input attachments of that pass.
     Result<void> plan_inputs(CasePlan& plan, const PassKey& pass);
     // The pipeline of a draw, or its shaders where there is none.

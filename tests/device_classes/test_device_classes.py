@@ -152,6 +152,23 @@ class Suite(ClassTest):
             self.assertGreater(len(both), (2800 if attachments == 8 else 2500) // shares, printed)
             self.assertEqual({case: (wide[case], halves[case]) for case in both if wide[case] != halves[case]}, {})
 
+    def test_render_passes_and_pipelines_that_hold_their_state_draw_the_same(self):
+        # The same device of Vulkan 1.2 without dynamic rendering and dynamic state: wherever it runs a case, it says what it
+        # says with them. Classes that lack one of them are drawn below.
+        lacking = {"dynamicRendering", "extendedDynamicState", "extendedDynamicState2", "VK_KHR_dynamic_rendering",
+                   "VK_EXT_extended_dynamic_state", "VK_EXT_extended_dynamic_state2"}
+        device = device_classes.read("nvidia")
+        _, usual, _ = self.statuses(device)
+        device["api"] = "1.2"
+        for names in ("features", "extensions"):
+            device[names] = [name for name in device[names] if name not in lacking]
+        told = device_classes.doctor(device, self.folder)
+        self.assertEqual((told["rendering"], told["state"]), ("render-pass", "pipeline"))
+        _, found, printed = self.statuses(device)
+        both = [case for case in usual if "unsupported" not in (usual[case], found[case])]
+        self.assertGreater(len(both), 2800 // int(share().split("/")[1]), printed)
+        self.assertEqual({case: (usual[case], found[case]) for case in both if usual[case] != found[case]}, {})
+
     def test_no_class_fails_what_lavapipe_does_not(self):
         _, plain, _ = self.statuses(None)
         for name in device_classes.names():

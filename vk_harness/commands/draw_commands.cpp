@@ -169,8 +169,7 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
             plan.feed->bind_pulled(device, commands, pipelines.pulled_layout());
         }
     };
-    DrawState state =
-        draw_state(test, draw, plan.feed ? plan.feed->has_restart() : draw.primitive_restart);
+    DrawState state = draw_state(test, draw);
     const bool is_dynamic = door != Door::state_static;
     push_constants(device, pipelines, commands, plan, test, draw_index);
     bind_inputs(device, commands, plan, 1 + of.input_count, vertices);
@@ -196,7 +195,9 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
         set_outputs(device, commands, *plan.outputs);
     }
     if (door == Door::state_stale) {
-        const DrawState other = other_state(state, Leaves::rasterization_off);
+        const DrawState other =
+            other_state(state, device.capabilities().core.dynamic_state ? Leaves::rasterization_off
+                                                                        : Leaves::scissors_empty);
         set_state(device, commands, other, {});
         set_viewports(device, commands, other);
         draw_once(device, commands, plan, vertices);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "vk_harness/commands/draw_commands.hpp"
+#include "vk_harness/target/target_way.hpp"
 
 namespace vk_harness {
 
@@ -21,8 +22,9 @@ Result<Handle<VkFramebuffer>> make_framebuffer(const Device& device, const CaseP
     info.renderPass = pass;
     info.attachmentCount = static_cast<uint32_t>(views.size());
     info.pAttachments = views.data();
-    info.width = plan.test->target.width;
-    info.height = plan.test->target.height;
+    const VkOffset2D origin = image_way(*plan.test).origin();
+    info.width = plan.test->target.width + static_cast<uint32_t>(origin.x);
+    info.height = plan.test->target.height + static_cast<uint32_t>(origin.y);
     info.layers = plan.test->target.layers;
     return make(device, Stage::pipeline, "vkCreateFramebuffer", device.vk().vkCreateFramebuffer,
                 device.vk().vkDestroyFramebuffer, info);
@@ -68,7 +70,7 @@ void render_by_pass(const Device& device, const PipelineCache& pipelines, VkComm
     VkRenderPassBeginInfo begin = Typed{VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO};
     begin.renderPass = plan.pass;
     begin.framebuffer = plan.framebuffer->get();
-    begin.renderArea = {{0, 0}, {test.target.width, test.target.height}};
+    begin.renderArea = moved(test, {{0, 0}, {test.target.width, test.target.height}});
     begin.clearValueCount = static_cast<uint32_t>(clears.size());
     begin.pClearValues = clears.data();
     const VolkDeviceTable& vk = device.vk();

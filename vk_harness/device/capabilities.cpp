@@ -264,6 +264,8 @@ void query_targets(Capabilities& c) {
     c.blends_wide = has_features(c, kColorFormat, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT);
     c.blends_narrow = has_features(c, kTwoNumbers, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT);
     c.info.hit_counting = c.blends_wide ? "binary32" : "binary16";
+    c.info.rendering = c.core.dynamic_rendering ? "dynamic" : "render-pass";
+    c.info.state = c.core.dynamic_state ? "dynamic" : "pipeline";
     if (!c.blends_wide || !c.blends_narrow) {
         constexpr VkFormatFeatureFlags kCounts = VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT |
                                                  VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT |

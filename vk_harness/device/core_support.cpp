@@ -4,25 +4,9 @@
 
 #include <fmt/format.h>
 
-#include <array>
-
 namespace vk_harness {
 
 namespace {
-
-// What is used, by the version that has it in core; before, the extension is needed. In an order in
-// which each extension follows those that it needs itself.
-struct Promoted {
-    const char* extension;
-    uint32_t core_since;
-};
-constexpr std::array kPromoted = {
-    Promoted{VK_KHR_CREATE_RENDERPASS_2_EXTENSION_NAME, VK_API_VERSION_1_2},
-    Promoted{VK_KHR_DEPTH_STENCIL_RESOLVE_EXTENSION_NAME, VK_API_VERSION_1_2},
-    Promoted{VK_KHR_DYNAMIC_RENDERING_EXTENSION_NAME, VK_API_VERSION_1_3},
-    Promoted{VK_EXT_EXTENDED_DYNAMIC_STATE_EXTENSION_NAME, VK_API_VERSION_1_3},
-    Promoted{VK_EXT_EXTENDED_DYNAMIC_STATE_2_EXTENSION_NAME, VK_API_VERSION_1_3},
-};
 
 std::string short_version(uint32_t version) {
     return fmt::format("{}.{}", VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version));
@@ -39,61 +23,65 @@ CoreSupport query_core_support(VkPhysicalDevice physical, uint32_t api_version,
             fmt::format("Vulkan 1.1 is needed, the device has {}", short_version(api_version)));
         return out;
     }
-    for (const Promoted& p : kPromoted) {
-        if (api_version >= p.core_since) {
-            continue;
-        }
-        if (has_extension(physical, p.extension)) {
-            out.extensions.push_back(p.extension);
-        } else {
-            out.missing.push_back(
-                fmt::format("Vulkan {} or the extension {} is needed, the device has {}",
-                            short_version(p.core_since), p.extension, short_version(api_version)));
-        }
+    if (api_version < VK_API_VERSION_1_2 &&
+        !has_extension(physical, VK_KHR_CREATE_RENDERPASS_2_EXTENSION_NAME)) {
+        out.missing.push_back(
+            fmt::format("Vulkan 1.2 or the extension {} is needed, the device has {}",
+                        VK_KHR_CREATE_RENDERPASS_2_EXTENSION_NAME, short_version(api_version)));
     }
     if (!out.missing.empty()) {
         return out;
     }
-    out.dynamic_state2_extension = api_version < VK_API_VERSION_1_3;
-    const bool has_synchronization2 =
-        api_version >= VK_API_VERSION_1_3 ||
-        has_extension(physical, VK_KHR_SYNCHRONIZATION_2_EXTENSION_NAME);
-    const bool has_maintenance4 = api_version >= VK_API_VERSION_1_3 ||
-                                  has_extension(physical, VK_KHR_MAINTENANCE_4_EXTENSION_NAME);
+    out.depth_resolve = api_version >= VK_API_VERSION_1_2 ||
+                        has_extension(physical, VK_KHR_DEPTH_STENCIL_RESOLVE_EXTENSION_NAME);
+    const auto has = [&](const char* extension) {
+        return api_version >= VK_API_VERSION_1_3 || has_extension(physical, extension);
+    };
+    const bool has_rendering = has(VK_KHR_DYNAMIC_RENDERING_EXTENSION_NAME);
+    const bool has_synchronization2 = has(VK_KHR_SYNCHRONIZATION_2_EXTENSION_NAME);
+    const bool has_maintenance4 = has(VK_KHR_MAINTENANCE_4_EXTENSION_NAME);
+    const bool has_states = has(VK_EXT_EXTENDED_DYNAMIC_STATE_EXTENSION_NAME) &&
+                            has(VK_EXT_EXTENDED_DYNAMIC_STATE_2_EXTENSION_NAME);
+    out.dynamic_state_extensions = has_states && api_version < VK_API_VERSION_1_3;
     CoreFeatures asked;
     VkPhysicalDeviceFeatures2 features = Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
-    chain(features, asked.dynamic_rendering);
+    if (has_rendering) {
+        chain(features, asked.dynamic_rendering);
+    }
     if (has_synchronization2) {
         chain(features, asked.synchronization2);
     }
     if (has_maintenance4) {
         chain(features, asked.maintenance4);
     }
-    if (out.dynamic_state2_extension) {
+    if (out.dynamic_state_extensions) {
         chain(features, asked.dynamic_state);
         chain(features, asked.dynamic_state2);
-    } else {  // core without a feature
+    } else if (has_states) {  // core without a feature
         asked.dynamic_state.extendedDynamicState = VK_TRUE;
         asked.dynamic_state2.extendedDynamicState2 = VK_TRUE;
     }
     vkGetPhysicalDeviceFeatures2(physical, &features);
+    out.dynamic_rendering = asked.dynamic_rendering.dynamicRendering == VK_TRUE;
     out.synchronization2 = asked.synchronization2.synchronization2 == VK_TRUE;
     out.maintenance4 = asked.maintenance4.maintenance4 == VK_TRUE;
-    for (const auto& [has, extension] :
-         {std::pair(out.synchronization2, VK_KHR_SYNCHRONIZATION_2_EXTENSION_NAME),
-          {out.maintenance4, VK_KHR_MAINTENANCE_4_EXTENSION_NAME}}) {
-        if (has && api_version < VK_API_VERSION_1_3) {
+    out.dynamic_state = asked.dynamic_state.extendedDynamicState == VK_TRUE &&
+                        asked.dynamic_state2.extendedDynamicState2 == VK_TRUE;
+    // In an order in which each extension follows those that it needs itself.
+    const auto use = [&](bool is_used, const char* extension, uint32_t core_since) {
+        if (is_used && api_version < core_since) {
             out.extensions.push_back(extension);
         }
-    }
-    for (const auto& [has, name] :
-         {std::pair(asked.dynamic_rendering.dynamicRendering, "dynamicRendering"),
-          {asked.dynamic_state.extendedDynamicState, "extendedDynamicState"},
-          {asked.dynamic_state2.extendedDynamicState2, "extendedDynamicState2"},
-          {features.features.independentBlend, "independentBlend"}}) {
-        if (has != VK_TRUE) {
-            out.missing.push_back(fmt::format("the device lacks the feature {}", name));
-        }
+    };
+    use(true, VK_KHR_CREATE_RENDERPASS_2_EXTENSION_NAME, VK_API_VERSION_1_2);
+    use(out.depth_resolve, VK_KHR_DEPTH_STENCIL_RESOLVE_EXTENSION_NAME, VK_API_VERSION_1_2);
+    use(out.dynamic_rendering, VK_KHR_DYNAMIC_RENDERING_EXTENSION_NAME, VK_API_VERSION_1_3);
+    use(out.synchronization2, VK_KHR_SYNCHRONIZATION_2_EXTENSION_NAME, VK_API_VERSION_1_3);
+    use(out.maintenance4, VK_KHR_MAINTENANCE_4_EXTENSION_NAME, VK_API_VERSION_1_3);
+    use(out.dynamic_state, VK_EXT_EXTENDED_DYNAMIC_STATE_EXTENSION_NAME, VK_API_VERSION_1_3);
+    use(out.dynamic_state, VK_EXT_EXTENDED_DYNAMIC_STATE_2_EXTENSION_NAME, VK_API_VERSION_1_3);
+    if (features.features.independentBlend != VK_TRUE) {
+        out.missing.emplace_back("the device lacks the feature independentBlend");
     }
     return out;
 }
@@ -101,8 +89,10 @@ CoreSupport query_core_support(VkPhysicalDevice physical, uint32_t api_version,
 void enable_core_features(const CoreSupport& support, VkPhysicalDeviceFeatures2& features,
                           std::vector<const char*>& extensions, CoreFeatures& enabled) {
     extensions.insert(extensions.end(), support.extensions.begin(), support.extensions.end());
-    enabled.dynamic_rendering.dynamicRendering = VK_TRUE;
-    chain(features, enabled.dynamic_rendering);
+    if (support.dynamic_rendering) {
+        enabled.dynamic_rendering.dynamicRendering = VK_TRUE;
+        chain(features, enabled.dynamic_rendering);
+    }
     if (support.synchronization2) {
         enabled.synchronization2.synchronization2 = VK_TRUE;
         chain(features, enabled.synchronization2);
@@ -111,7 +101,7 @@ void enable_core_features(const CoreSupport& support, VkPhysicalDeviceFeatures2&
         enabled.maintenance4.maintenance4 = VK_TRUE;
         chain(features, enabled.maintenance4);
     }
-    if (support.dynamic_state2_extension) {
+    if (support.dynamic_state && support.dynamic_state_extensions) {
         enabled.dynamic_state.extendedDynamicState = VK_TRUE;
         enabled.dynamic_state2.extendedDynamicState2 = VK_TRUE;
         chain(features, enabled.dynamic_state);
@@ -125,6 +115,7 @@ void use_extension_names(VolkDeviceTable& table) {
             core = extension;
         }
     };
+    use(table.vkCreateRenderPass2, table.vkCreateRenderPass2KHR);
     use(table.vkCmdBeginRendering, table.vkCmdBeginRenderingKHR);
     use(table.vkCmdEndRendering, table.vkCmdEndRenderingKHR);
     use(table.vkCmdPipelineBarrier2, table.vkCmdPipelineBarrier2KHR);
@@ -139,6 +130,34 @@ void use_extension_names(VolkDeviceTable& table) {
     use(table.vkCmdSetDepthBoundsTestEnable, table.vkCmdSetDepthBoundsTestEnableEXT);
     use(table.vkCmdSetDepthWriteEnable, table.vkCmdSetDepthWriteEnableEXT);
     use(table.vkCmdSetDepthBiasEnable, table.vkCmdSetDepthBiasEnableEXT);
+}
+
+std::optional<std::string> missing_core_support(const CoreSupport& support, cases::Door door) {
+    using cases::Door;
+    switch (door) {
+        case Door::secondary:
+        case Door::secondary_each:
+        case Door::secondary_reused:
+        case Door::pass_split:
+        case Door::pass_suspended:
+        case Door::clear_commands:
+        case Door::clear_draw:
+        case Door::submissions:
+        case Door::pipeline_library:
+        case Door::shader_objects:
+        case Door::transform_feedback:
+        case Door::multiview:
+            if (!support.dynamic_rendering) {
+                return "the device lacks dynamicRendering, with which alone this door is drawn";
+            }
+            break;
+        default:
+            break;
+    }
+    if (!support.dynamic_state && (door == Door::stride_dynamic || door == Door::shader_objects)) {
+        return "the device lacks extendedDynamicState, which this door needs";
+    }
+    return std::nullopt;
 }
 
 }  // namespace vk_harness

@@ -1,13 +1,15 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the harness uses of Vulkan beyond 1.1 on every device: in core, or by the extension that it
-// was before.
+// What the harness uses of Vulkan beyond 1.1 where a device has it: in core, or by the extension
+// that it was before.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "cases/model/door.hpp"
 #include "vk_harness/device/api.hpp"
 
 namespace vk_harness {
@@ -17,7 +19,11 @@ struct CoreSupport {
     std::vector<const char*> extensions;  // to enable, because the device's version lacks them
     bool synchronization2 = false;        // else barriers are those of 1.0
     bool maintenance4 = false;
-    bool dynamic_state2_extension = false;  // and extendedDynamicState, extension structures
+    bool depth_resolve = false;      // VK_KHR_depth_stencil_resolve
+    bool dynamic_rendering = false;  // else cases are rendered by render pass objects
+    // extendedDynamicState and extendedDynamicState2; else pipelines hold what these would set.
+    bool dynamic_state = false;
+    bool dynamic_state_extensions = false;  // they are extensions, with structures of features
 };
 
 CoreSupport query_core_support(VkPhysicalDevice physical, uint32_t api_version,
@@ -42,5 +48,8 @@ void enable_core_features(const CoreSupport& support, VkPhysicalDeviceFeatures2&
 
 // Commands that are core in 1.3 under the names that they have in an extension of the device.
 void use_extension_names(VolkDeviceTable& table);
+
+// A sentence about what the door needs of it and the device lacks.
+std::optional<std::string> missing_core_support(const CoreSupport& support, cases::Door door);
 
 }  // namespace vk_harness

@@ -126,10 +126,8 @@ void Feed::make_triangles(const cases::Case& c) {
 }
 
 void Feed::make_indices() {
-    const bool is_strip = draw_->topology != cases::Topology::triangle_list;
-    const bool adds_restarts = door_ == Door::restart_extra && is_strip;
-    is_indexed_ = draw_->indices.has_value() || makes_indices(door_) || adds_restarts;
-    has_restart_ = draw_->primitive_restart || adds_restarts;
+    const bool has_more = adds_restarts(door_, *draw_);
+    is_indexed_ = draw_->indices.has_value() || makes_indices(door_) || has_more;
     index_type_ = index_type_of(door_);
     const uint32_t shift = cases::vertex_shift(door_);
     if (!is_indexed_) {
@@ -155,7 +153,7 @@ void Feed::make_indices() {
         const bool is_restart = draw_->primitive_restart && index == cases::kRestartIndex;
         index = is_restart ? largest_of(index_type_) : index + added;
     }
-    if (adds_restarts) {
+    if (has_more) {
         indices_.insert(indices_.begin(), 2, cases::kRestartIndex);
         indices_.push_back(cases::kRestartIndex);
     }

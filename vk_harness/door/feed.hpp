@@ -40,8 +40,6 @@ class Feed {
     // Draws once. Called after bind(), once for every scissor.
     void draw(const Device& device, VkCommandBuffer commands, VkBuffer vertices) const;
 
-    bool has_restart() const { return has_restart_; }
-
   private:
     static constexpr uint32_t kCommands = 3;  // in one buffer, or in one command
     struct Part {                             // vertices or indices of a draw
@@ -71,7 +69,7 @@ class Feed {
     Bindings bindings_;
     std::array<std::vector<glm::vec4>, 7> values_;  // by binding
     std::vector<uint32_t> indices_;                 // as they are written
-    bool is_indexed_ = false, has_restart_ = false;
+    bool is_indexed_ = false;
     VkIndexType index_type_ = VK_INDEX_TYPE_UINT32;
     // Of the drawing command.
     uint32_t count_ = 0, first_ = 0, first_instance_ = 0, instances_ = 1;

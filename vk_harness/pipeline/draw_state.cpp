@@ -8,6 +8,7 @@
 
 #include "cases/model/derive.hpp"
 #include "cases/model/sample.hpp"
+#include "vk_harness/pipeline/vertex_way.hpp"
 #include "vk_harness/target/shader_interface.hpp"
 #include "vk_harness/target/target_way.hpp"
 
@@ -137,14 +138,14 @@ void switch_on_unused(const cases::Case& c, const cases::Draw& own, DrawState& o
 
 }  // namespace
 
-DrawState draw_state(const cases::Case& c, const cases::Draw& own, bool has_restart) {
+DrawState draw_state(const cases::Case& c, const cases::Draw& own) {
     DrawState out;
     out.cull = vulkan_of(own.cull);
     out.front_face = vulkan_of(own.front_face);
     out.topology = c.variation.door == cases::Door::tessellation ? VK_PRIMITIVE_TOPOLOGY_PATCH_LIST
                                                                  : vulkan_of(own.topology);
     out.is_assembled = c.variation.door != cases::Door::mesh_shader;
-    out.restart = vulkan_of(has_restart);
+    out.restart = vulkan_of(own.primitive_restart || adds_restarts(c.variation.door, own));
     out.discard = vulkan_of(own.rasterizer_discard);
     out.compare = static_cast<VkCompareOp>(own.depth.compare);
     out.depth_write = vulkan_of(own.depth.write && !c.variation.masks_depth);
@@ -177,6 +178,20 @@ DrawState draw_state(const cases::Case& c, const cases::Draw& own, bool has_rest
         switch_on_unused(c, own, out);
     }
     return out;
+}
+
+DrawState without_numbers(DrawState state) {
+    state.bias = {};
+    state.bounds = {};
+    state.blend_constants = {};
+    for (DrawState::StencilFace& face : state.stencil) {
+        auto own = std::bit_cast<VkStencilOpState>(face);
+        own.compareMask = own.writeMask = own.reference = 0;
+        face = std::bit_cast<DrawState::StencilFace>(own);
+    }
+    std::ranges::fill(state.viewports, DrawState::Viewport{});
+    std::ranges::fill(state.scissors, DrawState::Scissor{});
+    return state;
 }
 
 void replace_scissor(DrawState& state, const cases::Draw& own, const VkRect2D& scissor) {
@@ -226,16 +241,19 @@ DrawState other_state(const DrawState& state, Leaves leaves) {
 void set_state(const Device& device, VkCommandBuffer commands, const DrawState& state,
                const cases::DepthBias& bias) {
     const VolkDeviceTable& vk = device.vk();
-    vk.vkCmdSetCullMode(commands, state.cull);
-    vk.vkCmdSetFrontFace(commands, state.front_face);
-    if (state.is_assembled) {
+    const bool sets_modes = device.capabilities().core.dynamic_state;
+    if (sets_modes) {
+        vk.vkCmdSetCullMode(commands, state.cull);
+        vk.vkCmdSetFrontFace(commands, state.front_face);
+        vk.vkCmdSetRasterizerDiscardEnable(commands, state.discard);
+        vk.vkCmdSetDepthCompareOp(commands, state.compare);
+        vk.vkCmdSetDepthWriteEnable(commands, state.depth_write);
+        vk.vkCmdSetDepthBiasEnable(commands, state.has_bias);
+    }
+    if (sets_modes && state.is_assembled) {
         vk.vkCmdSetPrimitiveTopology(commands, state.topology);
         vk.vkCmdSetPrimitiveRestartEnable(commands, state.restart);
     }
-    vk.vkCmdSetRasterizerDiscardEnable(commands, state.discard);
-    vk.vkCmdSetDepthCompareOp(commands, state.compare);
-    vk.vkCmdSetDepthWriteEnable(commands, state.depth_write);
-    vk.vkCmdSetDepthBiasEnable(commands, state.has_bias);
     if (bias.is_controlled()) {
         record_controlled_bias(device.set_depth_bias2(), commands, bias);
     } else {
@@ -243,7 +261,9 @@ void set_state(const Device& device, VkCommandBuffer commands, const DrawState& 
         vk.vkCmdSetDepthBias(commands, constant, clamp, slope);
     }
     if (state.tests_bounds) {
-        vk.vkCmdSetDepthBoundsTestEnable(commands, state.has_bounds);
+        if (sets_modes) {
+            vk.vkCmdSetDepthBoundsTestEnable(commands, state.has_bounds);
+        }
         const auto [min, max] = floats(state.bounds);
         vk.vkCmdSetDepthBounds(commands, min, max);
     }
@@ -253,8 +273,10 @@ void set_state(const Device& device, VkCommandBuffer commands, const DrawState& 
         const auto face = std::bit_cast<VkStencilOpState>(state.stencil.at(k));
         const VkStencilFaceFlags bit =
             k == 0 ? VK_STENCIL_FACE_FRONT_BIT : VK_STENCIL_FACE_BACK_BIT;
-        vk.vkCmdSetStencilOp(commands, bit, face.failOp, face.passOp, face.depthFailOp,
-                             face.compareOp);
+        if (sets_modes) {
+            vk.vkCmdSetStencilOp(commands, bit, face.failOp, face.passOp, face.depthFailOp,
+                                 face.compareOp);
+        }
         vk.vkCmdSetStencilCompareMask(commands, bit, face.compareMask);
         vk.vkCmdSetStencilWriteMask(commands, bit, face.writeMask);
         vk.vkCmdSetStencilReference(commands, bit, face.reference);

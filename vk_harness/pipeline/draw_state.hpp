@@ -48,7 +48,11 @@ VkRect2D moved(const cases::Case& c, VkRect2D rect);
 
 // The viewport and scissor of each draw stand at its index, those of `own` at theirs; what no draw
 // has is a viewport of one pixel. Each draw picks its own by gl_ViewportIndex.
-DrawState draw_state(const cases::Case& c, const cases::Draw& own, bool has_restart);
+DrawState draw_state(const cases::Case& c, const cases::Draw& own);
+
+// The same without what Vulkan 1.0 sets between draws: viewports, scissors, numbers of biases,
+// bounds and blending, masks and references of stencils. All are 0.
+DrawState without_numbers(DrawState state);
 
 // The same with another scissor for `own`.
 void replace_scissor(DrawState& state, const cases::Draw& own, const VkRect2D& scissor);
@@ -58,7 +62,8 @@ void replace_scissor(DrawState& state, const cases::Draw& own, const VkRect2D& s
 enum class Leaves : uint8_t { rasterization_off, scissors_empty };
 DrawState other_state(const DrawState& state, Leaves leaves);
 
-// Sets all but the viewports and scissors. A bias whose unit is chosen is taken from `bias`.
+// Sets all but the viewports and scissors; on a device without extendedDynamicState the numbers
+// alone. A bias whose unit is chosen is taken from `bias`.
 void set_state(const Device& device, VkCommandBuffer commands, const DrawState& state,
                const cases::DepthBias& bias);
 void set_viewports(const Device& device, VkCommandBuffer commands, const DrawState& state);

@@ -147,12 +147,15 @@ PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw,
     key.sample_locations = c.target.sample_locations;
     key.masked = c.variation.masked;
     if (c.variation.door == cases::Door::state_static) {
-        key.fixed = draw_state(c, draw, draw.primitive_restart);
+        key.fixed = draw_state(c, draw);
+    } else if (layout.holds_state) {
+        key.fixed = without_numbers(draw_state(c, draw));
+        key.sets_numbers = true;
     }
     key.made = pipeline_way(c.variation.door);
     key.stages = stage_way(c.variation.door);
-    if (has_pass(c)) {
-        key.pass = pass_key(c, attachments_of(c, layout));
+    if (has_pass(c, layout)) {
+        key.pass = pass_key(c, layout);
         key.subpass = subpass_of(c, static_cast<size_t>(&draw - c.draws.data()));
     }
     key.view_mask = view_mask(c);

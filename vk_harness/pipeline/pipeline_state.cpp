@@ -280,25 +280,35 @@ void color_state(const PipelineKey& key, ColorState& state) {
 
 std::vector<VkDynamicState> dynamic_states(const PipelineKey& key) {
     std::vector<VkDynamicState> out;
-    if (!key.fixed && key.stages != StageWay::mesh) {
-        out = {VK_DYNAMIC_STATE_PRIMITIVE_TOPOLOGY, VK_DYNAMIC_STATE_PRIMITIVE_RESTART_ENABLE};
+    const auto add = [&](std::initializer_list<VkDynamicState> states) {
+        out.insert(out.end(), states);
+    };
+    const bool sets_modes = !key.fixed;
+    const bool sets_numbers = sets_modes || key.sets_numbers;
+    if (sets_modes && key.stages != StageWay::mesh) {
+        add({VK_DYNAMIC_STATE_PRIMITIVE_TOPOLOGY, VK_DYNAMIC_STATE_PRIMITIVE_RESTART_ENABLE});
     }
-    if (!key.fixed) {
-        out.insert(out.end(),
-                   {VK_DYNAMIC_STATE_BLEND_CONSTANTS, VK_DYNAMIC_STATE_DEPTH_COMPARE_OP,
-                    VK_DYNAMIC_STATE_DEPTH_WRITE_ENABLE, VK_DYNAMIC_STATE_DEPTH_BIAS_ENABLE,
-                    VK_DYNAMIC_STATE_DEPTH_BIAS, VK_DYNAMIC_STATE_VIEWPORT,
-                    VK_DYNAMIC_STATE_SCISSOR, VK_DYNAMIC_STATE_CULL_MODE,
-                    VK_DYNAMIC_STATE_FRONT_FACE, VK_DYNAMIC_STATE_RASTERIZER_DISCARD_ENABLE});
+    if (sets_modes) {
+        add({VK_DYNAMIC_STATE_DEPTH_COMPARE_OP, VK_DYNAMIC_STATE_DEPTH_WRITE_ENABLE,
+             VK_DYNAMIC_STATE_DEPTH_BIAS_ENABLE, VK_DYNAMIC_STATE_CULL_MODE,
+             VK_DYNAMIC_STATE_FRONT_FACE, VK_DYNAMIC_STATE_RASTERIZER_DISCARD_ENABLE});
     }
-    if (!key.fixed && key.has_stencil) {
-        out.insert(out.end(),
-                   {VK_DYNAMIC_STATE_STENCIL_OP, VK_DYNAMIC_STATE_STENCIL_COMPARE_MASK,
-                    VK_DYNAMIC_STATE_STENCIL_WRITE_MASK, VK_DYNAMIC_STATE_STENCIL_REFERENCE});
+    if (sets_numbers) {
+        add({VK_DYNAMIC_STATE_BLEND_CONSTANTS, VK_DYNAMIC_STATE_DEPTH_BIAS,
+             VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR});
     }
-    if (!key.fixed && key.tests_bounds) {
-        out.insert(out.end(),
-                   {VK_DYNAMIC_STATE_DEPTH_BOUNDS_TEST_ENABLE, VK_DYNAMIC_STATE_DEPTH_BOUNDS});
+    if (sets_modes && key.has_stencil) {
+        add({VK_DYNAMIC_STATE_STENCIL_OP});
+    }
+    if (sets_numbers && key.has_stencil) {
+        add({VK_DYNAMIC_STATE_STENCIL_COMPARE_MASK, VK_DYNAMIC_STATE_STENCIL_WRITE_MASK,
+             VK_DYNAMIC_STATE_STENCIL_REFERENCE});
+    }
+    if (sets_modes && key.tests_bounds) {
+        add({VK_DYNAMIC_STATE_DEPTH_BOUNDS_TEST_ENABLE});
+    }
+    if (sets_numbers && key.tests_bounds) {
+        add({VK_DYNAMIC_STATE_DEPTH_BOUNDS});
     }
     if (key.outputs_are_dynamic) {
         out.insert(

@@ -20,14 +20,14 @@ bool is_depth_stencil(Role role) {
     return role == Role::depth || role == Role::stencil || role == Role::resolved_depth;
 }
 
-VkAttachmentDescription2 description_of(const PassKey::Part& part, uint32_t samples) {
+VkAttachmentDescription2 description_of(const PassKey::Part& part, const PassKey& key) {
     VkAttachmentDescription2 out = Typed{VK_STRUCTURE_TYPE_ATTACHMENT_DESCRIPTION_2};
     const bool is_resolved = part.role == Role::resolved_color || part.role == Role::resolved_depth;
-    // What is resolved into has been cleared before.
-    const VkAttachmentLoadOp load =
-        is_resolved ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR;
+    const VkAttachmentLoadOp load = is_resolved && !key.clears_resolved
+                                        ? VK_ATTACHMENT_LOAD_OP_LOAD
+                                        : VK_ATTACHMENT_LOAD_OP_CLEAR;
     out.format = part.format;
-    out.samples = static_cast<VkSampleCountFlagBits>(is_resolved ? 1 : samples);
+    out.samples = static_cast<VkSampleCountFlagBits>(is_resolved ? 1 : key.samples);
     const bool is_used = part.role != Role::stencil;
     out.loadOp = is_used ? load : VK_ATTACHMENT_LOAD_OP_DONT_CARE;
     out.storeOp = is_used ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_DONT_CARE;
@@ -124,14 +124,14 @@ struct References {
 
 }  // namespace
 
-bool has_pass(const cases::Case& c) {
-    return c.variation.door == Door::render_pass || c.variation.door == Door::subpasses ||
-           c.variation.door == Door::input_attachment;
+bool has_pass(const cases::Case& c, const TargetLayout& layout) {
+    return layout.has_pass || c.variation.door == Door::render_pass ||
+           c.variation.door == Door::subpasses || c.variation.door == Door::input_attachment;
 }
 
-PassKey pass_key(const cases::Case& c, const std::vector<Attachment>& attachments) {
+PassKey pass_key(const cases::Case& c, const TargetLayout& layout) {
     PassKey key;
-    for (const Attachment& a : attachments) {
+    for (const Attachment& a : attachments_of(c, layout)) {
         if (a.is_beside_depth) {
             key.parts.back().has_stencil = true;
         } else {
@@ -144,6 +144,7 @@ PassKey pass_key(const cases::Case& c, const std::vector<Attachment>& attachment
     key.samples = c.target.samples;
     key.color_resolve = c.target.color_resolve;
     key.depth_resolve = c.target.depth_resolve;
+    key.clears_resolved = layout.has_pass;
     key.subpasses = c.variation.door == Door::subpasses ? 2 : 1;
     return key;
 }
@@ -160,7 +161,7 @@ VkImageLayout input_layout(VkImageAspectFlags aspect) {
 Result<Handle<VkRenderPass>> make_render_pass(const Device& device, const PassKey& key) {
     std::vector<VkAttachmentDescription2> descriptions;
     for (const PassKey::Part& part : key.parts) {
-        descriptions.push_back(description_of(part, key.samples));
+        descriptions.push_back(description_of(part, key));
     }
     const References references(key);
     std::vector<VkSubpassDescription2> subpasses;

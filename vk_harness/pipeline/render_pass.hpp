@@ -9,6 +9,7 @@
 
 #include "cases/model/case.hpp"
 #include "vk_harness/target/attachments.hpp"
+#include "vk_harness/target/target_layout.hpp"
 
 namespace vk_harness {
 
@@ -25,6 +26,7 @@ struct PassKey {
     uint32_t samples = 1;
     cases::Resolve color_resolve = cases::Resolve::none, depth_resolve = cases::Resolve::none;
     uint32_t subpasses = 1;  // 1 or 2, which draw to the same attachments; the last one resolves
+    bool clears_resolved = false;  // what is resolved into; else that has been cleared before
     // What one more subpass, which draws to none, reads as input attachments; empty: there is none.
     struct Input {
         uint32_t part = 0;
@@ -36,8 +38,8 @@ struct PassKey {
 };
 
 // Whether the case is rendered by a render pass object.
-bool has_pass(const cases::Case& c);
-PassKey pass_key(const cases::Case& c, const std::vector<Attachment>& attachments);
+bool has_pass(const cases::Case& c, const TargetLayout& layout);
+PassKey pass_key(const cases::Case& c, const TargetLayout& layout);
 // The subpass of draw number `draw`.
 uint32_t subpass_of(const cases::Case& c, size_t draw);
 

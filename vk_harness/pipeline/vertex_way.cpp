@@ -105,6 +105,10 @@ VertexWay vertex_way(const cases::Case& c, const cases::Draw& draw, uint32_t for
     return way;
 }
 
+bool adds_restarts(cases::Door door, const cases::Draw& draw) {
+    return door == cases::Door::restart_extra && draw.topology != cases::Topology::triangle_list;
+}
+
 uint32_t size_of(const VertexWay& way, uint32_t binding) {
     return cases::bytes_of(way.formats.at(binding));
 }

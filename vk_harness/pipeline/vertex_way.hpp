@@ -36,6 +36,9 @@ inline constexpr uint32_t kPulledSet = 1, kPulledWords = 8;
 // `formats`: those that the device reads vertices in, a bit each.
 VertexWay vertex_way(const cases::Case& c, const cases::Draw& draw, uint32_t formats);
 
+// Whether the door puts restarts between a draw's strips that have none of their own.
+bool adds_restarts(cases::Door door, const cases::Draw& draw);
+
 // Bytes of one vertex of a binding, and from one vertex to the next.
 uint32_t size_of(const VertexWay& way, uint32_t binding);
 uint32_t stride_of(const VertexWay& way, uint32_t binding);

@@ -68,6 +68,9 @@ std::optional<Rejection> check_resolve_and_stencil(const Capabilities& c, const 
     if (!capture::resolves_depth(t)) {
         return std::nullopt;
     }
+    if (!c.core.depth_resolve) {
+        return unsupported("the device lacks Vulkan 1.2 or VK_KHR_depth_stencil_resolve");
+    }
     VkPhysicalDeviceDepthStencilResolveProperties resolve =
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_STENCIL_RESOLVE_PROPERTIES};
     get_properties(c.physical, resolve);

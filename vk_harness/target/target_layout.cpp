@@ -85,6 +85,8 @@ cases::DepthFormat depth_beside_stencil(const Capabilities& c, const cases::Targ
 TargetLayout target_layout(const Capabilities& c, const cases::Case& test) {
     TargetLayout layout;
     layout.unused = unused_state(c, test);
+    layout.has_pass = !c.core.dynamic_rendering;
+    layout.holds_state = !c.core.dynamic_state;
     if (test.variation.door == cases::Door::exact_formats) {
         layout.vertex_formats = c.doors.vertex_formats;
     } else if (test.variation.door == cases::Door::stage_unused) {

@@ -38,6 +38,9 @@ struct TargetLayout {
     uint32_t vertex_formats = 0;
     // Of the door stage_unused: a fragment shader may write so many colours.
     uint32_t most_colors = 0;
+    // What the device lacks (core_support.hpp): the case is rendered by a render pass object, and
+    // pipelines hold the state that Vulkan 1.0 does not set between draws.
+    bool has_pass = false, holds_state = false;
 
     // Numbers in an attribute's only attachment, or in either of its pair. 4 beyond the last
     // attribute that a case may have.

@@ -69,7 +69,7 @@ TEST(ColorTargets, HaveStatesOfTheirOwn) {
     EXPECT_THAT(state.formats, ElementsAre(VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R32_UINT,
                                            VK_FORMAT_R16G16B16A16_SFLOAT));
     // The constants are those of a target that is not judged.
-    EXPECT_EQ(draw_state(c, c.draws[0], false).blend_constants[3], std::bit_cast<uint32_t>(4.0F));
+    EXPECT_EQ(draw_state(c, c.draws[0]).blend_constants[3], std::bit_cast<uint32_t>(4.0F));
     // Behind the door, all of them are set.
     const OutputState dynamic = output_state(key);
     EXPECT_THAT(dynamic.blends, ElementsAre(VK_TRUE, VK_FALSE, VK_FALSE));
