@@ -15,6 +15,7 @@ namespace {
 
 Capabilities made_up() {
     Capabilities c;
+    c.core.dynamic_rendering = c.core.dynamic_state = c.core.depth_resolve = true;
     c.info.max_color_attachments = 4;
     c.max_width = 4096;
     c.max_height = 2048;
@@ -323,6 +324,28 @@ TEST(CaseCheck, Draw) {
     EXPECT_FALSE(check_case(m, c).has_value());
     m.portability.triangle_fans = false;
     expect_rejected(m, c, unsupported, "the device lacks the feature triangleFans");
+}
+
+TEST(CaseCheck, DoorsOfDynamicRenderingAndState) {
+    using enum Rendered::Status;
+    Capabilities m = made_up();
+    cases::Case c = good();
+    const std::string rendering =
+        "the device lacks dynamicRendering, with which alone this door is drawn";
+    for (const cases::Door door : {cases::Door::pass_split, cases::Door::secondary}) {
+        c.variation.door = door;
+        m.core.dynamic_rendering = true;
+        EXPECT_FALSE(check_case(m, c).has_value());
+        m.core.dynamic_rendering = false;
+        expect_rejected(m, c, unsupported, rendering);
+    }
+    c.variation.door = cases::Door::render_pass;
+    EXPECT_FALSE(check_case(m, c).has_value());
+    c.variation.door = cases::Door::stride_dynamic;
+    EXPECT_FALSE(check_case(m, c).has_value());
+    m.core.dynamic_state = false;
+    expect_rejected(m, c, unsupported,
+                    "the device lacks extendedDynamicState, which this door needs");
 }
 
 TEST(CaseCheck, Queries) {
