@@ -330,6 +330,7 @@ TEST(CaseCheck, DoorsOfDynamicRenderingAndState) {
     using enum Rendered::Status;
     Capabilities m = made_up();
     cases::Case c = good();
+    m.limits.maxImageArrayLayers = 256;
     const std::string rendering =
         "the device lacks dynamicRendering, with which alone this door is drawn";
     for (const cases::Door door : {cases::Door::pass_split, cases::Door::secondary}) {
