@@ -116,7 +116,8 @@ std::optional<Rejection> check_target(const Capabilities& c, const cases::Case& 
         return unsupported(
             "the device lacks the feature multisampleArrayImage (VK_KHR_portability_subset)");
     }
-    if (names_layers(test) && !c.layer_output) {
+    const bool has_geometry = c.doors.geometry && cases::can_take(cases::Door::geometry, test);
+    if (names_layers(test) && !c.layer_output && !has_geometry) {
         return unsupported(
             "the device lacks the feature shaderOutputLayer, by which a vertex shader chooses the "
             "layer");
@@ -519,11 +520,14 @@ std::optional<Rejection> check_case(const Capabilities& capabilities, const case
         return unsupported("the case has {} draws, the harness tells {} apart", c.draws.size(),
                            kMaxId - 1);
     }
-    if (const uint32_t viewports = viewport_count(c); viewports > capabilities.max_viewports) {
+    const uint32_t most = capabilities.viewport_output || cases::can_take(cases::Door::geometry, c)
+                              ? capabilities.max_viewports
+                              : 1;
+    if (const uint32_t viewports = viewport_count(c); viewports > most) {
         return unsupported(
             "the case chooses from {} viewports by gl_ViewportIndex, the device from {} (features "
             "multiViewport and shaderOutputViewportIndex)",
-            viewports, capabilities.max_viewports);
+            viewports, most);
     }
     const TargetLayout layout = target_layout(capabilities, c);
     if (auto rejection = check_counting(capabilities, c, layout)) {

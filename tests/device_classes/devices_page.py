@@ -47,6 +47,8 @@ def lavapipe_alone_lacks(device, reason):
         return int(next(group for group in found.groups() if group)) in device["samples"] and "at sample count 1" not in reason
     if found := re.search(r"resolve depth by (\w+)", reason):
         return bool(device["limits"].get("supportedDepthResolveModes", 15) & RESOLVES[found[1]])
+    if "independentResolveNone" in reason:
+        return device["limits"].get("independentResolveNone") == 1
     for text, facts in (("fragmentShaderBarycentric", "features"), ("VK_EXT_sample_locations", "extensions"), ("depthBiasControl", "features"),
                         ("depthBounds", "features"), ("VK_EXT_conservative_rasterization", "extensions")):
         if text in reason:

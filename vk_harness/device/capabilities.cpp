@@ -179,12 +179,13 @@ void query_optional_features(Capabilities& c) {
     c.depth_bias = query_depth_bias_support(c.physical, has_device_extension);
     c.has_sample_shading = features.features.sampleRateShading == VK_TRUE;
     query_sample_locations(c);
-    // Before 1.2 the shaders that choose would need another extension and another SPIR-V.
+    // Before 1.2 vertex shaders that choose would need another extension and another SPIR-V.
+    c.layer_output = features12.shaderOutputLayer == VK_TRUE;
+    c.viewport_output = features12.shaderOutputViewportIndex == VK_TRUE;
     if (features.features.multiViewport == VK_TRUE &&
-        features12.shaderOutputViewportIndex == VK_TRUE) {
+        (c.viewport_output || features.features.geometryShader == VK_TRUE)) {
         c.max_viewports = c.limits.maxViewports;
     }
-    c.layer_output = features12.shaderOutputLayer == VK_TRUE;
     c.max_layers = std::min(c.limits.maxFramebufferLayers, c.limits.maxImageArrayLayers);
     c.doors = query_door_support(c.physical, has_device_extension);
     c.discard = query_discard_support(c.physical, c.info.api_version, has_device_extension);

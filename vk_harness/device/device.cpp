@@ -118,7 +118,7 @@ Result<Device> Device::create(const Capabilities& capabilities) {
     const VkBool32 has_viewports = capabilities.max_viewports > 1 ? VK_TRUE : VK_FALSE;
     VkPhysicalDeviceVulkan12Features features12 =
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
-    features12.shaderOutputViewportIndex = has_viewports;
+    features12.shaderOutputViewportIndex = capabilities.viewport_output ? VK_TRUE : VK_FALSE;
     features12.shaderOutputLayer = capabilities.layer_output ? VK_TRUE : VK_FALSE;
     VkPhysicalDeviceFragmentShaderBarycentricFeaturesKHR barycentric =
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADER_BARYCENTRIC_FEATURES_KHR};

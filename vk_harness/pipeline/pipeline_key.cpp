@@ -154,6 +154,9 @@ PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw,
     }
     key.made = pipeline_way(c.variation.door);
     key.stages = stage_way(c.variation.door);
+    if (layout.has_geometry && key.stages == StageWay::vertex) {
+        key.stages = StageWay::geometry;
+    }
     if (has_pass(c, layout)) {
         key.pass = pass_key(c, layout);
         key.subpass = subpass_of(c, static_cast<size_t>(&draw - c.draws.data()));

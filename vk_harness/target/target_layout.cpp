@@ -87,6 +87,8 @@ TargetLayout target_layout(const Capabilities& c, const cases::Case& test) {
     layout.unused = unused_state(c, test);
     layout.has_pass = !c.core.dynamic_rendering;
     layout.holds_state = !c.core.dynamic_state;
+    layout.has_geometry =
+        (names_layers(test) && !c.layer_output) || (viewport_count(test) > 1 && !c.viewport_output);
     if (test.variation.door == cases::Door::exact_formats) {
         layout.vertex_formats = c.doors.vertex_formats;
     } else if (test.variation.door == cases::Door::stage_unused) {

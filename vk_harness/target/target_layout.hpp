@@ -41,6 +41,8 @@ struct TargetLayout {
     // What the device lacks (core_support.hpp): the case is rendered by a render pass object, and
     // pipelines hold the state that Vulkan 1.0 does not set between draws.
     bool has_pass = false, holds_state = false;
+    // A geometry shader names layers and viewports, which a vertex shader may not.
+    bool has_geometry = false;
 
     // Numbers in an attribute's only attachment, or in either of its pair. 4 beyond the last
     // attribute that a case may have.

@@ -30,7 +30,7 @@ Capabilities made_up() {
     c.limits.viewportBoundsRange[1] = 8191;
     c.limits.maxImageDimension2D = 4096;
     c.max_layers = 256;
-    c.layer_output = true;
+    c.layer_output = c.viewport_output = true;
     return c;
 }
 
@@ -126,6 +126,9 @@ TEST(CaseCheck, Layers) {
     expect_rejected(m, c, unsupported,
                     "the device lacks the feature shaderOutputLayer, by which a vertex shader "
                     "chooses the layer");
+    m.doors.geometry = true;  // by which a geometry shader does
+    EXPECT_FALSE(check_case(m, c).has_value());
+    m.doors.geometry = false;
     c.draws[0].layer = 0;  // no shader has to choose
     EXPECT_FALSE(check_case(m, c).has_value());
     m = made_up();

@@ -73,5 +73,23 @@ TEST(OlderDevice, NumbersMakeNoOtherPipelines) {
     EXPECT_THAT(dynamic_states(key_of(fixed, true, false)), IsEmpty());
 }
 
+TEST(OlderDevice, AGeometryShaderNamesLayersAndViewports) {
+    Capabilities capabilities;
+    cases::Case c = make_case({64, 64, 1}, half_square());
+    const auto stages = [&] {
+        return pipeline_key(c, c.draws[0], target_layout(capabilities, c)).stages;
+    };
+    EXPECT_EQ(stages(), StageWay::vertex);
+    c.target.layers = 2;
+    c.draws[0].layer = 1;
+    EXPECT_EQ(stages(), StageWay::geometry);
+    capabilities.layer_output = true;
+    EXPECT_EQ(stages(), StageWay::vertex);
+    c.draws[0].viewport_index = 1;
+    EXPECT_EQ(stages(), StageWay::geometry);
+    capabilities.viewport_output = true;
+    EXPECT_EQ(stages(), StageWay::vertex);
+}
+
 }  // namespace
 }  // namespace vk_harness::testing

@@ -407,6 +407,7 @@ TEST(ReadCapture, HalvesHoldTheSame) {
 // Capabilities with which everything may be narrow.
 Capabilities narrow_device(uint32_t attachments) {
     Capabilities c;
+    c.core.dynamic_rendering = c.core.dynamic_state = true;
     c.narrow_sample_counts = VK_SAMPLE_COUNT_1_BIT | VK_SAMPLE_COUNT_4_BIT;
     c.info.max_color_attachments = attachments;
     return c;
