@@ -43,8 +43,7 @@ bool is_crossing(const std::array<glm::vec4, 3>& clip, EdgeLabel in, EdgeLabel o
     return line >= kFirstDepthEdge || !is_before_eye(clip, line) || !is_axis_aligned(clip, line);
 }
 
-}  // namespace
-
+// The outline of a clipped triangle. False if some vertex has no box.
 bool outline_of(const std::vector<ClippedVertex>& polygon, const OutlineSource& s, Outline& out) {
     out.count = out.cut_corners = 0;
     if (polygon.size() > kMaxClippedVertices) {
@@ -78,6 +77,15 @@ bool outline_of(const std::vector<ClippedVertex>& polygon, const OutlineSource& 
     return true;
 }
 
+}  // namespace
+
+bool cut_outline(const OutlineSource& s, std::span<const ClipPlane> planes, Outline& out,
+                 std::vector<ClippedVertex>& polygon) {
+    bool is_sure = true;
+    polygon = clip_triangle(s.input, s.draw.viewport, s.profile, planes, &is_sure);
+    return is_sure && outline_of(polygon, s, out);
+}
+
 bool outline_by(const OutlineSource& s, std::span<const ClipPlane> planes, Outline& out) {
     out.count = out.cut_corners = 0;
     if (is_inside(s.input, planes)) {
@@ -92,7 +100,8 @@ bool outline_by(const OutlineSource& s, std::span<const ClipPlane> planes, Outli
         out.count = 3;
         return true;
     }
-    return outline_of(clip_triangle(s.input, s.draw.viewport, s.profile, planes), s, out);
+    std::vector<ClippedVertex> polygon;
+    return cut_outline(s, planes, out, polygon);
 }
 
 CutSource cut_source(const OutlineSource& s) {

@@ -29,11 +29,13 @@ struct OutlineSource {
     ClipVolume volume;
 };
 
-// The outline of `polygon`, a clipped triangle. False if some vertex has no box.
-bool outline_of(const std::vector<ClippedVertex>& polygon, const OutlineSource& s, Outline& out);
+// The outline of what `planes` leave of the triangle, and the polygon itself. False if some vertex
+// has no box, or if it is only by rounding errors that nothing is left.
+bool cut_outline(const OutlineSource& s, std::span<const ClipPlane> planes, Outline& out,
+                 std::vector<ClippedVertex>& polygon);
 
-// The outline cut by `planes`, which holds no border of the viewport or all of them. False if some
-// vertex has no box.
+// The outline cut by `planes`, which holds no border of the viewport or all of them. False as of
+// cut_outline.
 bool outline_by(const OutlineSource& s, std::span<const ClipPlane> planes, Outline& out);
 
 CutSource cut_source(const OutlineSource& s);

@@ -22,9 +22,8 @@ namespace {
 // if some vertex has no box.
 bool tested_outline(const OutlineSource& s, std::span<const ClipPlane> planes, Outline& out,
                     bool& is_bounded) {
-    const std::vector<ClippedVertex> polygon =
-        clip_triangle(s.input, s.draw.viewport, s.profile, planes);
-    if (!outline_of(polygon, s, out)) {
+    std::vector<ClippedVertex> polygon;
+    if (!cut_outline(s, planes, out, polygon)) {
         return false;
     }
     const auto cuts = distance_cuts(cut_source(s), polygon, out.vertices());
@@ -46,10 +45,9 @@ void add_depth_tested(const OutlineSource& s, TriangleSetup& t, AreaSigns& signs
             }
             planes.insert(planes.begin(), borders.begin(), borders.end());
         }
-        const std::vector<ClippedVertex> polygon =
-            clip_triangle(s.input, s.draw.viewport, s.profile, planes);
+        std::vector<ClippedVertex> polygon;
         Outline o;
-        if (!outline_of(polygon, s, o)) {
+        if (!cut_outline(s, planes, o, polygon)) {
             continue;
         }
         auto cuts = depth_cuts(cut_source(s), polygon, o.vertices(), s.volume.depth());

@@ -168,7 +168,8 @@ class Clipper {
         }
     }
 
-    std::vector<Work> clip(std::span<const ClipPlane> order) const;
+    // `is_sure`: as of clip_triangle; it is left as it is where that holds.
+    std::vector<Work> clip(std::span<const ClipPlane> order, bool& is_sure) const;
     ClippedVertex finished(const Work& p, const cases::Viewport& viewport) const;
 
   private:
@@ -177,6 +178,7 @@ class Clipper {
     Ball distance_error(const Work& p, const Ball& d, ClipPlane plane) const;
     Work cut(const Work& p1, const Work& p2, const mpz_class& n1, const mpz_class& n2,
              ClipPlane plane) const;
+    bool may_be_inside(const Work& p, const mpz_class& d, ClipPlane plane) const;
     std::vector<Work> clip_by(const std::vector<Work>& polygon, const std::vector<mpz_class>& d,
                               ClipPlane plane) const;
     mpq_class axis_error(const Work& p, size_t c, float extent, float origin) const;
@@ -283,7 +285,15 @@ std::vector<Work> Clipper::clip_by(const std::vector<Work>& polygon,
     return out;
 }
 
-std::vector<Work> Clipper::clip(std::span<const ClipPlane> order) const {
+// Whether a device may find a cut corner inside of a plane that it is outside of. That of a vertex
+// of the triangle is the sign of one sum of two of its numbers, which no rounding turns.
+bool Clipper::may_be_inside(const Work& p, const mpz_class& d, ClipPlane plane) const {
+    const Ball far = quotient(abs(d), whole_of(p.weight), triangle_.exponent);
+    return p.original < 0 &&
+           (!p.is_bounded || is_positive(far - distance_error(p, far, plane)) != Answer::yes);
+}
+
+std::vector<Work> Clipper::clip(std::span<const ClipPlane> order, bool& is_sure) const {
     std::vector<Work> polygon = start_;
     for (const ClipPlane plane : order) {
         if (polygon.empty()) {
@@ -296,7 +306,11 @@ std::vector<Work> Clipper::clip(std::span<const ClipPlane> order) const {
             d.push_back(distance(p, plane));
         }
         if (std::any_of(d.begin(), d.end(), [](const mpz_class& each) { return each < 0; })) {
-            polygon = clip_by(polygon, d, plane);
+            std::vector<Work> left = clip_by(polygon, d, plane);
+            for (size_t i = 0; left.empty() && i < polygon.size(); ++i) {
+                is_sure = is_sure && !may_be_inside(polygon[i], d[i], plane);
+            }
+            polygon = std::move(left);
         }
     }
     return polygon;
@@ -403,27 +417,31 @@ ClippedVertex Clipper::finished(const Work& p, const cases::Viewport& viewport) 
 }  // namespace
 
 std::vector<ClippedVertex> clip_triangle(const ClipInput& triangle, const cases::Viewport& viewport,
-                                         cases::Profile profile,
-                                         std::span<const ClipPlane> planes) {
+                                         cases::Profile profile, std::span<const ClipPlane> planes,
+                                         bool* is_sure) {
     const Clipper clipper(triangle, profile);
     // An order that has been cut in before gives the same polygon again.
     const std::vector<ClipPlane> order = cutting_planes(triangle, planes);
-    std::vector<Work> polygon = clipper.clip(order);
+    bool is_empty_surely = true;
+    std::vector<Work> polygon = clipper.clip(order, is_empty_surely);
     std::vector<ClipPlane> other_order = order;
     std::stable_partition(other_order.begin(), other_order.end(),
                           [](ClipPlane p) { return !is_user(p) && component_of(p) == kZ; });
     if (other_order != order) {
-        widen_by(polygon, clipper.clip(other_order));
+        widen_by(polygon, clipper.clip(other_order, is_empty_surely));
     }
     std::vector<ClipPlane> user_first = other_order;
     std::stable_partition(user_first.begin(), user_first.end(), is_user);
     if (user_first != other_order && user_first != order) {
-        widen_by(polygon, clipper.clip(user_first));
+        widen_by(polygon, clipper.clip(user_first, is_empty_surely));
     }
     std::vector<ClippedVertex> out;
     out.reserve(polygon.size());
     for (const Work& p : polygon) {
         out.push_back(clipper.finished(p, viewport));
+    }
+    if (is_sure != nullptr) {
+        *is_sure = is_empty_surely || !out.empty();
     }
     return out;
 }
