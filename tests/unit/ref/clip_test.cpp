@@ -71,6 +71,27 @@ TEST(Clip, OutsideIsEmpty) {
     EXPECT_TRUE(clip_triangle(corner, kSquare, Profile::practice).empty());
 }
 
+// A triangle through the eye: x >= -w leaves a corner with w = 1.3e-7, which lies beyond y <= w by
+// less than 1e-9. A device whose arithmetic is binary32 may find it inside.
+TEST(Clip, WhatRoundingErrorsMayLeaveIsNotSurelyEmpty) {
+    const Triple t{{{-4.266690254211426F, 3.896033763885498F, 1.875F, 3.75F},
+                    {-2.6960227489471436F, 2.925961494445801F, 1, 2},
+                    {0.28444603085517883F, -0.2597355842590332F, -0.125F, -0.25F}}};
+    bool is_sure = true;
+    EXPECT_TRUE(
+        clip_triangle(t, kSquare, Profile::practice, std::span(kViewVolume), &is_sure).empty());
+    EXPECT_FALSE(is_sure);
+    // Past a corner of the volume by a tenth of its size, and by a corner of the triangle.
+    const Triple corner{{{1.5F, 0.9F, 0, 1}, {0.9F, 1.5F, 0, 1}, {2, 2, 0, 1}}};
+    EXPECT_TRUE(
+        clip_triangle(corner, kSquare, Profile::vulkan, std::span(kViewVolume), &is_sure).empty());
+    EXPECT_TRUE(is_sure);
+    const Triple beyond{{{1.0000001F, 0, 0, 1}, {2, 0, 0, 1}, {2, 1, 0, 1}}};
+    EXPECT_TRUE(
+        clip_triangle(beyond, kSquare, Profile::vulkan, std::span(kViewVolume), &is_sure).empty());
+    EXPECT_TRUE(is_sure);
+}
+
 TEST(Clip, BordersAreInside) {
     EXPECT_TRUE(is_inside({1, -1, 0, 1}));
     EXPECT_TRUE(is_inside({0, 0, 1, 1}));

@@ -390,6 +390,13 @@ TEST(Conservative, DepthsOfPiecesAndOfOtherModesMayDiffer) {
     EXPECT_TRUE(hits.allows(0, 1));
     EXPECT_TRUE(hits.allows(0, 2));
 
+    // Nor is a further piece there because the first one is, or the same triangle was.
+    cases::Case again = pieces;
+    again.draws.push_back(again.draws[0]);
+    const HitBounds both = hits_at(expect(again, limits_of(0), Profile::direct3d), 9, 2);
+    EXPECT_EQ(both.total_min, 2U);
+    EXPECT_EQ(both.total_max, 4U);
+
     cases::Case twice = pixels(8, 8, {{1.25, 1.25}, {7, 1.5}, {1.5, 7}});
     twice.draws[0].positions[1].z = 0.25F;
     twice.draws[0].conservative = Conservative::overestimate;
