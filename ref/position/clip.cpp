@@ -178,7 +178,7 @@ class Clipper {
     Ball distance_error(const Work& p, const Ball& d, ClipPlane plane) const;
     Work cut(const Work& p1, const Work& p2, const mpz_class& n1, const mpz_class& n2,
              ClipPlane plane) const;
-    bool may_be_inside(const Work& p, const mpz_class& d, ClipPlane plane) const;
+    bool may_be_anywhere(const Work& p, const mpz_class& d, ClipPlane plane) const;
     std::vector<Work> clip_by(const std::vector<Work>& polygon, const std::vector<mpz_class>& d,
                               ClipPlane plane) const;
     mpq_class axis_error(const Work& p, size_t c, float extent, float origin) const;
@@ -285,12 +285,14 @@ std::vector<Work> Clipper::clip_by(const std::vector<Work>& polygon,
     return out;
 }
 
-// Whether a device may find a cut corner inside of a plane that it is outside of. That of a vertex
-// of the triangle is the sign of one sum of two of its numbers, which no rounding turns.
-bool Clipper::may_be_inside(const Work& p, const mpz_class& d, ClipPlane plane) const {
+// Whether a device may find a cut corner inside of a plane that it is outside of, and draw it
+// anywhere, since its w may be 0. That of a vertex of the triangle is the sign of one sum of two of
+// its numbers, which no rounding turns.
+bool Clipper::may_be_anywhere(const Work& p, const mpz_class& d, ClipPlane plane) const {
     const Ball far = quotient(abs(d), whole_of(p.weight), triangle_.exponent);
-    return p.original < 0 &&
-           (!p.is_bounded || is_positive(far - distance_error(p, far, plane)) != Answer::yes);
+    const auto may_be = [](const Ball& number) { return is_positive(number) != Answer::yes; };
+    return p.original < 0 && may_be(p.value[kW] - Ball(p.error[kW])) &&
+           (!p.is_bounded || may_be(far - distance_error(p, far, plane)));
 }
 
 std::vector<Work> Clipper::clip(std::span<const ClipPlane> order, bool& is_sure) const {
@@ -308,7 +310,7 @@ std::vector<Work> Clipper::clip(std::span<const ClipPlane> order, bool& is_sure)
         if (std::any_of(d.begin(), d.end(), [](const mpz_class& each) { return each < 0; })) {
             std::vector<Work> left = clip_by(polygon, d, plane);
             for (size_t i = 0; left.empty() && i < polygon.size(); ++i) {
-                is_sure = is_sure && !may_be_inside(polygon[i], d[i], plane);
+                is_sure = is_sure && !may_be_anywhere(polygon[i], d[i], plane);
             }
             polygon = std::move(left);
         }

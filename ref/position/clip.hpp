@@ -111,9 +111,9 @@ bool is_trivially_outside(const std::array<glm::vec4, 3>& triangle,
 
 // The part of a triangle of finite vertices inside the planes, in the order of its vertices; empty
 // if there is none. With profile vulkan errors are those of arithmetic accurate to 1 part in 10^5,
-// otherwise those of binary32. `is_sure`: false if nothing is left, and a cut corner lies so near
-// to the plane that takes it away that these errors might keep it: a device may have a polygon
-// there.
+// otherwise those of binary32. `is_sure`: false if nothing is left, and a cut corner whose w may be
+// 0 lies so near to the plane that takes it away that these errors might keep it: a device may have
+// a polygon anywhere. What they might keep of other corners is as small as they are.
 std::vector<ClippedVertex> clip_triangle(const ClipInput& triangle, const cases::Viewport& viewport,
                                          cases::Profile profile,
                                          std::span<const ClipPlane> planes = kViewVolume,
