@@ -95,6 +95,11 @@ std::optional<Rejection> check_depth_format(const Capabilities& c, const cases::
     return std::nullopt;
 }
 
+// Whether a geometry shader can hand on the case's triangles, and name their layers and viewports.
+bool can_have_geometry(const Capabilities& c, const cases::Case& test) {
+    return c.doors.geometry && cases::can_take(cases::Door::geometry, test);
+}
+
 std::optional<Rejection> check_target(const Capabilities& c, const cases::Case& test) {
     const cases::Target& t = test.target;
     if (t.width == 0 || t.height == 0) {
@@ -116,8 +121,7 @@ std::optional<Rejection> check_target(const Capabilities& c, const cases::Case& 
         return unsupported(
             "the device lacks the feature multisampleArrayImage (VK_KHR_portability_subset)");
     }
-    const bool has_geometry = c.doors.geometry && cases::can_take(cases::Door::geometry, test);
-    if (names_layers(test) && !c.layer_output && !has_geometry) {
+    if (names_layers(test) && !c.layer_output && !can_have_geometry(c, test)) {
         return unsupported(
             "the device lacks the feature shaderOutputLayer, by which a vertex shader chooses the "
             "layer");
@@ -520,7 +524,7 @@ std::optional<Rejection> check_case(const Capabilities& capabilities, const case
         return unsupported("the case has {} draws, the harness tells {} apart", c.draws.size(),
                            kMaxId - 1);
     }
-    const uint32_t most = capabilities.viewport_output || cases::can_take(cases::Door::geometry, c)
+    const uint32_t most = capabilities.viewport_output || can_have_geometry(capabilities, c)
                               ? capabilities.max_viewports
                               : 1;
     if (const uint32_t viewports = viewport_count(c); viewports > most) {
@@ -558,8 +562,8 @@ std::optional<Rejection> check_case(const Capabilities& capabilities, const case
         if (auto missing = missing_door_support(capabilities.doors, c.variation.door)) {
             return unsupported("{}", *missing);
         }
-        if (auto missing = missing_core_support(capabilities.core, c.variation.door)) {
-            return unsupported("{}", *missing);
+        if (auto closed = closed_by(layout, c.variation.door)) {
+            return unsupported("{}", *closed);
         }
         if (auto missing = missing_mesh_layers(capabilities.doors, c)) {
             return unsupported("{}", *missing);

@@ -226,6 +226,7 @@ Result<void> BatchRenderer::plan_clears(CasePlan& plan) {
 
 Result<void> BatchRenderer::plan_pass(CasePlan& plan, const TargetLayout& layout) {
     const PassKey key = pass_key(*plan.test, layout);
+    plan.pass_clears_resolved = key.clears_resolved;
     if (auto got = put(plan.pass, pipelines_.get_pass(key)); !got) {
         return got;
     }

@@ -74,7 +74,7 @@ std::vector<capture::StrayWrite> stray_writes(const CasePlan& plan,
 // all colours as the first behind a pipeline without any (docs/findings), or lost one of several
 // submissions. The host's memory may be refused, and a query begins before any pipeline only in a
 // command buffer that has had none.
-bool is_drawn_alone(const cases::Case& c) {
+bool is_drawn_alone(const Device& device, const cases::Case& c) {
     if (c.variation.door == cases::Door::submissions ||
         c.variation.door == cases::Door::memory_imported ||
         c.variation.door == cases::Door::transform_feedback ||
@@ -82,9 +82,11 @@ bool is_drawn_alone(const cases::Case& c) {
         c.variation.door == cases::Door::query_first) {
         return true;
     }
-    return c.variation.door == cases::Door::state_static &&
-           std::any_of(c.draws.begin(), c.draws.end(),
-                       [](const cases::Draw& draw) { return draw.rasterizer_discard; });
+    const bool is_static =
+        c.variation.door == cases::Door::state_static || !device.capabilities().core.dynamic_state;
+    return is_static && std::any_of(c.draws.begin(), c.draws.end(), [](const cases::Draw& draw) {
+               return draw.rasterizer_discard;
+           });
 }
 
 void append(std::vector<std::string>& to, const std::vector<std::string>& from) {
@@ -351,7 +353,7 @@ std::vector<Rendered> BatchRenderer::render(std::span<const cases::Case> batch, 
             item.test->target,
             attachments_of(*item.test, target_layout(device_->capabilities(), *item.test)),
             image_way(*item.test));
-        const bool is_alone = is_drawn_alone(batch[slot]);
+        const bool is_alone = is_drawn_alone(*device_, batch[slot]);
         const auto flush = [&] {
             run_chunk(plans, read_back, results, step, store);
             bytes = 0;

@@ -163,7 +163,7 @@ class Suite(ClassTest):
         for names in ("features", "extensions"):
             device[names] = [name for name in device[names] if name not in lacking]
         told = device_classes.doctor(device, self.folder)
-        self.assertEqual((told["rendering"], told["state"]), ("render-pass", "pipeline"))
+        self.assertEqual((told["has_dynamic_rendering"], told["has_dynamic_state"]), (False, False))
         _, found, printed = self.statuses(device)
         both = [case for case in usual if "unsupported" not in (usual[case], found[case])]
         self.assertGreater(len(both), 2800 // int(share().split("/")[1]), printed)

@@ -65,8 +65,9 @@ struct CasePlan {
     std::vector<VkCommandBuffer> secondaries;  // secondaries_of() many; empty: none
     std::vector<ClearDraw> clears;             // of the door clear_draw
     std::vector<InputRead> inputs;             // of the door input_attachment
-    // Of a door that renders by an object.
+    // Where the case is rendered by a render pass object (has_pass).
     VkRenderPass pass = VK_NULL_HANDLE;
+    bool pass_clears_resolved = false;  // PassKey::clears_resolved
     std::shared_ptr<Handle<VkFramebuffer>> framebuffer;
     ReadbackLayout readback;
 };

@@ -142,13 +142,13 @@ void record_feedback(const Device& device, VkCommandBuffer commands, const CaseP
         {VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT, VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT});
 }
 
-// Clears what is resolved into, by a rendering without draws, and waits for it. Without dynamic
-// rendering the render pass object does (PassKey::clears_resolved).
+// Clears what is resolved into, by a rendering without draws, and waits for it; or leaves that to
+// the render pass object.
 void clear_resolved(const Device& device, VkCommandBuffer commands, const CasePlan& plan) {
-    const VolkDeviceTable& vk = device.vk();
-    if (!device.capabilities().core.dynamic_rendering) {
+    if (plan.pass_clears_resolved) {
         return;
     }
+    const VolkDeviceTable& vk = device.vk();
     std::optional<VkRenderingAttachmentInfo> color, depth;
     for (size_t k = 0; k < plan.images.size(); ++k) {
         const Attachment& a = plan.attachments[k];

@@ -182,12 +182,12 @@ void query_optional_features(Capabilities& c) {
     // Before 1.2 vertex shaders that choose would need another extension and another SPIR-V.
     c.layer_output = features12.shaderOutputLayer == VK_TRUE;
     c.viewport_output = features12.shaderOutputViewportIndex == VK_TRUE;
-    if (features.features.multiViewport == VK_TRUE &&
-        (c.viewport_output || features.features.geometryShader == VK_TRUE)) {
+    if (features.features.multiViewport == VK_TRUE) {
         c.max_viewports = c.limits.maxViewports;
     }
     c.max_layers = std::min(c.limits.maxFramebufferLayers, c.limits.maxImageArrayLayers);
     c.doors = query_door_support(c.physical, has_device_extension);
+    c.doors.geometry = c.info.has_primitive_id;  // the same feature
     c.discard = query_discard_support(c.physical, c.info.api_version, has_device_extension);
     c.clip = query_clip_support(c.physical, has_device_extension);
     c.doors.feedback = c.doors.feedback && c.clip.feedback_keeps_order;
@@ -221,6 +221,8 @@ void query_features(Capabilities& c) {
     c.core = query_core_support(c.physical, c.info.api_version, has_device_extension);
     missing.insert(missing.end(), c.core.missing.begin(), c.core.missing.end());
     if (c.core.missing.empty()) {
+        c.info.has_dynamic_rendering = c.core.dynamic_rendering;
+        c.info.has_dynamic_state = c.core.dynamic_state;
         query_optional_features(c);
         query_conservative(c);
     }
@@ -265,8 +267,6 @@ void query_targets(Capabilities& c) {
     c.blends_wide = has_features(c, kColorFormat, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT);
     c.blends_narrow = has_features(c, kTwoNumbers, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT);
     c.info.hit_counting = c.blends_wide ? "binary32" : "binary16";
-    c.info.rendering = c.core.dynamic_rendering ? "dynamic" : "render-pass";
-    c.info.state = c.core.dynamic_state ? "dynamic" : "pipeline";
     if (!c.blends_wide || !c.blends_narrow) {
         constexpr VkFormatFeatureFlags kCounts = VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT |
                                                  VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT |

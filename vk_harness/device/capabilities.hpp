@@ -63,9 +63,8 @@ struct Capabilities {
     DepthBiasSupport depth_bias;
     PortabilitySupport portability;
     CoreSupport core;
-    // That gl_ViewportIndex can choose from; 1 without multiViewport and a shader that may name it.
-    uint32_t max_viewports = 1;
-    uint32_t max_layers = 1;  // of a target
+    uint32_t max_viewports = 1;  // 1 without multiViewport
+    uint32_t max_layers = 1;     // of a target
     // shaderOutputLayer and shaderOutputViewportIndex: gl_Layer and gl_ViewportIndex in a vertex
     // shader. Without them a geometry shader names both (DoorSupport::geometry).
     bool layer_output = false, viewport_output = false;

@@ -42,7 +42,7 @@ CoreSupport query_core_support(VkPhysicalDevice physical, uint32_t api_version,
     const bool has_maintenance4 = has(VK_KHR_MAINTENANCE_4_EXTENSION_NAME);
     const bool has_states = has(VK_EXT_EXTENDED_DYNAMIC_STATE_EXTENSION_NAME) &&
                             has(VK_EXT_EXTENDED_DYNAMIC_STATE_2_EXTENSION_NAME);
-    out.dynamic_state_extensions = has_states && api_version < VK_API_VERSION_1_3;
+    const bool has_state_features = has_states && api_version < VK_API_VERSION_1_3;
     CoreFeatures asked;
     VkPhysicalDeviceFeatures2 features = Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
     if (has_rendering) {
@@ -54,7 +54,7 @@ CoreSupport query_core_support(VkPhysicalDevice physical, uint32_t api_version,
     if (has_maintenance4) {
         chain(features, asked.maintenance4);
     }
-    if (out.dynamic_state_extensions) {
+    if (has_state_features) {
         chain(features, asked.dynamic_state);
         chain(features, asked.dynamic_state2);
     } else if (has_states) {  // core without a feature
@@ -67,6 +67,7 @@ CoreSupport query_core_support(VkPhysicalDevice physical, uint32_t api_version,
     out.maintenance4 = asked.maintenance4.maintenance4 == VK_TRUE;
     out.dynamic_state = asked.dynamic_state.extendedDynamicState == VK_TRUE &&
                         asked.dynamic_state2.extendedDynamicState2 == VK_TRUE;
+    out.dynamic_state_features = out.dynamic_state && has_state_features;
     // In an order in which each extension follows those that it needs itself.
     const auto use = [&](bool is_used, const char* extension, uint32_t core_since) {
         if (is_used && api_version < core_since) {
@@ -101,7 +102,7 @@ void enable_core_features(const CoreSupport& support, VkPhysicalDeviceFeatures2&
         enabled.maintenance4.maintenance4 = VK_TRUE;
         chain(features, enabled.maintenance4);
     }
-    if (support.dynamic_state && support.dynamic_state_extensions) {
+    if (support.dynamic_state_features) {
         enabled.dynamic_state.extendedDynamicState = VK_TRUE;
         enabled.dynamic_state2.extendedDynamicState2 = VK_TRUE;
         chain(features, enabled.dynamic_state);
@@ -130,34 +131,6 @@ void use_extension_names(VolkDeviceTable& table) {
     use(table.vkCmdSetDepthBoundsTestEnable, table.vkCmdSetDepthBoundsTestEnableEXT);
     use(table.vkCmdSetDepthWriteEnable, table.vkCmdSetDepthWriteEnableEXT);
     use(table.vkCmdSetDepthBiasEnable, table.vkCmdSetDepthBiasEnableEXT);
-}
-
-std::optional<std::string> missing_core_support(const CoreSupport& support, cases::Door door) {
-    using cases::Door;
-    switch (door) {
-        case Door::secondary:
-        case Door::secondary_each:
-        case Door::secondary_reused:
-        case Door::pass_split:
-        case Door::pass_suspended:
-        case Door::clear_commands:
-        case Door::clear_draw:
-        case Door::submissions:
-        case Door::pipeline_library:
-        case Door::shader_objects:
-        case Door::transform_feedback:
-        case Door::multiview:
-            if (!support.dynamic_rendering) {
-                return "the device lacks dynamicRendering, with which alone this door is drawn";
-            }
-            break;
-        default:
-            break;
-    }
-    if (!support.dynamic_state && (door == Door::stride_dynamic || door == Door::shader_objects)) {
-        return "the device lacks extendedDynamicState, which this door needs";
-    }
-    return std::nullopt;
 }
 
 }  // namespace vk_harness

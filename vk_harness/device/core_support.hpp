@@ -5,11 +5,9 @@
 // that it was before.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "cases/model/door.hpp"
 #include "vk_harness/device/api.hpp"
 
 namespace vk_harness {
@@ -23,7 +21,7 @@ struct CoreSupport {
     bool dynamic_rendering = false;  // else cases are rendered by render pass objects
     // extendedDynamicState and extendedDynamicState2; else pipelines hold what these would set.
     bool dynamic_state = false;
-    bool dynamic_state_extensions = false;  // they are extensions, with structures of features
+    bool dynamic_state_features = false;  // they are of extensions, and enabled by structures
 };
 
 CoreSupport query_core_support(VkPhysicalDevice physical, uint32_t api_version,
@@ -48,8 +46,5 @@ void enable_core_features(const CoreSupport& support, VkPhysicalDeviceFeatures2&
 
 // Commands that are core in 1.3 under the names that they have in an extension of the device.
 void use_extension_names(VolkDeviceTable& table);
-
-// A sentence about what the door needs of it and the device lacks.
-std::optional<std::string> missing_core_support(const CoreSupport& support, cases::Door door);
 
 }  // namespace vk_harness

@@ -147,7 +147,6 @@ DoorSupport query_door_support(VkPhysicalDevice physical, HasExtension has_exten
     out.library = has_library && optional.library.graphicsPipelineLibrary == VK_TRUE;
     // maxMultiviewViewCount is at least 6.
     out.multiview = optional.multiview.multiview == VK_TRUE;
-    out.geometry = features.features.geometryShader == VK_TRUE;
     out.tessellation = features.features.tessellationShader == VK_TRUE;
     out.index_8 = optional.index_8.indexTypeUint8 == VK_TRUE;
     out.indirect_count = features12.drawIndirectCount == VK_TRUE;

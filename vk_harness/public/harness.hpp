@@ -41,9 +41,9 @@ struct DeviceInfo {
     std::vector<cases::SampleLocations> sample_locations = {};
     std::string sample_locations_error;  // why it could not be asked, though it promises to answer
     std::string hit_counting = "binary32";  // the numbers in which hits are added up, or binary16
-    // Renderings are dynamic, or "render-pass" objects; what Vulkan 1.3 sets between draws is
-    // dynamic, or a part of each "pipeline".
-    std::string rendering = "dynamic", state = "dynamic";
+    // Without the first, cases are rendered by render pass objects; without the second, pipelines
+    // hold the state that Vulkan 1.0 does not set between draws.
+    bool has_dynamic_rendering = true, has_dynamic_state = true;
     std::vector<std::string> missing;  // features without which no case can run, one sentence each
     static void fields(auto&& visit, auto&... d) {
         visit("index", d.index...);
@@ -74,8 +74,8 @@ struct DeviceInfo {
         visit("sample_locations", d.sample_locations...);
         visit("sample_locations_error", d.sample_locations_error...);
         visit("hit_counting", d.hit_counting...);
-        visit("rendering", d.rendering...);
-        visit("state", d.state...);
+        visit("has_dynamic_rendering", d.has_dynamic_rendering...);
+        visit("has_dynamic_state", d.has_dynamic_state...);
         visit("missing", d.missing...);
     }
 };

@@ -44,9 +44,13 @@ bool ids_fit(const cases::Case& test) {
            (most + 2) * std::max(test.draws.size(), size_t{1}) < kMaxId;
 }
 
-}  // namespace
-
-namespace {
+// Pipelines that discard for good have no samples, and those of a dynamic rendering have to have
+// those of the attachments (VUID-vkCmdDraw-multisampledRenderToSingleSampled-07285).
+bool discards_several_samples(const cases::Case& test) {
+    return test.target.samples > 1 && std::ranges::any_of(test.draws, [](const cases::Draw& draw) {
+               return draw.rasterizer_discard;
+           });
+}
 
 TargetLayout::Unused unused_state(const Capabilities& c, const cases::Case& test) {
     TargetLayout::Unused out;
@@ -70,6 +74,53 @@ TargetLayout::Unused unused_state(const Capabilities& c, const cases::Case& test
 
 }  // namespace
 
+std::optional<std::string> closed_by(const TargetLayout& layout, cases::Door door) {
+    using cases::Door;
+    switch (door) {
+        case Door::secondary:
+        case Door::secondary_each:
+        case Door::secondary_reused:
+        case Door::pass_split:
+        case Door::pass_suspended:
+        case Door::clear_commands:
+        case Door::clear_draw:
+        case Door::submissions:
+        case Door::pipeline_library:
+        case Door::transform_feedback:
+            if (layout.has_pass) {
+                return "the device renders the case by a render pass object, and this door by "
+                       "dynamic rendering alone";
+            }
+            break;
+        case Door::shader_objects:
+        case Door::multiview:
+            if (layout.has_pass || layout.has_geometry) {
+                return "the device renders the case by a render pass object or a geometry shader, "
+                       "and this door by neither";
+            }
+            break;
+        case Door::render_pass:
+            if (layout.has_pass) {
+                return "the device renders the case by a render pass object without the door, too";
+            }
+            break;
+        case Door::geometry:
+            if (layout.has_geometry) {
+                return "the device has a geometry shader name layers and viewports without the "
+                       "door, too";
+            }
+            break;
+        case Door::stride_dynamic:
+            if (layout.holds_state) {
+                return "the device lacks extendedDynamicState, which this door needs";
+            }
+            break;
+        default:
+            break;
+    }
+    return std::nullopt;
+}
+
 uint32_t TargetLayout::numbers(uint32_t attribute) const {
     return pairs ? 2U : attribute < components.size() ? components.at(attribute) : 4U;
 }
@@ -85,8 +136,9 @@ cases::DepthFormat depth_beside_stencil(const Capabilities& c, const cases::Targ
 TargetLayout target_layout(const Capabilities& c, const cases::Case& test) {
     TargetLayout layout;
     layout.unused = unused_state(c, test);
-    layout.has_pass = !c.core.dynamic_rendering;
     layout.holds_state = !c.core.dynamic_state;
+    layout.has_pass =
+        !c.core.dynamic_rendering || (layout.holds_state && discards_several_samples(test));
     layout.has_geometry =
         (names_layers(test) && !c.layer_output) || (viewport_count(test) > 1 && !c.viewport_output);
     if (test.variation.door == cases::Door::exact_formats) {

@@ -10,6 +10,8 @@
 #include <array>
 #include <compare>
 #include <cstdint>
+#include <optional>
+#include <string>
 
 #include "cases/model/case.hpp"
 #include "vk_harness/device/device.hpp"
@@ -38,8 +40,8 @@ struct TargetLayout {
     uint32_t vertex_formats = 0;
     // Of the door stage_unused: a fragment shader may write so many colours.
     uint32_t most_colors = 0;
-    // What the device lacks (core_support.hpp): the case is rendered by a render pass object, and
-    // pipelines hold the state that Vulkan 1.0 does not set between draws.
+    // By what the device lacks (core_support.hpp): the case is rendered by a render pass object,
+    // and pipelines hold the state that Vulkan 1.0 does not set between draws.
     bool has_pass = false, holds_state = false;
     // A geometry shader names layers and viewports, which a vertex shader may not.
     bool has_geometry = false;
@@ -70,5 +72,9 @@ cases::DepthFormat depth_beside_stencil(const Capabilities& c, const cases::Targ
 
 // The narrowest layout that the device has.
 TargetLayout target_layout(const Capabilities& c, const cases::Case& test);
+
+// A sentence about why the device draws no case of this layout through the door, or draws it
+// without the door as through it.
+std::optional<std::string> closed_by(const TargetLayout& layout, cases::Door door);
 
 }  // namespace vk_harness

@@ -128,6 +128,17 @@ TEST(CaseCheck, Layers) {
                     "chooses the layer");
     m.doors.geometry = true;  // by which a geometry shader does
     EXPECT_FALSE(check_case(m, c).has_value());
+    m.limits.maxImageArrayLayers = 256;
+    m.doors.shader_objects = true;
+    c.variation.door = cases::Door::shader_objects;
+    expect_rejected(m, c, unsupported,
+                    "the device renders the case by a render pass object or a geometry shader, and "
+                    "this door by neither");
+    c.variation.door = cases::Door::geometry;
+    expect_rejected(m, c, unsupported,
+                    "the device has a geometry shader name layers and viewports without the door, "
+                    "too");
+    c.variation.door = cases::Door::none;
     m.doors.geometry = false;
     c.draws[0].layer = 0;  // no shader has to choose
     EXPECT_FALSE(check_case(m, c).has_value());
@@ -335,7 +346,8 @@ TEST(CaseCheck, DoorsOfDynamicRenderingAndState) {
     cases::Case c = good();
     m.limits.maxImageArrayLayers = 256;
     const std::string rendering =
-        "the device lacks dynamicRendering, with which alone this door is drawn";
+        "the device renders the case by a render pass object, and this door by dynamic rendering "
+        "alone";
     for (const cases::Door door : {cases::Door::pass_split, cases::Door::secondary}) {
         c.variation.door = door;
         m.core.dynamic_rendering = true;
@@ -344,6 +356,9 @@ TEST(CaseCheck, DoorsOfDynamicRenderingAndState) {
         expect_rejected(m, c, unsupported, rendering);
     }
     c.variation.door = cases::Door::render_pass;
+    expect_rejected(m, c, unsupported,
+                    "the device renders the case by a render pass object without the door, too");
+    c.variation.door = cases::Door::subpasses;
     EXPECT_FALSE(check_case(m, c).has_value());
     c.variation.door = cases::Door::stride_dynamic;
     EXPECT_FALSE(check_case(m, c).has_value());

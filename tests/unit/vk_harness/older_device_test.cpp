@@ -34,6 +34,17 @@ TEST(OlderDevice, IsRenderedByAPassObject) {
     EXPECT_FALSE(key_of(c, true, true).fixed.has_value());
 }
 
+// A pipeline that discards for good has no samples, which a dynamic rendering would ask for.
+TEST(OlderDevice, SeveralSamplesThatAreDiscardedForGoodAreRenderedByAPassObject) {
+    cases::Case c = make_case({64, 64, 4}, half_square());
+    EXPECT_FALSE(key_of(c, true, false).pass.has_value());
+    c.draws[0].rasterizer_discard = true;
+    EXPECT_TRUE(key_of(c, true, false).pass.has_value());
+    EXPECT_FALSE(key_of(c, true, true).pass.has_value());
+    c.target.samples = 1;
+    EXPECT_FALSE(key_of(c, true, false).pass.has_value());
+}
+
 TEST(OlderDevice, PipelinesHoldTheStateThatIsNotDynamic) {
     cases::Case c = make_case({64, 64, 1}, half_square());
     c.target.has_stencil = true;
