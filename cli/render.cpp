@@ -109,17 +109,13 @@ Json triangles_json(const ref::Expectation& e) {
 // bound.
 Json queries_json(const Reference& r) {
     Json list = Json::array();
-    const std::vector<ref::CountBounds> all =
-        ref::count_bounds(r.expectation, r.c.draws.size(), ref::HitsAt());
+    const std::vector<ref::CountBounds> all = ref::query_bounds(r.c, r.expectation, ref::HitsAt());
     for (size_t draw = 0; draw < all.size(); ++draw) {
         const cases::Query query = r.c.draws[draw].query;
         if (query == cases::Query::none) {
             continue;
         }
-        const ref::CountBounds bounds =
-            cases::is_statistic(query)
-                ? ref::statistic_bounds(r.c, draw, r.expectation, ref::HitsAt())
-                : all[draw];
+        const ref::CountBounds& bounds = all[draw];
         Json counted = {bounds.least, bounds.most};
         if (bounds.most == ref::kNoMost) {
             counted[1] = nullptr;

@@ -508,8 +508,8 @@ std::optional<Rejection> check_case(const Capabilities& capabilities, const case
             return invalid("a draw writes to {} colour targets of {}", draw.other_colors.size() + 1,
                            c.target.color_count());
         }
-        const std::vector<uint32_t> colored = cases::drawn_attributes(c.target, draw);
-        if (std::any_of(colored.begin(), colored.end(),
+        const std::vector<uint32_t> drawn = cases::drawn_attributes(c.target, draw);
+        if (std::any_of(drawn.begin(), drawn.end(),
                         [&](uint32_t k) { return k >= draw.attributes.size(); })) {
             return invalid("a draw's colour comes from an attribute that it does not have");
         }

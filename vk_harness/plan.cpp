@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What drawing one case takes: pipelines, attachments, queries, a render pass if its door asks for
-// one.
+// What drawing one case takes: pipelines, attachments, queries, a render pass object if it has one.
 #include <array>
 #include <bit>
 

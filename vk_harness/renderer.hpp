@@ -102,7 +102,7 @@ class BatchRenderer {
                             std::vector<Rendered>& results,
                             const std::function<void(std::string_view)>& step,
                             const PlaneStore& store, std::vector<GuardDamage>& damage);
-    // The render pass and framebuffer of a case whose door asks for them.
+    // The render pass and framebuffer of a case that has_pass().
     Result<void> plan_pass(CasePlan& plan, const TargetLayout& layout);
     // What reads the input attachments of that pass.
     Result<void> plan_inputs(CasePlan& plan, const PassKey& pass);

@@ -545,8 +545,7 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
      "The rendering is an instance of a render pass object with one subpass.", "", kAny, is_any},
     {Door::subpasses, "subpasses", kRecording, kRight, rule::door_recording,
      "As render-pass, with two subpasses: the first clears and has the first of several draws, the "
-     "second "
-     "one the others.",
+     "second one the others.",
      "", kAny, is_any},
     {Door::input_attachment, "input-attachment", kRecording, kRight, rule::door_recording,
      "A second subpass reads what the first has drawn as input attachments, and the picture is "

@@ -93,8 +93,8 @@ constexpr std::array kRules = {
         "the shader; its neighbours, and the same pixel's other fragments, are drawn as ever.",
         "fragops-shader", "", "cases/model/sample.hpp"},
     Rule{rule::discard_value, Profile::vulkan,
-         "A shader that discards where a value is negative discards where it must be, and there "
-         "alone",
+         "A shader that discards negative values discards what must be negative, and nothing that "
+         "cannot be",
          "The fragment is gone where every number that the value may be there is below 0, and is "
          "drawn where none is; -0 and 0 are not below it. In between either is right, but what is "
          "drawn shows no negative value: the shader has one value, which it tests and writes.",
@@ -508,8 +508,9 @@ constexpr std::array kRules = {
          "reach clipping and that leave it, fragments that are shaded: never fewer than there "
          "must be, from practice on also of samples that are shaded one by one and of fragments "
          "that are discarded after early tests. How many more is free but at direct3d, where "
-         "vertices and primitives of lists and strips are counted exactly and the others lie "
-         "between two numbers.",
+         "complete primitives of lists and strips and their vertices are counted exactly, what is "
+         "incomplete may be counted or not, and the others lie between two numbers, but for "
+         "fragments of draws with rasterizer discard.",
          "queries-pipestats", "20.4.7", "ref/expectation/statistics.hpp"},
     Rule{rule::resolve_select, Profile::vulkan, "Resolving by selection takes a sample as it is",
          "SAMPLE_ZERO, MIN and MAX leave one of the pixel's samples, bit for bit.",

@@ -334,8 +334,8 @@ constexpr Statement kStatements[] = {
      "A precise one counts the samples that survive all tests; any other is 0 or not as that is.",
      {"query.occlusion"}, ""},
     {"pipeline statistics", tolerance, tolerance,
-     "Never less than the draw must do; how much more is bounded at direct3d alone, where assembled vertices and "
-     "primitives of lists and strips are exact.",
+     "Never less than the draw must do; how much more is bounded at direct3d alone, where complete primitives "
+     "of lists and strips and their vertices are exact.",
      {"query.statistics"}, ""},
     {"depth bounds", exact, exact,
      "The bounds belong to what lies in them; what fails changes neither depth nor stencil. On D16 and D24 a stored "

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Changes of what becomes of fragments: depth bounds, depths that the shader writes, logical
-// operations, occlusion queries.
+// operations, queries of occlusion and of pipeline statistics.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What a generated draw does with the depth of its fragments and of what is stored, and what it
-// counts: depth bounds, depths that the shader writes, occlusion queries.
+// counts: depth bounds, depths that the shader writes, queries.
 #pragma once
 
 #include <array>

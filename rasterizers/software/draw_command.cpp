@@ -122,11 +122,7 @@ DrawCommand::DrawCommand(const cases::Case& c, uint32_t number, const Device& de
 
 void DrawCommand::run() {
     const std::vector<Primitive> primitives = assemble_primitives(draw_, device_.fault);
-    std::vector<Corners> corners;
-    for (const Primitive& primitive : primitives) {
-        corners.push_back(primitive.vertex);
-    }
-    count_assembled(draw_, number_, corners, device_, attachments_.queries);
+    count_assembled(draw_, number_, primitives, device_, attachments_.queries);
     if (draw_.rasterizer_discard && device_.fault != Fault::discard_ignored) {
         return;
     }

@@ -19,7 +19,7 @@ namespace ref {
 namespace {
 
 // The outline cut by the planes of the view volume, the clip distances tested at each sample. False
-// if some vertex has no box.
+// as of cut_outline.
 bool tested_outline(const OutlineSource& s, std::span<const ClipPlane> planes, Outline& out,
                     bool& is_bounded) {
     std::vector<ClippedVertex> polygon;

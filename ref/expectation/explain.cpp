@@ -139,6 +139,20 @@ bool Explainer::is_taken_away_by_face(uint32_t t) {
            takes_away_face(draw, !is_back);
 }
 
+namespace {
+
+// What must be hit need not be, for this reason.
+void leave_open(Decision& decision, ReasonKind why) {
+    if (decision.coverage == Coverage::must) {
+        decision.coverage = Coverage::either;
+        decision.reasons.clear();
+    }
+    decision.reasons.push_back({why});
+    std::sort(decision.reasons.begin(), decision.reasons.end());
+}
+
+}  // namespace
+
 Decision Explainer::decide(uint32_t t, const FixedPoint& p, cases::SampleId sample) {
     const cases::Draw& draw = scene_.c.draws[scene_.triangles[t].draw];
     Decision out = exact::decide(scene_.setups[t], p, true);
@@ -153,12 +167,7 @@ Decision Explainer::decide(uint32_t t, const FixedPoint& p, cases::SampleId samp
     if (sign == Sign::negative) {
         refuse(out, ReasonKind::value_discarded);
     } else if (sign == Sign::open) {
-        if (out.coverage == Coverage::must) {
-            out.coverage = Coverage::either;
-            out.reasons.clear();
-        }
-        out.reasons.push_back({ReasonKind::near_zero});
-        std::sort(out.reasons.begin(), out.reasons.end());
+        leave_open(out, ReasonKind::near_zero);
     }
     if (draw.layer != sample.layer) {
         refuse(out, ReasonKind::other_layer);
@@ -300,8 +309,14 @@ SampleExplanation Explainer::explain(cases::SampleId sample, Detail detail) {
         if (explained[m] != kUntold) {
             TriangleExplanation& t = out.triangles[explained[m]];
             t.fate = reasons.fates[m];
+            const cases::Draw& draw = scene_.c.draws[t.triangle.draw];
+            const bool may_be_either = t.fate->is_discarded && t.fate->passes;
             if (t.fate->is_discarded && !t.fate->passes) {
                 refuse(t.decision, ReasonKind::discarded_late);
+            } else if (may_be_either && cases::discards_by_value(draw)) {
+                leave_open(t.decision, ReasonKind::near_zero);
+            }
+            if (t.fate->is_discarded) {
                 t.sentence = detail == Detail::all ? sentence(t, sample) : std::string();
             }
             if (detail == Detail::all && scene_.c.target.has_depth &&

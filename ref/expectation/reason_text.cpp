@@ -115,14 +115,14 @@ std::string triangles_text(const std::vector<uint32_t>& members,
 }
 
 // In the order of cases::Discard.
-constexpr std::array<std::string_view, 7> kDiscarded = {
-    "nothing",
-    "odd columns",
-    "odd rows",
-    "pixels whose x + y is odd",
-    "front faces",
-    "back faces",
-    "fragments of which an attribute is negative"};
+constexpr std::array<std::string_view, 6> kDiscarded = {
+    "nothing", "odd columns", "odd rows", "pixels whose x + y is odd", "front faces", "back faces"};
+
+std::string discarded_text(const cases::Draw& draw) {
+    return cases::discards_by_value(draw)
+               ? fmt::format("fragments of which attribute {} is negative", draw.discard_attribute)
+               : std::string(kDiscarded.at(static_cast<size_t>(draw.discard)));
+}
 
 // What a test meets: up to three numbers, else only that it is the stencil.
 std::string met_text(const stencil::Values& met) {
@@ -159,8 +159,8 @@ std::string sentence_of(Reason reason, const TriangleExplanation& t, const cases
         fmt::arg("viewport", fmt::format("x {} to {}, y {} to {}", left, right, top, bottom)),
         fmt::arg("edge", outside_text(t, reason.which)), fmt::arg("facing", facing_text(t.facing)),
         fmt::arg("number", reason.which), fmt::arg("plane", kPlanes[plane]),
-        fmt::arg("discarded", kDiscarded.at(static_cast<size_t>(draw.discard))),
-        fmt::arg("attribute", draw.discard_attribute), fmt::arg("boxes", boxes_text(t)));
+        fmt::arg("discarded", discarded_text(draw)), fmt::arg("attribute", draw.discard_attribute),
+        fmt::arg("boxes", boxes_text(t)));
 }
 
 std::string sentence_of(const FixedSet& set, const std::vector<cases::Triangle>& triangles) {

@@ -8,18 +8,16 @@
 // times, other commands may count. All this adds, so at vulkan and practice a counter is never less
 // than what the draw must do, and nothing bounds it from above:
 //
-//   vertices and primitives   of complete primitives ("incomplete primitives may be counted"); of
-//                             indices that name a vertex twice it counts once
+//   vertices and primitives   of complete primitives ("incomplete primitives may be
+//                             counted"); of indices that name a vertex twice it counts once
 //   vertex invocations        one a vertex: its results may be reused
-//   clipping invocations      one for each triangle with a sample that it must cover: devices leave
-//   out
-//                             what cannot have one before they clip; none with rasterizer discard
-//   clipping primitives       one for each triangle with a vertex inside the clip volume and a
-//                             sample that it must cover
-//   fragment invocations      one a fragment that shows; from practice on one for each of its
-//   samples
-//                             if sample shading asks for that, and one for what the shader discards
-//                             after early tests, which were no invocations if they did not count
+//   clipping invocations      one a triangle that must cover a sample: devices leave out
+//                             others before they clip; none with rasterizer discard
+//   clipping primitives       one for each of these that has a vertex inside the clip volume
+//   fragment invocations      one a fragment that shows; from practice on one for each of
+//                             its samples if sample shading asks for that, and one for what
+//                             the shader discards after early tests, which were no
+//                             invocations if they did not count
 //
 // A fragment that shows was shaded, since a query goes with the attachments that count hits: their
 // values differ from pixel to pixel, and add up. Else one invocation might do for several fragments
@@ -33,6 +31,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "cases/model/case.hpp"
 #include "ref/expectation/counted.hpp"
@@ -41,11 +40,16 @@
 namespace ref {
 
 // Nothing bounds it.
-inline constexpr uint64_t kNoMost = UINT64_MAX - 1;
+inline constexpr uint64_t kNoMost = UINT64_MAX;
 
 // The bounds of the statistic that a draw asks for, with the hits that a device shows. `hits`
 // empty: whatever a device may show.
 CountBounds statistic_bounds(const cases::Case& c, size_t draw, const Expectation& expectation,
                              const HitsAt& hits);
+
+// What the queries of a case may give, by draw: its statistic, or how many samples, of which a
+// query that is not precise gives 0 or any other number; nothing for a draw without a query.
+std::vector<CountBounds> query_bounds(const cases::Case& c, const Expectation& expectation,
+                                      const HitsAt& hits);
 
 }  // namespace ref

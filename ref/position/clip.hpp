@@ -98,6 +98,13 @@ struct ClippedVertex {
 // True if all components are finite and the vertex lies in the closed view volume.
 bool is_inside(const glm::vec4& clip, std::span<const ClipPlane> planes = kViewVolume);
 
+// Vertex i is inside of a plane where `value` is no less than `bound`, and on it where they are
+// equal: two numbers of the vertex, or their negatives, whose comparison is exact.
+struct PlaneSide {
+    float value = 0, bound = 0;
+};
+PlaneSide plane_side(const ClipInput& triangle, size_t i, ClipPlane plane);
+
 // Says the same of vertex i, with clip distances.
 bool is_inside(const ClipInput& triangle, size_t i, std::span<const ClipPlane> planes);
 

@@ -42,34 +42,38 @@ bool is_inside(const glm::vec4& clip, std::span<const ClipPlane> planes) {
     return is_inside(input, 0, planes);
 }
 
+PlaneSide plane_side(const ClipInput& triangle, size_t i, ClipPlane plane) {
+    const glm::vec4& clip = triangle.clip[i];
+    switch (plane) {
+        case ClipPlane::x_low:
+            return {clip.x, -clip.w};
+        case ClipPlane::x_high:
+            return {clip.w, clip.x};
+        case ClipPlane::y_low:
+            return {clip.y, -clip.w};
+        case ClipPlane::y_high:
+            return {clip.w, clip.y};
+        case ClipPlane::z_low:
+            return {clip.z, 0};
+        case ClipPlane::z_high:
+            return {clip.w, clip.z};
+        case ClipPlane::z_low_symmetric:
+            return {clip.z, -clip.w};
+        default:
+            return {triangle.distance[i][static_cast<glm::vec4::length_type>(user_index(plane))],
+                    0};
+    }
+}
+
 bool is_inside(const ClipInput& triangle, size_t i, std::span<const ClipPlane> planes) {
     const glm::vec4& clip = triangle.clip[i];
     if (!std::isfinite(clip.x) || !std::isfinite(clip.y) || !std::isfinite(clip.z) ||
         !std::isfinite(clip.w)) {
         return false;
     }
-    // Comparisons, not sums: exact in binary32.
     return std::all_of(planes.begin(), planes.end(), [&](ClipPlane plane) {
-        switch (plane) {
-            case ClipPlane::x_low:
-                return clip.x >= -clip.w;
-            case ClipPlane::x_high:
-                return clip.x <= clip.w;
-            case ClipPlane::y_low:
-                return clip.y >= -clip.w;
-            case ClipPlane::y_high:
-                return clip.y <= clip.w;
-            case ClipPlane::z_low:
-                return clip.z >= 0;
-            case ClipPlane::z_high:
-                return clip.z <= clip.w;
-            case ClipPlane::z_low_symmetric:
-                return clip.z >= -clip.w;
-            default:
-                return triangle
-                           .distance[i][static_cast<glm::vec4::length_type>(user_index(plane))] >=
-                       0;
-        }
+        const PlaneSide side = plane_side(triangle, i, plane);
+        return side.value >= side.bound;
     });
 }
 

@@ -29,7 +29,7 @@ class Doors(unittest.TestCase):
         for name, found in FOUND.items():
             with self.subTest(fault=name):
                 if found[0] in doors.BROKEN_DOORS and self.is_broken(found[0]):
-                    continue
+                    self.skipTest(f"this driver breaks the door {found[0]} itself")
                 # The plain pictures are drawn beside those through the door: all that is found is found there.
                 caught, run = doors.seen(name, self.folder, found[0])
                 door = next(d for d in run.results["doors"] if d["door"] == found[0])

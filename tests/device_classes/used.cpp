@@ -4,6 +4,9 @@
 // What is made on a device: whatever the class does not advertise is complained about.
 #include <algorithm>
 #include <cstring>
+#include <map>
+#include <mutex>
+#include <vector>
 
 #include "shown.hpp"
 
@@ -15,6 +18,7 @@ struct Driver : vulkan_layer::Device {
     PFN_vkCreateImage CreateImage = nullptr;
     PFN_vkCreateShaderModule CreateShaderModule = nullptr;
     PFN_vkCreateQueryPool CreateQueryPool = nullptr;
+    PFN_vkCreateRenderPass2 CreateRenderPass2 = nullptr;
     PFN_vkCreateGraphicsPipelines CreateGraphicsPipelines = nullptr;
     PFN_vkCmdSetPrimitiveTopology CmdSetPrimitiveTopology = nullptr;
 };
@@ -95,8 +99,111 @@ VKAPI_ATTR VkResult VKAPI_CALL create_shader_module(VkDevice device,
     return driver_of(device).CreateShaderModule(device, info, allocator, out);
 }
 
+// Formats of the colour attachments of each subpass, by render pass.
+class PassFormats {
+  public:
+    using Subpasses = std::vector<std::vector<VkFormat>>;
+
+    void put(VkRenderPass pass, Subpasses formats) {
+        const std::lock_guard lock(mutex_);
+        formats_[pass] = std::move(formats);
+    }
+    std::vector<VkFormat> of(VkRenderPass pass, uint32_t subpass) {
+        const std::lock_guard lock(mutex_);
+        return formats_[pass].at(subpass);
+    }
+
+  private:
+    std::mutex mutex_;
+    std::map<VkRenderPass, Subpasses> formats_;
+};
+
+PassFormats& pass_formats() {
+    static PassFormats formats;
+    return formats;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL create_render_pass_2(VkDevice device,
+                                                    const VkRenderPassCreateInfo2* info,
+                                                    const VkAllocationCallbacks* allocator,
+                                                    VkRenderPass* out) {
+    PassFormats::Subpasses formats;
+    for (uint32_t k = 0; k < info->subpassCount; ++k) {
+        const VkSubpassDescription2& subpass = info->pSubpasses[k];
+        std::vector<VkFormat>& of_subpass = formats.emplace_back();
+        for (uint32_t a = 0; a < subpass.colorAttachmentCount; ++a) {
+            const uint32_t number = subpass.pColorAttachments[a].attachment;
+            of_subpass.push_back(number == VK_ATTACHMENT_UNUSED
+                                     ? VK_FORMAT_UNDEFINED
+                                     : info->pAttachments[number].format);
+        }
+    }
+    const VkResult result = driver_of(device).CreateRenderPass2(device, info, allocator, out);
+    if (result == VK_SUCCESS) {
+        pass_formats().put(*out, std::move(formats));
+    }
+    return result;
+}
+
+std::vector<VkFormat> color_formats(const VkGraphicsPipelineCreateInfo& info) {
+    if (info.renderPass != VK_NULL_HANDLE) {
+        return pass_formats().of(info.renderPass, info.subpass);
+    }
+    for (auto* s = static_cast<const VkBaseInStructure*>(info.pNext); s != nullptr; s = s->pNext) {
+        if (s->sType == VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO) {
+            const auto& rendering = *reinterpret_cast<const VkPipelineRenderingCreateInfo*>(s);
+            return {rendering.pColorAttachmentFormats,
+                    rendering.pColorAttachmentFormats + rendering.colorAttachmentCount};
+        }
+    }
+    return {};
+}
+
+void check_colors(const VkGraphicsPipelineCreateInfo& info) {
+    const std::vector<VkFormat> formats = color_formats(info);
+    const auto most = shown_class()->limits.find("maxColorAttachments");
+    if (most != shown_class()->limits.end() && static_cast<double>(formats.size()) > most->second) {
+        complain(std::to_string(formats.size()) + " colour attachments");
+    }
+    for (size_t k = 0; k < formats.size(); ++k) {
+        if (lacks(formats[k], VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT)) {
+            complain(format_text(formats[k]) + " as a colour attachment");
+        }
+        const VkPipelineColorBlendAttachmentState& blend = info.pColorBlendState->pAttachments[k];
+        for (const VkBlendFactor factor : {blend.srcColorBlendFactor, blend.dstColorBlendFactor,
+                                           blend.srcAlphaBlendFactor, blend.dstAlphaBlendFactor}) {
+            need(factor >= VK_BLEND_FACTOR_SRC1_COLOR, "dualSrcBlend");
+        }
+        need(info.pColorBlendState->logicOpEnable == VK_TRUE, "logicOp");
+        if (blend.blendEnable == VK_TRUE &&
+            lacks(formats[k], VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT)) {
+            complain(format_text(formats[k]) + ", blended,");
+        }
+    }
+}
+
+// Beyond those of Vulkan 1.0.
+constexpr VkDynamicState kExtendedStates[] = {
+    VK_DYNAMIC_STATE_CULL_MODE,          VK_DYNAMIC_STATE_FRONT_FACE,
+    VK_DYNAMIC_STATE_PRIMITIVE_TOPOLOGY, VK_DYNAMIC_STATE_DEPTH_COMPARE_OP,
+    VK_DYNAMIC_STATE_DEPTH_WRITE_ENABLE, VK_DYNAMIC_STATE_DEPTH_BOUNDS_TEST_ENABLE,
+    VK_DYNAMIC_STATE_STENCIL_OP,         VK_DYNAMIC_STATE_VERTEX_INPUT_BINDING_STRIDE};
+constexpr VkDynamicState kExtendedStates2[] = {VK_DYNAMIC_STATE_PRIMITIVE_RESTART_ENABLE,
+                                               VK_DYNAMIC_STATE_RASTERIZER_DISCARD_ENABLE,
+                                               VK_DYNAMIC_STATE_DEPTH_BIAS_ENABLE};
+
+void check_states(const VkPipelineDynamicStateCreateInfo* states) {
+    for (uint32_t k = 0; states != nullptr && k < states->dynamicStateCount; ++k) {
+        const auto is_in = [&](const auto& some) {
+            return std::find(std::begin(some), std::end(some), states->pDynamicStates[k]) !=
+                   std::end(some);
+        };
+        need(is_in(kExtendedStates), "extendedDynamicState");
+        need(is_in(kExtendedStates2), "extendedDynamicState2");
+    }
+}
+
 void check_pipeline(const VkGraphicsPipelineCreateInfo& info) {
-    const DeviceClass& shown = *shown_class();
     if (info.pMultisampleState != nullptr) {
         need(info.pMultisampleState->sampleShadingEnable == VK_TRUE, "sampleRateShading");
         need(info.pMultisampleState->alphaToOneEnable == VK_TRUE, "alphaToOne");
@@ -110,33 +217,12 @@ void check_pipeline(const VkGraphicsPipelineCreateInfo& info) {
              info.pDepthStencilState->depthBoundsTestEnable == VK_TRUE,
          "depthBounds");
     need(info.pViewportState != nullptr && info.pViewportState->viewportCount > 1, "multiViewport");
-    const auto most = shown.limits.find("maxColorAttachments");
-    for (auto* s = static_cast<const VkBaseInStructure*>(info.pNext); s != nullptr; s = s->pNext) {
-        if (s->sType != VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO) {
-            continue;
-        }
-        const auto& rendering = *reinterpret_cast<const VkPipelineRenderingCreateInfo*>(s);
-        if (most != shown.limits.end() && rendering.colorAttachmentCount > most->second) {
-            complain(std::to_string(rendering.colorAttachmentCount) + " colour attachments");
-        }
-        for (uint32_t k = 0; k < rendering.colorAttachmentCount; ++k) {
-            const VkFormat format = rendering.pColorAttachmentFormats[k];
-            if (lacks(format, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT)) {
-                complain(format_text(format) + " as a colour attachment");
-            }
-            const VkPipelineColorBlendAttachmentState& blend =
-                info.pColorBlendState->pAttachments[k];
-            for (const VkBlendFactor factor :
-                 {blend.srcColorBlendFactor, blend.dstColorBlendFactor, blend.srcAlphaBlendFactor,
-                  blend.dstAlphaBlendFactor}) {
-                need(factor >= VK_BLEND_FACTOR_SRC1_COLOR, "dualSrcBlend");
-            }
-            need(info.pColorBlendState->logicOpEnable == VK_TRUE, "logicOp");
-            if (blend.blendEnable == VK_TRUE &&
-                lacks(format, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT)) {
-                complain(format_text(format) + ", blended,");
-            }
-        }
+    need(shown_class()->extensions.count(kPortability) > 0 && info.pInputAssemblyState != nullptr &&
+             info.pInputAssemblyState->topology == VK_PRIMITIVE_TOPOLOGY_TRIANGLE_FAN,
+         "triangleFans");
+    check_states(info.pDynamicState);
+    if (info.pColorBlendState != nullptr) {
+        check_colors(info);
     }
 }
 
@@ -166,6 +252,8 @@ VKAPI_ATTR VkResult VKAPI_CALL create_query_pool(VkDevice device, const VkQueryP
 
 const vulkan_layer::OwnCommand kCommands[] = {
     VULKAN_LAYER_OWN(CreateQueryPool, create_query_pool),
+    VULKAN_LAYER_OWN(CreateRenderPass2, create_render_pass_2),
+    VULKAN_LAYER_OWN(CreateRenderPass2KHR, create_render_pass_2),
     VULKAN_LAYER_OWN(CreateImage, create_image),
     VULKAN_LAYER_OWN(CreateShaderModule, create_shader_module),
     VULKAN_LAYER_OWN(CreateGraphicsPipelines, create_graphics_pipelines),
@@ -226,6 +314,7 @@ std::unique_ptr<Device> load_device(VkDevice device, PFN_vkGetDeviceProcAddr nex
     load(driver->CreateImage, "vkCreateImage");
     load(driver->CreateShaderModule, "vkCreateShaderModule");
     load(driver->CreateQueryPool, "vkCreateQueryPool");
+    load(driver->CreateRenderPass2, "vkCreateRenderPass2");
     load(driver->CreateGraphicsPipelines, "vkCreateGraphicsPipelines");
     load(driver->CmdSetPrimitiveTopology, "vkCmdSetPrimitiveTopology");
     return driver;

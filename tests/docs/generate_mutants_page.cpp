@@ -157,7 +157,9 @@ bool print_legal(const Matrix& matrix) {
         "| --- | --- | --- | --- | --- | --- |\n{}",
         wrapped(fmt::format(
             "{} devices break no rule of their profile, and {} of their results were false alarms. "
-            "*Budgets* is the largest accepted error of a value, in units of what its rule allows.",
+            "*Cases* is how many the suite had when the device was recorded. *Budgets* is the "
+            "largest "
+            "accepted error of a value, in units of what its rule allows.",
             devices.size(), alarms)),
         table);
     return is_complete;

@@ -32,9 +32,9 @@ class Queries {
 
   private:
     Queries(const Device& device, const cases::Case& c) : device_(&device), case_(&c) {}
-    const Device* device_;
     bool is_asked(cases::Query query) const;
     VkQueryPool pool_of(cases::Query query) const;
+    const Device* device_;
     const cases::Case* case_;
     std::map<VkQueryPipelineStatisticFlags, Handle<VkQueryPool>> pools_;  // 0: occlusion
 };

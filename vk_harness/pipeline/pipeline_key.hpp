@@ -82,7 +82,7 @@ struct PipelineKey {
     // Of cases::Variation.
     uint32_t masked = 0;
     std::optional<DrawState> fixed = {};  // static; nothing: all of it is dynamic
-    bool sets_numbers = false;            // those of `fixed` (without_numbers) are dynamic
+    bool sets_numbers = false;            // what without_numbers() leaves out of `fixed` is dynamic
     PipelineWay made = PipelineWay::usual;
     StageWay stages = StageWay::vertex;
     std::optional<PassKey> pass = {};  // nothing: dynamic rendering

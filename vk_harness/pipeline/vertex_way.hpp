@@ -36,7 +36,7 @@ inline constexpr uint32_t kPulledSet = 1, kPulledWords = 8;
 // `formats`: those that the device reads vertices in, a bit each.
 VertexWay vertex_way(const cases::Case& c, const cases::Draw& draw, uint32_t formats);
 
-// Whether the door puts restarts between a draw's strips that have none of their own.
+// Whether the door puts restarts before the first and behind the last index of a draw.
 bool adds_restarts(cases::Door door, const cases::Draw& draw);
 
 // Bytes of one vertex of a binding, and from one vertex to the next.

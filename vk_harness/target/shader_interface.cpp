@@ -24,8 +24,8 @@ const cases::Attribute* input_attribute(const cases::Case& c, const cases::Draw&
                                         uint32_t input) {
     size_t index = input;
     if (!c.target.has_instruments) {
-        const std::vector<uint32_t> colored = cases::drawn_attributes(c.target, draw);
-        index = input < colored.size() ? colored[input] : draw.attributes.size();
+        const std::vector<uint32_t> drawn = cases::drawn_attributes(c.target, draw);
+        index = input < drawn.size() ? drawn[input] : draw.attributes.size();
     }
     return index < draw.attributes.size() ? &draw.attributes[index] : nullptr;
 }

@@ -10,8 +10,8 @@
 
 namespace vk_harness {
 
-// The attributes that reach the vertex shader: all, or, without instruments, those that are
-// colours.
+// The attributes that reach the vertex shader: all, or, without instruments, those that are colours
+// or that the fragment shader discards by.
 uint32_t input_count(const cases::Case& c);
 // Input number `input` of a draw; nullptr if the draw has none there.
 const cases::Attribute* input_attribute(const cases::Case& c, const cases::Draw& draw,
@@ -28,7 +28,7 @@ inline constexpr uint32_t kMaxId = 1U << 24;
 // How many viewports a case binds: one more than the largest index of its draws.
 uint32_t viewport_count(const cases::Case& c);
 
-// Whether the vertex shaders of a case write gl_Layer: some draw goes to another than the first
+// Whether a shader before rasterization writes gl_Layer: some draw goes to another than the first
 // layer, which is the one that is drawn to without it.
 bool names_layers(const cases::Case& c);
 

@@ -127,7 +127,7 @@ std::vector<uint64_t> QueryUnit::results() const {
                 out[k] &= 0xffff;
                 break;
             case Fault::query_precise_as_any:
-                out[k] = std::min(out[k], uint64_t{1});
+                out[k] = query == Query::occlusion_precise ? std::min(out[k], uint64_t{1}) : out[k];
                 break;
             case Fault::query_always_any:
                 out[k] = query == Query::occlusion ? 1 : out[k];

@@ -42,8 +42,8 @@ class QueryUnit {
     std::vector<uint64_t> results() const;
 
   private:
-    const cases::Case& case_;
     void count_fragment(uint32_t draw, Ending ending, bool is_first, const Quad& quad);
+    const cases::Case& case_;
     const Device& device_;
     std::vector<uint64_t> counts_;   // empty if no draw has a query
     bool is_fragment_done_ = false;  // the fragment at hand has been counted

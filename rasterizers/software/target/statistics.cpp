@@ -55,15 +55,16 @@ Stream read_stream(const cases::Draw& draw) {
 
 }  // namespace
 
-void count_assembled(const cases::Draw& draw, uint32_t number, std::span<const Corners> primitives,
-                     const Device& device, QueryUnit& queries) {
+void count_assembled(const cases::Draw& draw, uint32_t number,
+                     std::span<const Primitive> primitives, const Device& device,
+                     QueryUnit& queries) {
     if (!cases::is_statistic(draw.query)) {
         return;
     }
     const Stream stream = read_stream(draw);
     std::set<uint32_t> distinct;
-    for (const Corners& primitive : primitives) {
-        distinct.insert(primitive.begin(), primitive.end());
+    for (const Primitive& primitive : primitives) {
+        distinct.insert(primitive.vertex.begin(), primitive.vertex.end());
     }
     uint64_t vertices = device.counts_most ? stream.all : stream.whole;
     uint64_t assembled = primitives.size() + (device.counts_most ? stream.partial : 0);

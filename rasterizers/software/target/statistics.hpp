@@ -5,21 +5,19 @@
 // assembled, vertices that are shaded.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 
 #include "cases/model/case.hpp"
+#include "rasterizers/software/assembly.hpp"
 #include "rasterizers/software/choice/device.hpp"
 #include "rasterizers/software/target/query_unit.hpp"
 
 namespace software {
 
-// The vertices of a triangle.
-using Corners = std::array<uint32_t, 3>;
-
 // Counts them for draw `number`, whose primitives these are.
-void count_assembled(const cases::Draw& draw, uint32_t number, std::span<const Corners> primitives,
-                     const Device& device, QueryUnit& queries);
+void count_assembled(const cases::Draw& draw, uint32_t number,
+                     std::span<const Primitive> primitives, const Device& device,
+                     QueryUnit& queries);
 
 }  // namespace software

@@ -409,40 +409,16 @@ vertices = [[0,0],[8,0],[0,8]]
 discard_by = "demote"
 )~"),
      R"~(f:8:14: error: discard_by without discard means nothing; leave it out)~"},
-    {whole(R"~(format = 1
-description = "d"
-rules = ["cover.inside"]
-[target]
-size = [2, 1]
-[[draw]]
-vertices = [[0,0],[8,0],[0,8]]
-discard = "front"
-discard_attribute = "a"
-)~"),
+    {triangle(R"~(discard = "front"
+discard_attribute = "a")~"),
      R"~(f:9:21: error: discard_attribute needs discard = "negative"; leave it out)~"},
-    {whole(R"~(format = 1
-description = "d"
-rules = ["cover.inside"]
-[target]
-size = [2, 1]
-[[draw]]
-vertices = [[0,0],[8,0],[0,8]]
-discard = "negative"
-)~"),
+    {triangle(R"~(discard = "negative")~"),
      R"~(f:8:11: error: discard = "negative" needs an attribute whose values it tests; write [[draw.attribute]])~"},
-    {whole(R"~(format = 1
-description = "d"
-rules = ["cover.inside"]
-[target]
-size = [2, 1]
-[[draw]]
-vertices = [[0,0],[8,0],[0,8]]
-discard = "negative"
+    {triangle(R"~(discard = "negative"
 discard_attribute = "b"
 [[draw.attribute]]
 name = "a"
-constant = 1
-)~"),
+constant = 1)~"),
      R"~(f:9:21: error: discard_attribute is "b"; write "a")~"},
     {whole(R"~(format = 1
 description = "d"
@@ -483,15 +459,7 @@ probe = "dfdx"
 values = [1,2,3]
 )~"),
      R"~(f:9:11: error: a shader that discards has plain values and writes no gl_SampleMask here; leave out discard, or every source, probe and shader_mask)~"},
-    {whole(R"~(format = 1
-description = "d"
-rules = ["cover.inside"]
-[target]
-size = [2, 1]
-[[draw]]
-vertices = [[0,0],[8,0],[0,8]]
-min_sample_shading = 1.5
-)~"),
+    {triangle(R"~(min_sample_shading = 1.5)~"),
      R"~(f:8:22: error: min_sample_shading is outside 0..1; write the fraction of the samples that is shaded at least)~"},
     {whole(R"~(expect = 1
 format = 1

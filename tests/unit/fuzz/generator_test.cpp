@@ -227,7 +227,7 @@ TEST(Generator, ShadersDiscardByAttributes) {
         UnorderedElementsAre("checker", "negative", "positive", "first", "second"));
 }
 
-TEST(Generator, DrawsOfACaseHaveQueriesOfBothKinds) {
+TEST(Generator, DrawsOfACaseHaveQueriesOfAllKinds) {
     EXPECT_THAT(seen_in(pose_of({{"query", "occlusion"}, {"draws", "2"}}),
                         [](const cases::Case& c, const auto& see) {
                             EXPECT_NE(c.draws[1].query, cases::Query::none);

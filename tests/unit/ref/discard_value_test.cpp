@@ -81,6 +81,7 @@ TEST(DiscardValue, ExpectationsAgreeWithTheOracle) {
 
 // What shows is among what shows without discards.
 TEST(DiscardValue, NothingIsDrawnThatWouldNotBe) {
+    uint64_t drawn = 0, gone = 0;
     for (uint64_t seed = 1; seed <= 60; ++seed) {
         cases::Case c = random_case(seed);
         for (cases::Draw& draw : c.draws) {
@@ -98,9 +99,13 @@ TEST(DiscardValue, NothingIsDrawnThatWouldNotBe) {
                 const HitBounds& b = theirs.samples[k].hits;
                 ASSERT_LE(a.total_min, b.total_min) << "seed " << seed << " sample " << k;
                 ASSERT_LE(a.total_max, b.total_max) << "seed " << seed << " sample " << k;
+                drawn += a.total_min > 0 ? 1U : 0U;
+                gone += a.total_max < b.total_max ? 1U : 0U;
             }
         }
     }
+    EXPECT_GT(drawn, 1000U);
+    EXPECT_GT(gone, 1000U);
 }
 
 // The whole target, with a value of x at framebuffer x, less `zero`.
@@ -241,7 +246,7 @@ TEST(DiscardValue, AShownNegativeValueIsWrong) {
 }
 
 TEST(DiscardValue, ExplanationsTellTheAttribute) {
-    const cases::Case c = of_target(3.5F);
+    cases::Case c = of_target(3.5F);
     const auto told = [&](uint32_t x) {
         return explain_sample(c, Limits{}, Profile::direct3d, {x, 2, 0, 0}).triangles.at(0);
     };
@@ -250,6 +255,15 @@ TEST(DiscardValue, ExplanationsTellTheAttribute) {
               "the fragment shader of the draw discards where attribute 0 is negative, as it is "
               "here");
     EXPECT_EQ(told(3).why(), ReasonKind::near_zero);
+    EXPECT_EQ(told(6).why(), ReasonKind::inside);
+    c.draws[0].early_tests = true;
+    EXPECT_EQ(told(1).why(), ReasonKind::discarded_late);
+    EXPECT_EQ(
+        told(1).sentence,
+        "the fragment shader of the draw discards fragments of which attribute 0 is negative, "
+        "once depth and stencil are stored");
+    EXPECT_EQ(told(3).why(), ReasonKind::near_zero);
+    EXPECT_EQ(told(3).decision.coverage, Coverage::either);
     EXPECT_EQ(told(6).why(), ReasonKind::inside);
 }
 

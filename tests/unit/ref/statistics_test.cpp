@@ -152,6 +152,11 @@ TEST(Statistics, FragmentsAreThoseThatShow) {
         return index % 8 + index / 8 <= 7 ? 1 : 0;
     };
     EXPECT_EQ(bounds(c, Query::fragment_invocations, Profile::vulkan, hits).least, 36U);
+    // A sample that is wrong, or not known, is no other finding.
+    const auto lost = [](size_t index) -> std::optional<uint32_t> {
+        return index == 0 ? std::nullopt : std::optional(index == 9 ? 0U : 1U);
+    };
+    EXPECT_EQ(bounds(c, Query::fragment_invocations, Profile::practice, lost).least, 34U);
     // Those that are discarded once they are tested were shaded; what is not tested may be skipped.
     c.draws[0].discard = cases::Discard::checker;
     EXPECT_EQ(bounds(c, Query::fragment_invocations, Profile::vulkan).least, 16U);
@@ -168,20 +173,21 @@ TEST(Statistics, ATriangleBetweenSamplesMayBeLeftOut) {
     EXPECT_EQ(clipped(sliver, Profile::direct3d), (CountBounds{0, 1}));
 }
 
-// However much lies over it.
+// However much lies over it: by its place, which on large targets vulkan does not promise.
 TEST(Statistics, ATriangleWithASampleReachesClippingAndLeavesIt) {
     cases::Case c =
         case_of(Topology::triangle_list, {{1, 1, 0.5F, 1}, {7, 1, 0.5F, 1}, {1, 7, 0.5F, 1}});
     c.draws.push_back(c.draws[0]);
     c.draws.push_back(c.draws[0]);
     for (const Query query : {Query::clipping_invocations, Query::clipping_primitives}) {
-        EXPECT_EQ(bounds(c, query, Profile::vulkan), (CountBounds{1, kNoMost}));
+        EXPECT_EQ(bounds(c, query, Profile::practice), (CountBounds{1, kNoMost}));
+        EXPECT_EQ(bounds(c, query, Profile::vulkan).least, 0U);
         cases::Case masked = c;
         masked.draws[0].multisample.sample_mask = 2;
-        EXPECT_EQ(bounds(masked, query, Profile::vulkan).least, 0U);
+        EXPECT_EQ(bounds(masked, query, Profile::practice).least, 0U);
         cases::Case cut = c;
         cut.draws[0].scissor = {2, 0, 6, 8};
-        EXPECT_EQ(bounds(cut, query, Profile::vulkan).least, 0U);
+        EXPECT_EQ(bounds(cut, query, Profile::practice).least, 0U);
     }
 }
 
