@@ -155,8 +155,9 @@ class Suite(ClassTest):
     def test_render_passes_and_pipelines_that_hold_their_state_draw_the_same(self):
         # The same device of Vulkan 1.1, where a geometry shader names layers and viewports, without dynamic rendering and
         # dynamic state: wherever it runs a case, it says what it says with them. Classes that lack one of them are drawn below.
-        lacking = {"shaderOutputLayer", "shaderOutputViewportIndex", "dynamicRendering", "extendedDynamicState", "extendedDynamicState2", "VK_KHR_dynamic_rendering",
-                   "VK_EXT_extended_dynamic_state", "VK_EXT_extended_dynamic_state2"}
+        lacking = {"shaderOutputLayer", "shaderOutputViewportIndex", "dynamicRendering", "extendedDynamicState",
+                   "extendedDynamicState2", "VK_KHR_dynamic_rendering", "VK_EXT_extended_dynamic_state",
+                   "VK_EXT_extended_dynamic_state2"}
         device = device_classes.read("nvidia")
         _, usual, _ = self.statuses(device)
         device["api"] = "1.1"
