@@ -54,6 +54,14 @@ const ref::Expectation& Attribution::at(cases::Profile profile) {
     return *slot;
 }
 
+const ref::Expectation& Attribution::at(cases::Profile profile, size_t index) {
+    if (profile == expectation_.profile) {
+        return expectation_;
+    }
+    const std::optional<ref::Expectation>& whole = looser_[static_cast<size_t>(profile)];
+    return whole ? *whole : explainer(profile).expectation_at(index);
+}
+
 ref::Explainer& Attribution::explainer(cases::Profile level) {
     std::optional<ref::Explainer>& slot = explainers_[static_cast<size_t>(level)];
     if (!slot) {
@@ -71,7 +79,7 @@ void Attribution::level_hits(Finding& finding, uint32_t front, uint32_t back) {
     finding.level = expectation_.profile;
     for (const cases::Profile profile : cases::kProfiles) {
         if (profile <= expectation_.profile &&
-            !at(profile).samples[index].hits.allows(front, back)) {
+            !at(profile, index).samples[index].hits.allows(front, back)) {
             finding.level = profile;
             break;
         }
@@ -83,7 +91,7 @@ void Attribution::attribute_writer(Finding& finding,
     const size_t index = index_of(finding);
     finding.level = expectation_.profile;
     for (const cases::Profile profile : cases::kProfiles) {
-        const ref::Expectation& e = at(std::min(profile, expectation_.profile));
+        const ref::Expectation& e = at(std::min(profile, expectation_.profile), index);
         const ref::SampleExpectation& s = e.samples[index];
         const auto begin = e.writers.begin() + s.writers_begin;
         if (std::none_of(begin, begin + s.writers_count,
@@ -120,7 +128,7 @@ void Attribution::attribute_hits(Finding& finding, uint32_t front, uint32_t back
                                  const LastHit& last) {
     const size_t index = index_of(finding);
     level_hits(finding, front, back);
-    const ref::HitBounds& asked = at(finding.level).samples[index].hits;
+    const ref::HitBounds asked = at(finding.level, index).samples[index].hits;
     const bool by_face = faces_matter(asked, front, back);
     finding.expected = to_text(asked);
     if (by_face && asked.is_decided()) {

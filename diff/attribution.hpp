@@ -28,8 +28,8 @@ struct LastHit {
     uint32_t draw = 0;
 };
 
-// Finds the loosest profile at which hits are wrong; computes the looser expectations once, when
-// first asked.
+// Finds the loosest profile at which hits are wrong; computes the looser expectations when they
+// are asked, as far as they are.
 class Attribution {
   public:
     Attribution(const cases::Case& c, const ref::Expectation& expectation)
@@ -54,6 +54,9 @@ class Attribution {
 
     // The expectation of the case at a profile that is not stricter than the asked one.
     const ref::Expectation& at(cases::Profile profile);
+    // The same for one sample, in less time: the other samples need not be right, and it holds
+    // until the next call.
+    const ref::Expectation& at(cases::Profile profile, size_t index);
 
   private:
     size_t index_of(const Finding& finding) const;

@@ -23,13 +23,16 @@ namespace diff {
 
 namespace {
 
+// What somebody wants to know of a capture.
+enum class Wanted : uint8_t { all, findings_without_ratios, first_finding };
+
 // One comparison's state; the phases of a sample stand in judge_sample().
 class Comparison {
   public:
     Comparison(const cases::Case& c, const ref::Expectation& expectation,
                const capture::CaptureView& capture, const ref::ValueSelection& selection,
                bool is_by_sample, std::span<const SampleMark> marks = {},
-               std::span<const ref::ColorWitness> witnesses = {})
+               std::span<const ref::ColorWitness> witnesses = {}, Wanted wanted = Wanted::all)
         : case_(c),
           expectation_(expectation),
           capture_(capture),
@@ -43,9 +46,11 @@ class Comparison {
               c.draws,
               [](const cases::Draw& draw) { return draw.discard != cases::Discard::none; })),
           stores_discarded_(cases::stores_discarded(c)),
+          stops_at_first_(wanted == Wanted::first_finding),
           has_runs_(!is_by_sample && !has_pixel_rules_ && selection.is_all() && !stores_discarded_),
           run_judge_(c, expectation, capture_, values_) {
         values_.judge_only(selection);
+        last_fragment_.need_ratios(wanted == Wanted::all);
         values_.tell_only(
             [this](const ref::ValueMismatch& m) { return last_fragment_.is_told(m, verdict_); });
         if (c.target.color) {
@@ -76,6 +81,10 @@ class Comparison {
         const cases::Target& target = case_.target;
         const size_t row = size_t{target.width} * target.samples;
         for (size_t index = 0; index < count;) {
+            if (is_enough()) {
+                verdict_.error = not_copied_from(index);
+                break;
+            }
             if (const size_t judged = judge_run(index, index - index % row + row); judged > 0) {
                 index += judged;
                 continue;
@@ -93,14 +102,41 @@ class Comparison {
             }
             ++index;
         }
-        verdict_.error = judge_dependent_planes(
-            capture_, expectation_.profile, [this](Finding finding) { add(std::move(finding)); },
-            stencil_ ? &*stencil_ : nullptr);
-        judge_queries(case_, capture_, attribution_, verdict_);
+        if (!verdict_.error.empty()) {
+            return std::move(verdict_);
+        }
+        verdict_.error = is_enough()
+                             ? judge_dependent_planes(
+                                   capture_, expectation_.profile, [](const Finding&) {}, nullptr)
+                             : judge_dependent_planes(
+                                   capture_, expectation_.profile,
+                                   [this](Finding finding) { add(std::move(finding)); },
+                                   stencil_ ? &*stencil_ : nullptr);
+        if (!is_enough()) {
+            judge_queries(case_, capture_, attribution_, verdict_);
+        }
         return std::move(verdict_);
     }
 
   private:
+    bool is_enough() const { return stops_at_first_ && !verdict_.findings.empty(); }
+
+    // What is said of a sample that was not copied, and of the first one from `index` on.
+    std::string not_copied(cases::SampleId id) const {
+        return fmt::format(
+            "sample {} of {} was not copied from the device: it still holds the read-back "
+            "memory's fill pattern",
+            id.sample, cases::pixel_text(case_.target, id));
+    }
+    std::string not_copied_from(size_t index) const {
+        for (; index < capture_.sample_count(); ++index) {
+            if (capture::sample_state(capture_, index) == capture::SampleState::not_copied) {
+                return not_copied(cases::sample_at(case_.target, index));
+            }
+        }
+        return {};
+    }
+
     // Why there is nothing to judge; empty if there is.
     std::string unusable() const {
         if (capture_.target != case_.target || !capture::has_all_planes(capture_)) {
@@ -235,10 +271,7 @@ class Comparison {
         }
         switch (state) {
             case capture::SampleState::not_copied:
-                verdict_.error = fmt::format(
-                    "sample {} of {} was not copied from the device: it still holds the read-back "
-                    "memory's fill pattern",
-                    id.sample, cases::pixel_text(case_.target, id));
+                verdict_.error = not_copied(id);
                 return;
             case capture::SampleState::inconsistent:
                 add_contradiction(index, id, ref::ReasonKind::planes_contradict);
@@ -361,6 +394,7 @@ class Comparison {
     bool has_pixel_rules_ = false;
     bool has_discards_ = false;
     bool stores_discarded_ = false;
+    bool stops_at_first_ = false;
     bool has_runs_ = false;  // what is plainly right is judged by runs of samples
     RunJudge run_judge_;
     std::optional<ColorComparison> color_;
@@ -382,6 +416,17 @@ Verdict compare_colors(const cases::Case& c, const ref::Expectation& expectation
         marks, [](SampleMark mark) { return mark > SampleMark::either; });  // in no run of samples
     return Comparison(c, expectation, capture, {}, has_wrong || !witnesses.empty(), marks,
                       witnesses)
+        .run();
+}
+
+Verdict compare_to_first(const cases::Case& c, const ref::Expectation& expectation,
+                         const capture::CaptureView& capture) {
+    return Comparison(c, expectation, capture, {}, false, {}, {}, Wanted::first_finding).run();
+}
+
+Verdict compare_without_ratios(const cases::Case& c, const ref::Expectation& expectation,
+                               const capture::CaptureView& capture) {
+    return Comparison(c, expectation, capture, {}, false, {}, {}, Wanted::findings_without_ratios)
         .run();
 }
 

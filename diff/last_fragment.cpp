@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "cases/base/number_text.hpp"
@@ -38,9 +39,11 @@ LastFragment::Outcome LastFragment::judge(size_t index, cases::SampleId id) {
     // Without gl_PrimitiveID several triangles may have the writer's provoking vertex: one that
     // explains the fragment is enough.
     ref::FragmentVerdict best;
-    for (uint32_t k = 0; k < expected.writers_count; ++k) {
-        const uint32_t t = expectation_.writers[expected.writers_begin + k];
-        if (!wrote(writer, expectation_.triangles[t])) {
+    const std::span<const uint32_t> writers = expectation_.writers_of(expected);
+    const auto is_it = [&](uint32_t t) { return wrote(writer, expectation_.triangles[t]); };
+    values_.tell_ratios(needs_ratios_ || std::ranges::count_if(writers, is_it) > 1);
+    for (const uint32_t t : writers) {
+        if (!is_it(t)) {
             continue;
         }
         ref::FragmentVerdict v = values_.judge(t, id, device, part_of(case_, expectation_, t));
@@ -121,6 +124,7 @@ std::optional<Finding> LastFragment::judge_older_depth(cases::SampleId id,
     for (uint32_t k = 0; k < expected.depth_count; ++k) {
         const uint32_t t = expectation_.depth_writers[expected.depth_begin + k];
         judges_older_depth_ = true;
+        values_.tell_ratios(needs_ratios_);
         const ref::FragmentVerdict v = values_.judge(t, id, device, ref::FragmentPart::depth);
         judges_older_depth_ = false;
         if (v.ok) {

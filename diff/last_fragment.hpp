@@ -65,6 +65,9 @@ class LastFragment {
         return judges_older_depth_ ||
                so_far.keeps(FindingKind::value, mismatch.rule, mismatch.level);
     }
+    // Whether anybody will read how large errors are; otherwise they are told only where they
+    // choose between triangles.
+    void need_ratios(bool are_needed) { needs_ratios_ = are_needed; }
     // How many numbers of a fragment of triangle t are compared.
     uint64_t values_of(uint32_t t) const;
 
@@ -85,6 +88,7 @@ class LastFragment {
     const ref::ValueSelection& selection_;
     Attribution& attribution_;
     ref::ValueReference& values_;
+    bool needs_ratios_ = true;
     bool judges_older_depth_ = false;  // whose texts go into a finding of another rule
 };
 

@@ -48,12 +48,18 @@ std::optional<std::pair<uint32_t, uint32_t>> StencilComparison::hits_at(size_t i
 ReasonKind StencilComparison::reason_of(size_t index, uint32_t value, cases::Profile level) {
     for (size_t k = 0; k < kChanges.size(); ++k) {
         const auto [at, is_new] = others_.try_emplace({k, level});
-        std::optional<ref::Expectation>& other = at->second;
-        cases::Case changed = case_;
-        if (is_new && kChanges.at(k).change(changed)) {
-            other = ref::expect(changed, expectation_.limits, level);
+        std::unique_ptr<Other>& other = at->second;
+        if (is_new) {
+            cases::Case changed = case_;
+            if (kChanges.at(k).change(changed)) {
+                other = std::make_unique<Other>(std::move(changed), expectation_.limits, level);
+            }
         }
-        if (other && stencils_at(*other, other->samples[index], std::nullopt)[value]) {
+        if (!other) {
+            continue;
+        }
+        const ref::Expectation& e = other->expectation.at(index);
+        if (stencils_at(e, e.samples[index], std::nullopt)[value]) {
             return kChanges.at(k).reason;
         }
     }
@@ -81,14 +87,14 @@ std::optional<Finding> StencilComparison::judge(size_t index, cases::SampleId id
     Finding finding = finding_at(FindingKind::value, case_.target, id);
     finding.level = expectation_.profile;
     for (const cases::Profile profile : cases::kProfiles) {
-        if (profile < expectation_.profile && !is_allowed(attribution_.at(profile))) {
+        if (profile < expectation_.profile && !is_allowed(attribution_.at(profile, index))) {
             finding.level = profile;
             break;
         }
     }
     finding.quantity = "stencil";
     finding.expected =
-        ref::stencil::to_text(allowed(attribution_.at(finding.level)), ", ", kMostTold);
+        ref::stencil::to_text(allowed(attribution_.at(finding.level, index)), ", ", kMostTold);
     finding.got = fmt::format("{}", got);
     tell(finding, reason_of(index, got, finding.level));
     return finding;

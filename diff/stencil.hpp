@@ -5,14 +5,18 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "capture/capture.hpp"
 #include "cases/model/case.hpp"
 #include "diff/attribution.hpp"
 #include "diff/verdict.hpp"
 #include "ref/expectation/expectation.hpp"
+#include "ref/expectation/on_demand.hpp"
+#include "ref/expectation/scene.hpp"
 
 namespace diff {
 
@@ -28,6 +32,15 @@ class StencilComparison {
     std::optional<Finding> judge(size_t index, cases::SampleId id);
 
   private:
+    // What a device may leave that is wrong about something.
+    struct Other {
+        Other(cases::Case changed, const ref::Limits& limits, cases::Profile profile)
+            : c(std::move(changed)), scene(c, limits, profile, false), expectation(scene) {}
+        cases::Case c;
+        ref::Scene scene;
+        ref::OnDemand expectation;
+    };
+
     // The hits that the device shows at a sample, if it has instruments.
     std::optional<std::pair<uint32_t, uint32_t>> hits_at(size_t index) const;
     // The rule that a device must be wrong about to leave this value at a sample: of the changes
@@ -40,7 +53,7 @@ class StencilComparison {
     Attribution& attribution_;
     // What other devices leave, by the number of the change and the profile; where it changes
     // nothing, nothing.
-    std::map<std::pair<size_t, cases::Profile>, std::optional<ref::Expectation>> others_;
+    std::map<std::pair<size_t, cases::Profile>, std::unique_ptr<Other>> others_;
 };
 
 }  // namespace diff

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -12,6 +13,7 @@
 #include "ref/coverage/setup.hpp"
 #include "ref/coverage/triangle_setups.hpp"
 #include "ref/expectation/narrowing.hpp"
+#include "ref/expectation/on_demand.hpp"
 #include "ref/expectation/onlooker.hpp"
 #include "ref/expectation/scene.hpp"
 #include "ref/stencil/values.hpp"
@@ -186,7 +188,7 @@ bool is_same(const Expectation& a, const Expectation& b, size_t index) {
 
 namespace {
 
-// The expectation of a scene, row by row.
+// The expectation of a scene, row by row or sample by sample.
 class RowJudge {
   public:
     RowJudge(Scene& scene, Onlooker* onlooker)
@@ -214,6 +216,33 @@ class RowJudge {
             }
         }
         return std::move(out_);
+    }
+
+    // The same with what is expected of one more sample.
+    const Expectation& with(size_t index) {
+        if (is_known_.empty()) {
+            is_known_.resize(out_.samples.size());
+            split_.assign(target_.samples, ~uint32_t{0});
+        }
+        if (is_known_[index]) {
+            return out_;
+        }
+        is_known_[index] = true;
+        const auto s = static_cast<uint32_t>(index % target_.samples);
+        const auto x = static_cast<uint32_t>(index / target_.samples % target_.width);
+        const auto row = static_cast<uint32_t>(index / target_.samples / target_.width);
+        if (split_[s] != row) {
+            runs_[s].split(spans_.of(row), s);
+            split_[s] = row;
+        }
+        const std::vector<RowRuns::Run>& runs = runs_[s].runs();
+        const auto run = std::partition_point(runs.begin(), runs.end(),
+                                              [x](const RowRuns::Run& r) { return r.x1 <= x; });
+        if (run != runs.end() && run->x0 <= x) {
+            const std::span<const Hit> hits = left_of(runs_[s].hits_of(*run), {x, row, s});
+            keep(index, 1, number_at({x, row, s}, hits));
+        }
+        return out_;
     }
 
   private:
@@ -362,10 +391,16 @@ class RowJudge {
     std::vector<uint32_t> alone_;  // numbers by triangle: it alone must cover the sample
     std::vector<Hit> last_;        // the last list of number_of() that is another one,
     uint32_t last_number_ = SampleExpectations::kNothing;  // and its number
+    std::vector<bool> is_known_;   // by sample, of with(); empty until that is asked
+    std::vector<uint32_t> split_;  // the row that runs_ have, by sample of the pixel
     Expectation out_;
 };
 
 }  // namespace
+
+OnDemand::OnDemand(Scene& scene)
+    : with_([judge = std::make_shared<RowJudge>(scene, nullptr)](
+                size_t index) -> const Expectation& { return judge->with(index); }) {}
 
 Expectation expect(Scene& scene, Onlooker* onlooker) {
     return RowJudge(scene, onlooker).run();

@@ -20,6 +20,7 @@
 #include "ref/depth/outcome.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/expectation/narrowing.hpp"
+#include "ref/expectation/on_demand.hpp"
 #include "ref/expectation/scene.hpp"
 #include "ref/position/limits.hpp"
 #include "ref/position/position.hpp"
@@ -92,6 +93,13 @@ class Explainer {
 
     // The expectation of all samples, from what explaining has computed already.
     Expectation expectation() { return expect(scene_); }
+    // The same as far as one sample goes (OnDemand), for those who ask for a few.
+    const Expectation& expectation_at(size_t index) {
+        if (!on_demand_) {
+            on_demand_.emplace(scene_);
+        }
+        return on_demand_->at(index);
+    }
 
     // Layer, pixel and sample must lie inside the target.
     SampleExplanation explain(cases::SampleId sample, Detail detail = Detail::all);
@@ -112,6 +120,7 @@ class Explainer {
     void add_details(TriangleExplanation& e, const FixedPoint& p);
 
     Scene scene_;
+    std::optional<OnDemand> on_demand_;
 };
 
 // Explains one sample.

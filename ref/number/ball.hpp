@@ -13,6 +13,14 @@
 
 namespace ref::value {
 
+// Compilers leave small functions of two doubles out of line where a template has hundreds of them,
+// and then pass them through memory.
+#if defined(__GNUC__)
+#define EDGECASE_BALL_INLINE [[gnu::always_inline]] inline
+#else
+#define EDGECASE_BALL_INLINE inline
+#endif
+
 // binary64 midpoint v and a rigorous bound e on |v - exact value|. Every operation adds its own
 // rounding (half an ulp, at most |v| 2^-53, or 2^-1074 below the normal range) and inflates the
 // bound by 2^-50, which pays for the rounding of the bound itself (at most 8 operations each).
@@ -29,26 +37,26 @@ namespace ball {
 inline constexpr double kHalfUlp = 0x1p-53;
 inline constexpr double kInflate = 1.0 + 0x1p-50;
 inline constexpr double kTiny = 0x1p-1000;  // covers gradual underflow of value and bound
-inline Ball rounded(double v, double e) {
+EDGECASE_BALL_INLINE Ball rounded(double v, double e) {
     return {v, (e + std::fabs(v) * kHalfUlp + kTiny) * kInflate};
 }
 }  // namespace ball
 
-inline Ball operator+(const Ball& a, const Ball& b) {
+EDGECASE_BALL_INLINE Ball operator+(const Ball& a, const Ball& b) {
     return ball::rounded(a.v + b.v, a.e + b.e);
 }
-inline Ball operator-(const Ball& a, const Ball& b) {
+EDGECASE_BALL_INLINE Ball operator-(const Ball& a, const Ball& b) {
     return ball::rounded(a.v - b.v, a.e + b.e);
 }
-inline Ball operator-(const Ball& a) {
+EDGECASE_BALL_INLINE Ball operator-(const Ball& a) {
     return {-a.v, a.e};
 }
-inline Ball operator*(const Ball& a, const Ball& b) {
+EDGECASE_BALL_INLINE Ball operator*(const Ball& a, const Ball& b) {
     return ball::rounded(a.v * b.v, std::fabs(a.v) * b.e + std::fabs(b.v) * a.e + a.e * b.e);
 }
 // |a/b - va/vb| <= (ea + |va/vb| eb) / (|vb| - eb), if 0 is not in b; otherwise the bound is
 // infinite.
-inline Ball operator/(const Ball& a, const Ball& b) {
+EDGECASE_BALL_INLINE Ball operator/(const Ball& a, const Ball& b) {
     const double q = a.v / b.v;
     const double room = (std::fabs(b.v) - b.e) * (1.0 - 0x1p-50);
     if (!(room > 0)) {
@@ -57,20 +65,20 @@ inline Ball operator/(const Ball& a, const Ball& b) {
     return ball::rounded(
         q, (a.e + (std::fabs(q) + ball::kTiny) * b.e) / room + std::fabs(q) * 0x1p-52);
 }
-inline Ball magnitude(const Ball& a) {
+EDGECASE_BALL_INLINE Ball magnitude(const Ball& a) {
     return {std::fabs(a.v), a.e};
 }
 // The one that is larger for sure, with its own bound: what is clamped to an exact number is that
 // number. Of two that may be equal, the larger of the midpoints is off the larger exact value by at
 // most the larger bound.
-inline Ball larger(const Ball& a, const Ball& b) {
+EDGECASE_BALL_INLINE Ball larger(const Ball& a, const Ball& b) {
     const Ball d = b - a;
     if (d.v > d.e || d.v < -d.e) {
         return d.v > 0 ? b : a;
     }
     return {a.v < b.v ? b.v : a.v, a.e < b.e ? b.e : a.e};
 }
-inline Ball smaller(const Ball& a, const Ball& b) {
+EDGECASE_BALL_INLINE Ball smaller(const Ball& a, const Ball& b) {
     const Ball d = b - a;
     if (d.v > d.e || d.v < -d.e) {
         return d.v > 0 ? a : b;
@@ -161,5 +169,7 @@ inline double nearest_double(const mpq_class& a) {
 inline double nearest_double(const Ball& a) {
     return a.v;
 }
+
+#undef EDGECASE_BALL_INLINE
 
 }  // namespace ref::value

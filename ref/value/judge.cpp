@@ -156,7 +156,14 @@ FragmentVerdict ValueReference::Impl::judge(uint32_t t, cases::SampleId id,
     const bool is_decided = !exact_only && part == FragmentPart::all &&
                             is_plain_depth(triangle.primitive) && filter(t, id, device, out);
     // Accepted, but above one budget: another basis may explain it better.
-    if (!is_decided || out.worst_ratio > 1) {
+    if (profile == Profile::vulkan && !tells_ratios && !exact_only) {
+        if (!is_decided) {
+            value::CandidateVerdict verdict;
+            verdict.failing = in_order(t, failing_at(t, id, device, profile, asked(t, profile)));
+            verdict.ratios.assign(verdict.failing.size(), HUGE_VAL);
+            describe(t, id, device, verdict, out);
+        }
+    } else if (!is_decided || out.worst_ratio > 1) {
         const value::CandidateVerdict verdict = wide(t, id, device, profile, exact_only);
         out.basis = verdict.basis;
         tell_worst(verdict.worst, out);
@@ -188,6 +195,10 @@ void ValueReference::judge_only(const ValueSelection& selection) {
 
 void ValueReference::tell_only(std::function<bool(const ValueMismatch&)> is_told) {
     impl_->is_told = std::move(is_told);
+}
+
+void ValueReference::tell_ratios(bool are_told) {
+    impl_->tells_ratios = are_told;
 }
 
 FragmentVerdict ValueReference::judge(uint32_t t, cases::SampleId sample,

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "cases/model/rule_ids.hpp"
 #include "ref/number/rational.hpp"
@@ -185,6 +187,28 @@ std::vector<size_t> ValueReference::Impl::failing_at(uint32_t t, cases::SampleId
         });
         if (failing) {
             failing->insert(failing->end(), rejected.begin(), rejected.end());
+            return *std::move(failing);
+        }
+    }
+    if (at != Profile::vulkan) {
+        const auto places = value::evaluations<Ball>(fragment(t, id, at), at);
+        std::optional<std::vector<size_t>> failing(std::in_place);
+        for (const std::vector<size_t>& group : groups_of(t, only)) {
+            if (group.empty() || !failing) {
+                continue;
+            }
+            const auto of_group = ask_balls(t, at, [&](const value::CandidateSet<Ball>& set) {
+                return failing_together(
+                    set, places,
+                    {quantities_of(t), load(t).primitive.is_projectable, nullptr, &device, group});
+            });
+            if (of_group) {
+                failing->insert(failing->end(), of_group->begin(), of_group->end());
+            } else {
+                failing.reset();
+            }
+        }
+        if (failing) {
             return *std::move(failing);
         }
     }

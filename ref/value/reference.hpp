@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -17,8 +18,11 @@
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <string>
 #include <tuple>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "cases/base/number_text.hpp"
@@ -153,6 +157,7 @@ struct ValueReference::Impl {
     std::vector<value::Evaluation<Ball>> range_places;
     FragmentPart part = FragmentPart::all;              // of the fragment being judged
     std::function<bool(const ValueMismatch&)> is_told;  // tell_only(); empty: all
+    bool tells_ratios = true;                           // tell_ratios()
     ValueSelection selection;
     std::vector<std::vector<Quantity>> selected;  // the quantities of it, by draw
 
@@ -328,6 +333,15 @@ struct ValueReference::Impl {
         return ask(cache.get(t, at, [&] { return value::rounded(candidates<mpq_class>(t, at)); }));
     }
 
+    // What depends on the plane of depth, and all else.
+    std::array<std::vector<size_t>, 2> groups_of(uint32_t t, std::span<const size_t> all) const {
+        std::array<std::vector<size_t>, 2> groups;
+        for (const size_t index : all) {
+            groups.at(quantities_of(t)[index].plane == value::kPlaneDepth ? 0 : 1).push_back(index);
+        }
+        return groups;
+    }
+
     // By Balls, and by rationals where these do not tell; `exact_only`: the oracle, by rationals
     // alone.
     // One candidate explains a fragment, or one explains what depends on the plane of depth
@@ -336,20 +350,32 @@ struct ValueReference::Impl {
     value::CandidateVerdict wide(uint32_t t, cases::SampleId id, const FragmentValues& device,
                                  Profile at, bool exact_only = false) {
         const std::vector<size_t> all = asked(t, at);
-        value::CandidateVerdict verdict = wide_of(t, id, device, at, all, exact_only);
-        std::array<std::vector<size_t>, 2> groups;
-        for (const size_t index : all) {
-            groups.at(quantities_of(t)[index].plane == value::kPlaneDepth ? 0 : 1).push_back(index);
+        const value::CandidateVerdict unknown{false, false, ref::BasisKind::unsnapped, {}, {}, {}};
+        auto [of_depth, others] = groups_of(t, all);
+        std::array<value::GroupVerdict, 2> groups{
+            {{std::move(of_depth), unknown}, {std::move(others), unknown}}};
+        // At vulkan each value stands alone anyway.
+        if (at == Profile::vulkan || groups[0].only.empty() || groups[1].only.empty()) {
+            return wide_of(t, id, device, at, all, exact_only);
         }
-        if (verdict.ok || at == Profile::vulkan || groups[0].empty() || groups[1].empty()) {
-            return verdict;  // at vulkan each value stands alone anyway
+        value::CandidateVerdict verdict = wide_of(t, id, device, at, all, exact_only, groups);
+        if (verdict.ok) {
+            return verdict;
         }
-        return value::verdict_of_both(wide_of(t, id, device, at, groups[0], exact_only),
-                                      wide_of(t, id, device, at, groups[1], exact_only));
+        bool is_known = true;  // the first that is not may have the set made more exact
+        for (value::GroupVerdict& group : groups) {
+            is_known = is_known && group.verdict.is_known;
+            if (!is_known) {
+                group.verdict = wide_of(t, id, device, at, group.only, exact_only);
+            }
+        }
+        return value::verdict_of_both(groups[0].verdict, groups[1].verdict);
     }
 
+    // `groups` get verdicts of their own where these come with that on all.
     value::CandidateVerdict wide_of(uint32_t t, cases::SampleId id, const FragmentValues& device,
-                                    Profile at, const std::vector<size_t>& only, bool exact_only) {
+                                    Profile at, const std::vector<size_t>& only, bool exact_only,
+                                    std::span<value::GroupVerdict> groups = {}) {
         if (only.empty()) {
             return {true, true, ref::BasisKind::unsnapped, {}, {}, {}};
         }
@@ -358,7 +384,8 @@ struct ValueReference::Impl {
                                  &device, only};
         const auto judge_by = [&]<class T>(const value::CandidateSet<T>& set) {
             value::CandidateVerdict verdict = judge_candidates(
-                set, value::evaluations<T>(fragment(t, id, at, exact_only), at), asked);
+                set, value::evaluations<T>(fragment(t, id, at, exact_only), at), asked,
+                std::is_same_v<T, Ball> ? groups : std::span<value::GroupVerdict>());
             return verdict.is_known ? std::optional(std::move(verdict)) : std::nullopt;
         };
         if (!exact_only) {
@@ -377,7 +404,16 @@ struct ValueReference::Impl {
     bool are_rejected(uint32_t t, cases::SampleId id, const FragmentValues& device, Profile at,
                       const std::vector<size_t>& suspects);
 
-    // What fails of wide(): at profile vulkan, where each value stands alone, in much less time.
+    // Failing values in the order of judge_candidates(): probes are behind all others.
+    std::vector<size_t> in_order(uint32_t t, std::vector<size_t> failing) const {
+        std::ranges::sort(failing, {}, [&](size_t index) {
+            return std::pair(quantities_of(t)[index].kind == Kind::probe, index);
+        });
+        return failing;
+    }
+
+    // What fails of wide(), in any order and in less time: without ratios, unless they decide which
+    // candidate is best.
     // `suspects`: what fails at the profile that is judged.
     std::vector<size_t> failing_at(uint32_t t, cases::SampleId id, const FragmentValues& device,
                                    Profile at, const std::vector<size_t>& suspects);

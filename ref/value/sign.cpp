@@ -4,6 +4,7 @@
 // Whether a value is negative, by all that a profile accepts of it (value.hpp, Sign).
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "cases/model/sample.hpp"
 #include "ref/value/accept/candidate_reach.hpp"
@@ -28,17 +29,25 @@ Sign sign_of(const value::AcceptedRange<mpq_class>& accepted) {
                                                                    : Sign::open;
 }
 
-Sign sign_of(const value::AcceptedRange<Ball>& accepted) {
-    if (!accepted.is_known || accepted.is_free) {
-        return Sign::open;
+// Nothing if the Balls cannot tell.
+std::optional<Sign> sign_of(const value::AcceptedRange<Ball>& accepted) {
+    if (!accepted.is_known) {
+        return std::nullopt;
     }
+    const auto& [low, high] = accepted.range;
     // A Ball's ends are rounded once more here.
-    const double low = accepted.range.low.v - accepted.range.low.e;
-    const double high = accepted.range.high.v + accepted.range.high.e;
-    const double room = 0x1p-50 * (std::fabs(low) + std::fabs(high));
-    return high + room <= -static_cast<double>(kLeastNormal) ? Sign::negative
-           : low - room >= static_cast<double>(kLeastNormal) ? Sign::not_negative
-                                                             : Sign::open;
+    const double room = 0x1p-50 * (std::fabs(low.v) + low.e + std::fabs(high.v) + high.e);
+    constexpr auto kLeast = static_cast<double>(kLeastNormal);
+    if (!accepted.is_free && high.v + high.e + room <= -kLeast) {
+        return Sign::negative;
+    }
+    if (!accepted.is_free && low.v - low.e - room >= kLeast) {
+        return Sign::not_negative;
+    }
+    // Of a range that may hold too much, no end is sure to be reached.
+    const bool is_open =
+        accepted.is_free || (low.v + low.e + room < 0 && high.v - high.e - room > -kLeast);
+    return is_open && !accepted.is_outer ? std::optional(Sign::open) : std::nullopt;
 }
 
 Sign sign_of(float flat) {
@@ -71,11 +80,12 @@ Sign ValueReference::sign(uint32_t t, cases::SampleId sample, bool exact_only) {
     value::Asked asked{all, primitive.is_projectable};
     asked.only = only;
     if (!exact_only) {
-        const Sign sign = sign_of(value::accepted_ranges(impl_->candidates<Ball>(t, impl_->profile),
-                                                         impl_->places_of_range(t, sample), asked)
-                                      .front());
-        if (sign != Sign::open) {
-            return sign;
+        const std::optional<Sign> sign =
+            sign_of(value::accepted_ranges(impl_->candidates<Ball>(t, impl_->profile),
+                                           impl_->places_of_range(t, sample), asked)
+                        .front());
+        if (sign) {
+            return *sign;
         }
     }
     return sign_of(value::accepted_ranges(

@@ -125,6 +125,11 @@ class ValueReference {
     // nobody reads most of them.
     void tell_only(std::function<bool(const ValueMismatch&)> is_told);
 
+    // Whether the next verdicts tell how large errors are (worst_ratio, worst_quantity and the
+    // ratios of mismatches), which takes most of the time of values that are wrong at profile
+    // vulkan; true until it is said.
+    void tell_ratios(bool are_told);
+
     // Judges what triangle `t` (index into assemble(c)) wrote at a sample that it may cover.
     FragmentVerdict judge(uint32_t t, cases::SampleId sample, const FragmentValues& device,
                           FragmentPart part = FragmentPart::all);

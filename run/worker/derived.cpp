@@ -34,18 +34,22 @@ std::string wrong_at_vulkan(const cases::Case& filed, const Rendered& drawn,
         const std::optional<cases::Case> placed = ref::with_own_samples(filed, limits);
         const cases::Case& c = placed ? *placed : filed;
         const ref::Expectation expectation = ref::expect(c, limits, cases::Profile::vulkan);
-        const auto compare = [&](const Rendered& picture) {
+        const auto seen = [&](const Rendered& picture) {
             capture::CaptureView view = view_of(picture);
             view.target = c.target;
-            return diff::compare(c, expectation, view);
+            return view;
         };
-        const diff::Verdict verdict = compare(drawn);
-        if (!verdict.error.empty() || verdict.findings.empty()) {
-            return verdict.error;
+        // All that is wrong takes much longer to tell, and all other cases wait for it.
+        const diff::Verdict first = diff::compare_to_first(c, expectation, seen(drawn));
+        if (!first.error.empty() || first.findings.empty()) {
+            return first.error;
         }
+        const diff::Verdict verdict =
+            plain == nullptr ? first : diff::compare_without_ratios(c, expectation, seen(drawn));
         std::set<std::string> broken;
         if (plain != nullptr) {
-            for (const diff::Finding& f : compare(*plain).findings) {
+            for (const diff::Finding& f :
+                 diff::compare_without_ratios(c, expectation, seen(*plain)).findings) {
                 broken.insert(f.rule);
             }
         }

@@ -45,12 +45,21 @@ size_t place_of(const Quantity& q, const Evaluation<T>& where) {
                                                    : kAttributes;
 }
 
+// Memory that one call of add_candidate() leaves to the next one: there are thousands.
+template <class T>
+struct CandidateScratch {
+    std::vector<T> widest;
+    std::array<std::vector<Site<T>>, kPlaces> sites;
+};
+
 // Adds what a candidate accepts for every judged quantity.
 template <class T>
 void add_candidate(const CandidateSet<T>& set, const Candidate<T>& candidate,
-                   const Evaluation<T>& where, const Asked& asked, std::vector<Reach<T>>& reaches) {
+                   const Evaluation<T>& where, const Asked& asked, CandidateScratch<T>& scratch,
+                   std::vector<Reach<T>>& reaches) {
     const std::span<const Quantity> quantities = asked.quantities;
-    std::vector<T> widest(quantities.size());
+    auto& [widest, sites] = scratch;
+    widest.assign(quantities.size(), T{});
     const bool at_sample = is_same(where.attributes, where.sample);
     const bool centroid_at_sample = is_same(where.centroid, where.sample);
     std::array<bool, kPlaces> is_needed{};
@@ -59,7 +68,6 @@ void add_candidate(const CandidateSet<T>& set, const Candidate<T>& candidate,
             is_needed.at(place_of(quantities[i], where)) = true;
         }
     }
-    std::array<std::vector<Site<T>>, kPlaces> sites;
     for (const Basis<T>& basis : candidate.bases) {
         const Plane<T>& inv_w = basis.planes[kPlaneInvW];
         for (size_t place = 0; place < kPlaces; ++place) {

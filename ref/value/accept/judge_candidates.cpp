@@ -113,23 +113,87 @@ CandidateVerdict verdict_of(std::span<const Fit> fits, std::span<const size_t> j
 
 }  // namespace
 
+namespace {
+
+// The best candidate so far for some of the quantities.
+class Best {
+  public:
+    explicit Best(const Asked& asked) : asked_(asked) {
+        for (size_t i = 0; i < asked.quantities.size(); ++i) {
+            if (is_judged(asked, i)) {
+                judged_.push_back(i);
+            }
+        }
+    }
+
+    bool is_settled() const { return is_settled_; }  // no other candidate is asked any more
+    const CandidateVerdict& verdict() const { return best_ ? *best_ : none_; }
+
+    // How candidate `c` of a set fits at an evaluation.
+    template <class T>
+    void take(const CandidateSet<T>& set, size_t c, const Evaluation<T>& where,
+              std::span<const Fit> fits, const CandidateVerdict& probes) {
+        const Score score = score_of(asked_.quantities, fits, judged_, probes);
+        if (best_ && score.failing > 0 && !is_better(score, *best_)) {
+            return;
+        }
+        CandidateVerdict verdict = verdict_of(fits, judged_, probes, score, set.candidates[c].name);
+        if (verdict.ok && where.one_point) {
+            size_t blamed = 0;
+            switch (has_one_point(set, c, *where.one_point, asked_, blamed)) {
+                case Answer::unknown:
+                    settle({false, false, ref::BasisKind::unsnapped, {}, {}, {}});
+                    return;
+                case Answer::no:
+                    verdict.ok = false;
+                    verdict.failing.push_back(blamed);
+                    verdict.ratios.push_back(std::numeric_limits<double>::infinity());
+                    verdict.worst = {std::numeric_limits<double>::infinity(),
+                                     asked_.quantities[blamed].id};
+                    break;
+                case Answer::yes:
+                    break;
+            }
+        }
+        if (verdict.ok && verdict.worst.ratio <= 1) {
+            settle(std::move(verdict));
+        } else if (!best_ || is_better({verdict.failing.size(), verdict.worst}, *best_)) {
+            best_ = std::move(verdict);
+        }
+    }
+
+  private:
+    void settle(CandidateVerdict verdict) {
+        best_ = std::move(verdict);
+        is_settled_ = true;
+    }
+
+    Asked asked_;
+    std::vector<size_t> judged_;
+    CandidateVerdict none_;
+    std::optional<CandidateVerdict> best_;
+    bool is_settled_ = false;
+};
+
+}  // namespace
+
 template <class T>
 CandidateVerdict judge_candidates(const CandidateSet<T>& set,
-                                  const std::vector<Evaluation<T>>& evaluations,
-                                  const Asked& asked) {
+                                  const std::vector<Evaluation<T>>& evaluations, const Asked& asked,
+                                  std::span<GroupVerdict> groups) {
     const std::span<const Quantity> quantities = asked.quantities;
     const bool has_probes = std::any_of(quantities.begin(), quantities.end(),
                                         [](const Quantity& q) { return q.kind == Kind::probe; });
-    std::vector<size_t> judged;
-    for (size_t i = 0; i < quantities.size(); ++i) {
-        if (is_judged(asked, i)) {
-            judged.push_back(i);
-        }
-    }
     const CandidateVerdict unknown{false, false, ref::BasisKind::unsnapped, {}, {}, {}};
-    std::optional<CandidateVerdict> best;
+    Best all(asked);
+    std::vector<Best> parts;
+    for (const GroupVerdict& group : groups) {
+        parts.emplace_back(asked.of(group.only));
+    }
     const size_t rounds = set.any_of_all ? 1 : set.candidates.size();
-    std::vector<Round<T>> kept(rounds);
+    // The next evaluation wants what this one leaves.
+    std::vector<Round<T>> kept(evaluations.size() > 1 ? rounds : 1);
+    CandidateScratch<T> scratch;
     const Evaluation<T>* before = nullptr;
     for (const Evaluation<T>& where : evaluations) {
         const Shared<T> shared(asked, std::exchange(before, &where), where);
@@ -145,7 +209,7 @@ CandidateVerdict judge_candidates(const CandidateSet<T>& set,
                     continue;
                 }
             }
-            auto& [reaches, fits, probes] = kept[c];
+            auto& [reaches, fits, probes] = kept[kept.size() > 1 ? c : 0];
             reaches.resize(quantities.size());
             fits.resize(quantities.size());
             for (const size_t i : shared.fresh) {
@@ -154,7 +218,8 @@ CandidateVerdict judge_candidates(const CandidateSet<T>& set,
             const size_t first = set.any_of_all ? 0 : c;
             const size_t last = set.any_of_all ? set.candidates.size() : c + 1;
             for (size_t k = first; k < last && !shared.fresh.empty(); ++k) {
-                add_candidate(set, set.candidates[k], where, asked.of(shared.fresh), reaches);
+                add_candidate(set, set.candidates[k], where, asked.of(shared.fresh), scratch,
+                              reaches);
             }
             for (const size_t i : shared.fresh) {
                 fits[i] = fit(reaches[i], asked.got(i), store_of(set, quantities[i]));
@@ -170,37 +235,124 @@ CandidateVerdict judge_candidates(const CandidateSet<T>& set,
                     return unknown;
                 }
             }
-            const Score score = score_of(quantities, fits, judged, probes);
-            if (best && score.failing > 0 && !is_better(score, *best)) {
-                continue;
+            all.take(set, c, where, fits, probes);
+            if (all.is_settled()) {
+                return all.verdict();
             }
-            CandidateVerdict verdict =
-                verdict_of(fits, judged, probes, score, set.candidates[c].name);
-            if (verdict.ok && where.one_point) {
-                size_t blamed = 0;
-                switch (has_one_point(set, c, *where.one_point, asked, blamed)) {
-                    case Answer::unknown:
-                        return unknown;
-                    case Answer::no:
-                        verdict.ok = false;
-                        verdict.failing.push_back(blamed);
-                        verdict.ratios.push_back(std::numeric_limits<double>::infinity());
-                        verdict.worst = {std::numeric_limits<double>::infinity(),
-                                         quantities[blamed].id};
-                        break;
-                    case Answer::yes:
-                        break;
+            for (Best& part : parts) {
+                if (!part.is_settled()) {
+                    part.take(set, c, where, fits, probes);
                 }
-            }
-            if (verdict.ok && verdict.worst.ratio <= 1) {
-                return verdict;
-            }
-            if (!best || is_better({verdict.failing.size(), verdict.worst}, *best)) {
-                best = std::move(verdict);
             }
         }
     }
-    return best.value_or(CandidateVerdict{});
+    for (size_t k = 0; k < parts.size(); ++k) {
+        groups[k].verdict = has_probes ? unknown : parts[k].verdict();
+    }
+    return all.verdict();
+}
+
+template <class T>
+std::optional<std::vector<size_t>> failing_together(const CandidateSet<T>& set,
+                                                    const std::vector<Evaluation<T>>& evaluations,
+                                                    const Asked& asked) {
+    const std::span<const Quantity> quantities = asked.quantities;
+    std::vector<size_t> judged;
+    for (size_t i = 0; i < quantities.size(); ++i) {
+        if (quantities[i].kind == Kind::probe || set.any_of_all) {
+            return std::nullopt;
+        }
+        if (is_judged(asked, i)) {
+            judged.push_back(i);
+        }
+    }
+    if (judged.empty()) {
+        return judged;
+    }
+    std::vector<size_t> best;  // fails under a candidate; of all that fail under one, the fewest
+    bool is_tie = false;
+    // Whether all of `best` has failed under a candidate where the last evaluation has it.
+    std::vector<bool> is_known(set.candidates.size(), false);
+    CandidateScratch<T> scratch;
+    std::vector<Reach<T>> reaches(quantities.size());
+    const Evaluation<T>* before = nullptr;
+    for (const Evaluation<T>& where : evaluations) {
+        const Shared<T> shared(asked, std::exchange(before, &where), where);
+        for (size_t c = 0; c < set.candidates.size(); ++c) {
+            const Candidate<T>& candidate = set.candidates[c];
+            if (candidate.is_piece) {
+                const Answer near = is_near(candidate.bases.front(), where.sample, set.margin);
+                if (near == Answer::unknown) {
+                    return std::nullopt;
+                }
+                if (near == Answer::no) {
+                    continue;
+                }
+            }
+            const auto failing_of =
+                [&](std::span<const size_t> which) -> std::optional<std::vector<size_t>> {
+                for (const size_t i : which) {
+                    reaches[i] = {};
+                }
+                add_candidate(set, candidate, where, asked.of(which), scratch, reaches);
+                std::vector<size_t> failing;
+                for (const size_t i : which) {
+                    switch (fit(reaches[i], asked.got(i), store_of(set, quantities[i])).answer) {
+                        case Answer::unknown:
+                            return std::nullopt;
+                        case Answer::no:
+                            failing.push_back(i);
+                            break;
+                        case Answer::yes:
+                            break;
+                    }
+                }
+                return failing;
+            };
+            if (!best.empty()) {
+                const bool is_moved = std::ranges::any_of(best, [&](size_t i) {
+                    return std::ranges::find(shared.fresh, i) != shared.fresh.end();
+                });
+                if (is_moved || !is_known[c]) {
+                    const auto still = failing_of(best);
+                    if (!still) {
+                        return std::nullopt;
+                    }
+                    is_known[c] = still->size() == best.size();
+                }
+                if (is_known[c]) {
+                    continue;
+                }
+            }
+            std::optional<std::vector<size_t>> failing = failing_of(judged);
+            if (!failing) {
+                return std::nullopt;
+            }
+            const bool is_each_explained = failing->empty();
+            if (is_each_explained && where.one_point) {
+                size_t blamed = 0;
+                const Answer one = has_one_point(set, c, *where.one_point, asked, blamed);
+                if (one == Answer::unknown) {
+                    return std::nullopt;
+                }
+                if (one == Answer::no) {
+                    failing->push_back(blamed);
+                }
+            }
+            if (failing->empty()) {
+                return failing;
+            }
+            if (best.empty() || failing->size() < best.size()) {
+                best = *std::move(failing);
+                is_tie = false;
+                is_known.assign(is_known.size(), false);
+                is_known[c] = !is_each_explained;
+            } else if (failing->size() == best.size()) {
+                is_tie = is_tie || *failing != best;
+            }
+        }
+    }
+    return is_tie ? std::nullopt : std::optional(best);
 }
 
 template <class T>
@@ -209,6 +361,7 @@ AcceptedRange<T> reach_of_depth(const CandidateSet<T>& set, const Quantity& dept
     AcceptedRange<T> out;
     const Evaluation<T> where{{sample}, {}, sample, {sample}, {}};
     std::vector<Reach<T>> reaches(1);
+    CandidateScratch<T> scratch;
     for (const Candidate<T>& candidate : set.candidates) {
         if (candidate.is_piece) {
             const Answer near = is_near(candidate.bases.front(), sample, set.margin);
@@ -220,7 +373,7 @@ AcceptedRange<T> reach_of_depth(const CandidateSet<T>& set, const Quantity& dept
                 continue;
             }
         }
-        add_candidate(set, candidate, where, Asked{{&depth, 1}, is_projectable}, reaches);
+        add_candidate(set, candidate, where, Asked{{&depth, 1}, is_projectable}, scratch, reaches);
     }
     const Reach<T>& reach = reaches.front();
     out.is_known = reach.is_known;
@@ -255,12 +408,17 @@ std::vector<AcceptedRange<T>> accepted_ranges(const CandidateSet<T>& set,
                                               const std::vector<Evaluation<T>>& evaluations,
                                               const Asked& asked) {
     std::vector<Reach<T>> reaches(asked.quantities.size());
+    bool is_outer = false;
+    CandidateScratch<T> scratch;
     for (const Evaluation<T>& where : evaluations) {
         for (const Candidate<T>& candidate : set.candidates) {
             // A piece that may be near counts: the range is an upper bound.
-            if (!candidate.is_piece ||
-                is_near(candidate.bases.front(), where.sample, set.margin) != Answer::no) {
-                add_candidate(set, candidate, where, asked, reaches);
+            const Answer near = candidate.is_piece
+                                    ? is_near(candidate.bases.front(), where.sample, set.margin)
+                                    : Answer::yes;
+            is_outer = is_outer || near == Answer::unknown;
+            if (near != Answer::no) {
+                add_candidate(set, candidate, where, asked, scratch, reaches);
             }
         }
     }
@@ -268,7 +426,7 @@ std::vector<AcceptedRange<T>> accepted_ranges(const CandidateSet<T>& set,
     for (const size_t index : asked.only) {
         const Reach<T>& reach = reaches[index];
         out.push_back({reach.is_known, reach.is_free || reach.is_undefined || reach.all.is_first,
-                       reach.all.range, std::nullopt});
+                       reach.all.range, std::nullopt, is_outer});
         if (!reach.biased.is_first) {
             out.back().biased = reach.biased.range;
         }
@@ -297,15 +455,19 @@ CandidateVerdict verdict_of_both(const CandidateVerdict& a, const CandidateVerdi
     return both;
 }
 
+template std::optional<std::vector<size_t>> failing_together<Ball>(
+    const CandidateSet<Ball>&, const std::vector<Evaluation<Ball>>&, const Asked&);
+template std::optional<std::vector<size_t>> failing_together<mpq_class>(
+    const CandidateSet<mpq_class>&, const std::vector<Evaluation<mpq_class>>&, const Asked&);
 template std::vector<AcceptedRange<Ball>> accepted_ranges<Ball>(
     const CandidateSet<Ball>&, const std::vector<Evaluation<Ball>>&, const Asked&);
 template std::vector<AcceptedRange<mpq_class>> accepted_ranges<mpq_class>(
     const CandidateSet<mpq_class>&, const std::vector<Evaluation<mpq_class>>&, const Asked&);
 template CandidateVerdict judge_candidates<Ball>(const CandidateSet<Ball>&,
-                                                 const std::vector<Evaluation<Ball>>&,
-                                                 const Asked&);
+                                                 const std::vector<Evaluation<Ball>>&, const Asked&,
+                                                 std::span<GroupVerdict>);
 template CandidateVerdict judge_candidates<mpq_class>(const CandidateSet<mpq_class>&,
                                                       const std::vector<Evaluation<mpq_class>>&,
-                                                      const Asked&);
+                                                      const Asked&, std::span<GroupVerdict>);
 
 }  // namespace ref::value

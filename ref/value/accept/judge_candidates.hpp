@@ -80,6 +80,7 @@ struct AcceptedRange {
     bool is_free = false;  // nothing is claimed of it
     Range<T> range;
     std::optional<Range<T>> biased;  // the other answer of a FragCoord.z (Reach::biased)
+    bool is_outer = false;           // T cannot tell whether all that is in it is accepted
 };
 
 // All depths that the set's devices may compare and store at a point, after bias and clamp.
@@ -124,10 +125,19 @@ struct CandidateVerdict {
 // the second.
 CandidateVerdict verdict_of_both(const CandidateVerdict& a, const CandidateVerdict& b);
 
+// The verdict on some of the quantities, with a candidate of their own.
+struct GroupVerdict {
+    std::vector<size_t> only;
+    CandidateVerdict verdict;
+};
+
+// Of a fragment that no candidate explains, and that has no probes, `groups` get the verdicts that
+// they would have each by itself, for much less: what a candidate accepts is the same for all. A
+// group that T cannot judge gets one that is not known.
 template <class T>
 CandidateVerdict judge_candidates(const CandidateSet<T>& set,
-                                  const std::vector<Evaluation<T>>& evaluations,
-                                  const Asked& asked);
+                                  const std::vector<Evaluation<T>>& evaluations, const Asked& asked,
+                                  std::span<GroupVerdict> groups = {});
 
 // The failing quantities of judge_candidates() alone, for a set with any_of_all: without the ratios
 // most values are accepted by the first candidate. Nothing if only ratios tell which evaluation is
@@ -136,6 +146,14 @@ template <class T>
 std::optional<std::vector<size_t>> failing_separately(const CandidateSet<T>& set,
                                                       const std::vector<Evaluation<T>>& evaluations,
                                                       const Asked& asked);
+
+// The same for a set where one candidate has to explain all values, and without probes: where what
+// fails under one candidate fails under another, too, that one is no better, whatever else is.
+// Nothing if only ratios tell which candidate is best, or T does not know.
+template <class T>
+std::optional<std::vector<size_t>> failing_together(const CandidateSet<T>& set,
+                                                    const std::vector<Evaluation<T>>& evaluations,
+                                                    const Asked& asked);
 
 // Everything that some quantities may be, whichever candidate and place the device uses: by place
 // in `asked.only`. What they share, sites and their budgets, is made once.

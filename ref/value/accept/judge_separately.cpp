@@ -25,6 +25,7 @@ std::optional<std::vector<size_t>> failing_separately(const CandidateSet<T>& set
     CandidateVerdict probes;
     std::optional<std::vector<size_t>> best;
     bool is_tie = false;
+    CandidateScratch<T> scratch;
     const Evaluation<T>* before = nullptr;
     for (const Evaluation<T>& where : evaluations) {
         if (where.one_point || !set.any_of_all) {
@@ -37,7 +38,7 @@ std::optional<std::vector<size_t>> failing_separately(const CandidateSet<T>& set
             if (open.empty()) {
                 break;
             }
-            add_candidate(set, candidate, where, asked.of(open), reaches);
+            add_candidate(set, candidate, where, asked.of(open), scratch, reaches);
             std::erase_if(open, [&](size_t i) { return fit_of(i, reaches[i]) == Answer::yes; });
         }
         for (const size_t i : shared.fresh) {

@@ -39,6 +39,14 @@ double difference(const Form<Ball>& a, const Form<Ball>& b, std::span<const Poin
     return most;
 }
 
+// The largest extent of a basis (make_site) at a point between two.
+Ball extent_of(const Ball& basis_low, const Ball& basis_high, const Ball& low, const Ball& high) {
+    const auto at = [&](const Ball& p) {
+        return Ball(larger(basis_high, p) - smaller(basis_low, p));
+    };
+    return larger(at(low), at(high));
+}
+
 // A basis's three barycentrics come first, its planes behind them.
 constexpr size_t kBary = 3;
 const Form<Ball>& form_of(const Basis<Ball>& basis, size_t k) {
@@ -95,12 +103,11 @@ SetBounds::SetBounds(const CandidateSet<Ball>& set, const PixelBox& box)
         group.size += candidate.bases.size();
         group.has_unbounded = group.has_unbounded || candidate.is_unbounded;
         for (const Basis<Ball>& basis : candidate.bases) {
-            Site<Ball> most;  // the extents at their largest in the box
-            for (const Point<Ball>& corner : corners) {
-                const Site<Ball> s = make_site(basis, basis.planes[kPlaneInvW], corner, set.factor);
-                most.extent_x = larger(most.extent_x, s.extent_x);
-                most.extent_y = larger(most.extent_y, s.extent_y);
-            }
+            // The extents at their largest in the box.
+            const Ball extent_x =
+                extent_of(basis.low_x, basis.high_x, Ball(box.low_x), Ball(box.high_x));
+            const Ball extent_y =
+                extent_of(basis.low_y, basis.high_y, Ball(box.low_y), Ball(box.high_y));
             const bool is_first = first == nullptr;
             first = is_first ? &basis : first;
             Planes own;
@@ -109,8 +116,7 @@ SetBounds::SetBounds(const CandidateSet<Ball>& set, const PixelBox& box)
                 own.push_back(held(form, 0));
             }
             for (const Plane<Ball>& plane : basis.planes) {
-                own.push_back(
-                    held(plane.form, upper(plane.budget(most.extent_x, most.extent_y, Ball(1.0)))));
+                own.push_back(held(plane.form, upper(plane.budget(extent_x, extent_y, Ball(1.0)))));
             }
             if (is_first) {
                 all_ = own;

@@ -180,6 +180,29 @@ void expect_same(const diff::Verdict& runs, const diff::Verdict& samples, int n)
     ASSERT_EQ(runs.error_ratios, samples.error_ratios) << n;
 }
 
+// What shorter comparisons leave out is the size of errors, or all behind the first finding.
+void expect_same_of_shorter(const cases::Case& c, const ref::Expectation& e,
+                            const capture::Capture& capture, diff::Verdict whole, int n) {
+    for (diff::Finding& f : whole.findings) {
+        f.ratio = 0;
+    }
+    diff::Verdict bare = diff::compare_without_ratios(c, e, capture);
+    for (diff::Finding& f : bare.findings) {
+        f.ratio = 0;
+    }
+    ASSERT_EQ(text_of(bare), text_of(whole)) << n;
+    ASSERT_EQ(bare.groups, whole.groups) << n;
+    ASSERT_EQ(bare.marks, whole.marks) << n;
+    diff::Verdict first = diff::compare_to_first(c, e, capture);
+    ASSERT_EQ(first.findings.empty(), whole.findings.empty()) << n;
+    whole.findings.resize(std::min(whole.findings.size(), size_t{1}));
+    first.findings.resize(whole.findings.size());
+    for (diff::Finding& f : first.findings) {
+        f.ratio = 0;
+    }
+    ASSERT_EQ(text_of(first), text_of(whole)) << n;
+}
+
 TEST(RunJudge, SaysWhatSamplesSayOneByOne) {
     Random rng(41);
     int right = 0, wrong_pictures = 0;
@@ -196,6 +219,7 @@ TEST(RunJudge, SaysWhatSamplesSayOneByOne) {
         }
         const diff::Verdict samples = diff::compare_by_sample(c, e, capture);
         expect_same(diff::compare(c, e, capture), samples, n);
+        expect_same_of_shorter(c, e, capture, samples, n);
         ++(samples.ok() ? right : wrong_pictures);
         if (testing::Test::HasFatalFailure()) {
             return;

@@ -137,6 +137,64 @@ TEST(ValueAlone, FailsWhatTheWholeSetFails) {
     EXPECT_GT(some, told / 10);
 }
 
+// Where one candidate has to explain all of a group: what fails of it, and the verdicts of groups
+// that are judged beside the whole.
+TEST(ValueAlone, FailsTogetherWhatTheWholeSetFails) {
+    std::mt19937_64 rng(37);
+    uint32_t none = 0, some = 0, told = 0, open = 0, grouped = 0;
+    for (int n = 0; n < 180; ++n) {
+        const Random r(rng, n, n % 4 == 0 ? 4 : 1);
+        const bool has_probes = n % 3 == 0;
+        for (const Profile at : {Profile::practice, Profile::direct3d}) {
+            const auto balls = r.set<Ball>(at);
+            const auto places = ref::value::evaluations<Ball>(r.fragment, at);
+            const ref::FragmentValues device =
+                r.device(rng, std::array{1e-5, 1e-3, 0.03, 1.0}.at(rng() % 4));
+            const ref::value::ProbePlace place = r.place(at);
+            const ref::value::Asked asked{r.quantities, r.primitive.is_projectable, &place,
+                                          &device};
+            std::array<ref::value::GroupVerdict, 2> groups;
+            for (size_t k = 0; k < r.quantities.size(); ++k) {
+                if (ref::value::is_numeric(r.quantities[k])) {
+                    groups.at(rng() % 2).only.push_back(k);
+                }
+            }
+            const CandidateVerdict all = ref::value::judge_candidates(balls, places, asked, groups);
+            for (const ref::value::GroupVerdict& group : groups) {
+                if (group.only.empty()) {
+                    continue;
+                }
+                const auto whole =
+                    ref::value::judge_candidates(balls, places, asked.of(group.only));
+                const auto failing =
+                    ref::value::failing_together(balls, places, asked.of(group.only));
+                EXPECT_FALSE(has_probes && failing);
+                if (!failing || !whole.is_known) {
+                    open += has_probes ? 0U : 1U;
+                    continue;
+                }
+                ++told;
+                ASSERT_EQ(*failing, whole.failing) << n;
+                ++(failing->empty() ? none : some);
+                if (all.is_known && !all.ok) {
+                    ++grouped;
+                    ASSERT_TRUE(group.verdict.is_known) << n;
+                    ASSERT_EQ(group.verdict.failing, whole.failing) << n;
+                    ASSERT_EQ(group.verdict.ratios, whole.ratios) << n;
+                    ASSERT_EQ(group.verdict.ok, whole.ok) << n;
+                    ASSERT_EQ(group.verdict.basis, whole.basis) << n;
+                    ASSERT_EQ(group.verdict.worst.ratio, whole.worst.ratio) << n;
+                    ASSERT_EQ(group.verdict.worst.quantity, whole.worst.quantity) << n;
+                }
+            }
+        }
+    }
+    EXPECT_GT(told, 3 * open);
+    EXPECT_GT(none, told / 20);
+    EXPECT_GT(some, told / 10);
+    EXPECT_GT(grouped, told / 10);
+}
+
 // The exact set, rounded, against the exact set: what its Balls tell is right, and they tell nearly
 // all, one point for several inputs included (profile practice), which other Balls leave open.
 TEST(ValueAlone, ARoundedSetSaysWhatTheExactOneSays) {

@@ -6,11 +6,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 #include <random>
 
 #include "cases/load/loader.hpp"
 #include "folders.hpp"
 #include "ref/expectation/expectation.hpp"
+#include "ref/expectation/on_demand.hpp"
+#include "ref/expectation/scene.hpp"
 #include "ref/value/value.hpp"
 #include "tests/share.hpp"
 #include "tests/unit/ref/same_expectations.hpp"
@@ -75,6 +78,31 @@ TEST(Oracle, ExpectsOfTheSuiteWhatTheFastReferenceDoes) {
     EXPECT_GT(leaves().cases.size(), 2 * leaves().large);
 }
 
+// Samples that are asked for one by one, in any order.
+TEST(Oracle, ExpectsOfASampleThatIsAskedForWhatIsExpectedOfAll) {
+    std::mt19937 rng(2);
+    size_t compared = 0;
+    for (const cases::Case& c : leaves().cases) {
+        for (const Profile profile : cases::kProfiles) {
+            const ref::Expectation all = ref::expect(c, {}, profile);
+            ref::Scene scene(c, {}, profile, false);
+            ref::OnDemand on_demand(scene);
+            std::vector<size_t> order(all.samples.size());
+            std::iota(order.begin(), order.end(), size_t{0});
+            std::shuffle(order.begin(), order.end(), rng);
+            const ref::Expectation* found = nullptr;
+            for (const size_t index : order) {
+                found = &on_demand.at(index);
+                ASSERT_TRUE(ref::is_same(*found, all, index)) << c.id << " sample " << index;
+            }
+            ASSERT_NE(found, nullptr);
+            EXPECT_TRUE(ref::test::same_expectations(*found, all)) << c.id;
+            ++compared;
+        }
+    }
+    EXPECT_EQ(compared, 3 * leaves().cases.size());
+}
+
 // Some samples of a leaf, and for each of them a device that rounds the exact values once, and one
 // that is wrong in the last bits of one value: sometimes accepted, sometimes not.
 TEST(Oracle, JudgesValuesOfTheSuiteAsTheFastReferenceDoes) {
@@ -112,13 +140,24 @@ TEST(Oracle, JudgesValuesOfTheSuiteAsTheFastReferenceDoes) {
                     const ref::FragmentValues drawn = value_test::rounded(device);
                     const ref::FragmentVerdict fast = values.judge(t, id, drawn);
                     const ref::FragmentVerdict exact = values.judge_exact(t, id, drawn);
+                    values.tell_ratios(false);
+                    const ref::FragmentVerdict bare = values.judge(t, id, drawn);
+                    values.tell_ratios(true);
                     const auto where = [&] {
                         return c.id + " at " + std::string(to_string(profile)) + ", sample " +
                                std::to_string(index) + ", triangle " + std::to_string(t);
                     };
                     ASSERT_EQ(fast.ok, exact.ok) << where();
                     ASSERT_EQ(fast.mismatches.size(), exact.mismatches.size()) << where();
+                    ASSERT_EQ(fast.ok, bare.ok) << where();
+                    ASSERT_EQ(fast.mismatches.size(), bare.mismatches.size()) << where();
                     for (size_t k = 0; k < fast.mismatches.size(); ++k) {
+                        EXPECT_EQ(fast.mismatches[k].quantity, bare.mismatches[k].quantity)
+                            << where();
+                        EXPECT_EQ(fast.mismatches[k].rule, bare.mismatches[k].rule) << where();
+                        EXPECT_EQ(fast.mismatches[k].level, bare.mismatches[k].level) << where();
+                        EXPECT_EQ(fast.mismatches[k].expected, bare.mismatches[k].expected)
+                            << where();
                         EXPECT_EQ(fast.mismatches[k].quantity, exact.mismatches[k].quantity)
                             << where();
                         EXPECT_EQ(fast.mismatches[k].rule, exact.mismatches[k].rule) << where();
