@@ -195,6 +195,42 @@ TEST(ValueAlone, FailsTogetherWhatTheWholeSetFails) {
     EXPECT_GT(grouped, told / 10);
 }
 
+// Without the sizes of errors a verdict names the same values, in the same order, for the same
+// reasons.
+TEST(ValueAlone, SaysTheSameWithoutRatios) {
+    std::mt19937_64 rng(41);
+    uint32_t right = 0, several = 0;
+    for (int n = 0; n < 240; ++n) {
+        const Random r(rng, n, n % 4 == 0 ? 4 : 1);
+        const Profile profile = n % 3 == 1 ? Profile::practice : Profile::vulkan;
+        ref::ValueReference with(r.sampled.c, ref::Limits{}, profile);
+        ref::ValueReference without(r.sampled.c, ref::Limits{}, profile);
+        without.tell_ratios(false);
+        for (const double spread : {1e-5, 0.03, 1.0}) {
+            ref::FragmentValues device = r.device(rng, spread);
+            device.attributes[0] += glm::vec4(static_cast<float>(rng() % 3) * 30, 0, 0, 0);
+            const ref::FragmentVerdict a = with.judge(0, r.fragment.id, device);
+            const ref::FragmentVerdict b = without.judge(0, r.fragment.id, device);
+            ASSERT_EQ(a.ok, b.ok) << n;
+            ASSERT_EQ(a.mismatches.size(), b.mismatches.size()) << n;
+            for (size_t k = 0; k < a.mismatches.size(); ++k) {
+                const ref::ValueMismatch& one = a.mismatches[k];
+                const ref::ValueMismatch& other = b.mismatches[k];
+                ASSERT_EQ(one.quantity, other.quantity) << n;
+                ASSERT_EQ(one.rule, other.rule) << n;
+                ASSERT_EQ(one.reason, other.reason) << n;
+                ASSERT_EQ(one.level, other.level) << n;
+                ASSERT_EQ(one.expected, other.expected) << n;
+                ASSERT_EQ(one.got, other.got) << n;
+            }
+            right += a.ok ? 1U : 0U;
+            several += a.mismatches.size() > 1 ? 1U : 0U;
+        }
+    }
+    EXPECT_GT(right, 20U);
+    EXPECT_GT(several, 20U);
+}
+
 // The exact set, rounded, against the exact set: what its Balls tell is right, and they tell nearly
 // all, one point for several inputs included (profile practice), which other Balls leave open.
 TEST(ValueAlone, ARoundedSetSaysWhatTheExactOneSays) {
