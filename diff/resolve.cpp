@@ -191,7 +191,9 @@ class Judge {
                     return false;
                 }
                 if (stencil_ == nullptr) {
-                    judge_stencil(pixel, s);
+                    if (target_.has_instruments) {
+                        judge_stencil(pixel, s);
+                    }
                 } else if (auto finding =
                                stencil_->judge(first + s, cases::sample_at(target_, first + s))) {
                     add_(std::move(*finding));

@@ -200,7 +200,8 @@ Verdict compare_colors(const cases::Case& c, const ref::Expectation& expectation
                        const capture::CaptureView& capture, std::span<const SampleMark> marks,
                        std::span<const ref::ColorWitness> witnesses);
 // The same for those who do not want to know how large errors are, which takes most of the time of
-// a picture that is wrong at profile vulkan: all but the ratios is that of compare().
+// a picture that is wrong at profile vulkan: all but the ratios, and what names the worst of them,
+// is that of compare().
 Verdict compare_without_ratios(const cases::Case& c, const ref::Expectation& expectation,
                                const capture::CaptureView& capture);
 // The same up to the first finding: `error` and that finding are those of compare(), but for its

@@ -70,6 +70,15 @@ bool has_nearest(const Writer& writer) {
     });
 }
 
+// Whether the shader discards the nearest value, as it may where the value's sign is open.
+bool is_discarded(const Writer& writer, const cases::Draw& draw) {
+    const auto by = ref::QuantityId::of_attribute(draw.discard_attribute, 0);
+    return cases::takes_away_by_value(draw) &&
+           std::ranges::any_of(writer.values, [&](const ref::ExpectedValue& value) {
+               return value.part.empty() && value.quantity == by && value.nearest < 0;
+           });
+}
+
 // What became of a sample: its hits, and whose fragment was the last one.
 struct Event {
     Hits hits{0, 0};
@@ -78,9 +87,9 @@ struct Event {
 
 // One event for a sample that may happen as a whole: a writer that is open is one hit more than
 // those that are certain. `colors`: knows which go together, if the target has a colour.
-Event pick_event(const ref::Expectation& expectation, const ref::SampleExpectation& sample,
-                 size_t index, const cases::SampleId& id, ref::ValueReference& values,
-                 const ref::ColorReference* colors) {
+Event pick_event(const cases::Case& c, const ref::Expectation& expectation,
+                 const ref::SampleExpectation& sample, size_t index, const cases::SampleId& id,
+                 ref::ValueReference& values, const ref::ColorReference* colors) {
     const std::span<const uint32_t> writers = expectation.writers_of(sample);
     const std::vector<Hits> all = allowed_hits(expectation, sample);
     std::vector<Writer> known;  // of `writers`, as far as they were asked for
@@ -98,7 +107,8 @@ Event pick_event(const ref::Expectation& expectation, const ref::SampleExpectati
                 const uint32_t t = writers[known.size()];
                 known.push_back({t, values.expected(t, id)});
             }
-            if (has_nearest(known[k])) {
+            const cases::Draw& draw = c.draws[expectation.triangles[writers[k]].draw];
+            if (has_nearest(known[k]) && !is_discarded(known[k], draw)) {
                 return {hits, std::move(known[k])};
             }
         }
@@ -179,7 +189,7 @@ capture::Capture draw_by_reference(const cases::Case& c) {
         const ref::SampleExpectation& sample = expectation.samples[index];
         const cases::SampleId id = cases::sample_at(c.target, index);
         const Event event =
-            pick_event(expectation, sample, index, id, values, colors ? &*colors : nullptr);
+            pick_event(c, expectation, sample, index, id, values, colors ? &*colors : nullptr);
         const auto [front, back] = event.hits;
         if (ref::stencil::is_needed(c)) {
             capture.stencil.push_back(pick_stencil(expectation, sample, event.hits));

@@ -85,6 +85,8 @@ BlitReference::BlitReference(const cases::Case& c)
         columns_[static_cast<size_t>(profile)] =
             spans_of(across_, width_, error_of(across_, profile));
         rows_[static_cast<size_t>(profile)] = spans_of(down_, height_, error_of(down_, profile));
+        cleared_[static_cast<size_t>(profile)] =
+            color::Unit{format_, profile}.cleared(*c.target.color);
     }
     for (uint32_t k = 0; k < 4; ++k) {
         const Component component(cases::component_of(format_, k));
@@ -249,10 +251,14 @@ bool BlitReference::allows_linear(uint32_t x, uint32_t y, const TexelCodes& got,
     return true;
 }
 
+bool BlitReference::is_clear(const TexelCodes& got, Profile profile) const {
+    return color::Unit{format_, profile}.allows(cleared_[static_cast<size_t>(profile)], got);
+}
+
 bool BlitReference::allows_exact(uint32_t x, uint32_t y, const TexelCodes& got,
                                  Profile profile) const {
     if (!is_inside(x, y)) {
-        return got == clear_;
+        return is_clear(got, profile);
     }
     if (blit_.filter == BlitFilter::nearest) {
         return allows_nearest(x, y, got, profile);

@@ -16,6 +16,7 @@
 
 #include "cases/model/blit_source.hpp"
 #include "cases/model/profile.hpp"
+#include "ref/color/blend.hpp"
 #include "ref/color/component.hpp"
 
 namespace ref {
@@ -38,8 +39,11 @@ class BlitReference {
 
     // True if the blit writes texel (x, y).
     bool is_inside(uint32_t x, uint32_t y) const;
-    // The codes that the target is cleared to.
+    // The codes nearest to what the target is cleared to.
     const cases::TexelCodes& clear_codes() const { return clear_; }
+    // True if a clear may leave these codes: a zero of either sign, and of a number between two
+    // codes what a store may make of it.
+    bool is_clear(const cases::TexelCodes& got, cases::Profile profile) const;
 
     // True if these codes are allowed at texel (x, y).
     bool allows(uint32_t x, uint32_t y, const cases::TexelCodes& got, cases::Profile profile) const;
@@ -92,7 +96,8 @@ class BlitReference {
     cases::ColorFormat format_;
     uint32_t width_, height_;  // of the target
     Axis across_, down_;
-    cases::TexelCodes clear_{};
+    std::array<color::Color, 3> cleared_;  // of each profile
+    cases::TexelCodes clear_{};            // the nearest codes
     std::vector<cases::TexelCodes> texels_;
     std::vector<std::array<double, 4>> numbers_;
     // Of each profile, texel by texel: what a nearest filter may read.

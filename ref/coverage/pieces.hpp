@@ -14,7 +14,7 @@
 // and where the corners are (pixel_area.hpp).
 //
 // No other draw may hit a sample by two pieces: there the rule of ties gives it to one
-// (docs/findings/lavapipe-clipped-twice.md).
+// (docs/findings/clipped-twice.md).
 #pragma once
 
 #include <array>

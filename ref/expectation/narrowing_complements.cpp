@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "ref/coverage/outline.hpp"
 #include "ref/expectation/narrowing.hpp"
 
 namespace ref {
@@ -44,10 +45,21 @@ std::vector<Narrowing::Fixed> Narrowing::complementary_pairs(const FixedPoint& p
     if (complements_.empty()) {
         return out;
     }
+    // What is left of a triangle whose vertices may lie on a line, as they are or once they are
+    // snapped, is folded where the cuts are snapped, and its other edges may cover a sample that is
+    // far from "regions where those primitives are cut by the clip planes".
+    const auto may_fold = [&](uint32_t t) {
+        const TriangleSetup& setup = setups_[t];
+        const int8_t whole = setup.tested_unclipped;
+        return whole >= 0 &&
+               signs_of(setup.tested[static_cast<size_t>(whole)], setup.grid_step, false).only() ==
+                   0;
+    };
     for (uint32_t m = 0; m < hits.size(); ++m) {
         const Complement& c = complements_[hits[m].triangle];
         for (uint32_t n = m + 1; n < hits.size() && c.partner != kNoPartner; ++n) {
-            if (hits[n].triangle != c.partner) {
+            if (hits[n].triangle != c.partner || may_fold(hits[m].triangle) ||
+                may_fold(c.partner)) {
                 continue;
             }
             const auto is_must = [&](uint32_t k) { return hits[k].coverage == Coverage::must; };

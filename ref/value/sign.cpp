@@ -80,11 +80,14 @@ Sign ValueReference::sign(uint32_t t, cases::SampleId sample, bool exact_only) {
     value::Asked asked{all, primitive.is_projectable};
     asked.only = only;
     if (!exact_only) {
-        const std::optional<Sign> sign =
-            sign_of(value::accepted_ranges(impl_->candidates<Ball>(t, impl_->profile),
-                                           impl_->places_of_range(t, sample), asked)
-                        .front());
-        if (sign) {
+        const value::CandidateSet<Ball>& balls = impl_->candidates<Ball>(t, impl_->profile);
+        const std::optional<Sign> sign = sign_of(
+            value::accepted_ranges(balls, impl_->places_of_range(t, sample), asked).front());
+        // Where Balls cannot tell a corner of a piece from one at the eye they take it for
+        // unbounded, and accept more than rationals may.
+        const bool may_be_wide =
+            std::ranges::any_of(balls.candidates, [](const auto& c) { return c.is_unbounded; });
+        if (sign && (*sign != Sign::open || !may_be_wide)) {
             return *sign;
         }
     }

@@ -138,21 +138,24 @@ void decode_writers_and_hits(const Words& ids, const Words& hit_words, uint32_t 
 }
 
 // The numbers of an attribute, `second` beginning with the third of them, and zeros: a clear sample
-// is clear and poison is poison in all four.
+// is clear and poison is poison in all four, and so is the number of draws without the attribute,
+// which is another one where attachments are cleared to other values.
 void widen(const Words& first, const Words& second, size_t count, const VkClearValue& clear,
            glm::vec4* to) {
     const auto clear_word = std::bit_cast<uint32_t>(clear.color.float32[0]);
     for (size_t k = 0; k < count; ++k) {
         glm::vec4 value(0.0F);
         bool is_clear = true;
+        bool is_lacking = true;
         bool is_poison = true;
         for (uint32_t c = 0; c < first.words + second.words; ++c) {
             const uint32_t word = c < first.words ? first.at(k, c) : second.at(k, c - first.words);
             value[static_cast<int>(c)] = std::bit_cast<float>(word);
             is_clear = is_clear && word == clear_word;
+            is_lacking = is_lacking && word == std::bit_cast<uint32_t>(capture::kClearValue);
             is_poison = is_poison && word == capture::kPoison;
         }
-        to[k] = is_clear || is_poison ? glm::vec4(value.x) : value;
+        to[k] = is_clear || is_lacking || is_poison ? glm::vec4(value.x) : value;
     }
 }
 

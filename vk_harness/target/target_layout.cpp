@@ -93,6 +93,10 @@ std::optional<std::string> closed_by(const TargetLayout& layout, cases::Door doo
             }
             break;
         case Door::shader_objects:
+            if (layout.holds_state) {
+                return "the device lacks extendedDynamicState, which this door needs";
+            }
+            [[fallthrough]];
         case Door::multiview:
             if (layout.has_pass || layout.has_geometry) {
                 return "the device renders the case by a render pass object or a geometry shader, "

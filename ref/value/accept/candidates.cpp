@@ -355,11 +355,13 @@ std::optional<CandidateSet<T>> try_candidates(const Primitive& primitive,
     }
 
     const bool is_overestimated = primitive.draw->conservative == cases::Conservative::overestimate;
-    if (is_overestimated) {
+    const bool is_nothing_left = primitive.needs_clipping && polygon.empty();
+    for (size_t q = 0; q < set.hulls.size(); ++q) {
         // The centre of a pixel that is covered may lie outside of the triangle, where values are
-        // extrapolated: nothing holds them in the range of the vertices.
-        for (Range<T>& hull : set.hulls) {
-            hull = {T(-0x1p127), T(0x1p127)};
+        // extrapolated: nothing holds them in the range of the vertices. And what roundings leave
+        // of a triangle, if clipping leaves nothing, has corners anywhere on its edges.
+        if (is_overestimated || (is_nothing_left && !quantities[q].id.is_attribute())) {
+            set.hulls[q] = {T(-0x1p127), T(0x1p127)};
         }
     }
 
@@ -405,6 +407,10 @@ std::optional<CandidateSet<T>> try_candidates(const Primitive& primitive,
     if (is_overestimated &&
         (primitive.needs_clipping || may_have_no_area(primitive, limits, profile))) {
         set.candidates.push_back({ref::BasisKind::unsnapped, {}, false, false, true});
+    }
+    if (is_nothing_left && profile != cases::Profile::vulkan) {
+        set.candidates.push_back(
+            {ref::BasisKind::clipped_piece, {}, true, false});  // see the hulls
     }
     if (set.candidates.empty()) {
         set.candidates.push_back({ref::BasisKind::unsnapped, {}, true, false});

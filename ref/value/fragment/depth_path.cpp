@@ -91,14 +91,19 @@ std::vector<Largest> largest_depths(const Primitive& primitive, cases::Profile p
     return out;
 }
 
+bool has_exponent(const mpq_class& z) {
+    return z.get_d() >= 0x1p-126;
+}
+
 // 2^(e - 23), e the exponent of z >= 0 as a binary32; the least denormal where z is denormal or 0.
 double unit_at(const mpq_class& z) {
-    const double d = z.get_d();  // truncated: the exponent is right
-    if (!(d >= 0x1p-126)) {
-        return 0x1p-149;
-    }
-    return std::ldexp(1.0, std::ilogb(d) - 23);
+    return has_exponent(z) ? std::ldexp(1.0, std::ilogb(z.get_d()) - 23)  // truncated: e is right
+                           : 0x1p-149;
 }
+
+// The largest r that a device has where no depth has an exponent: "the exponent of 0" is what it
+// says it is. An NVIDIA H200 has this one there (docs/findings/nvidia-bias-floor.md).
+constexpr double kUnitOfNoExponent = 0x1p-125;
 
 // Whether r is a step of fixed point, one for the whole attachment.
 bool has_constant_unit(cases::DepthFormat format, const cases::DepthBias& bias) {
@@ -135,7 +140,9 @@ Range<T> unit_of(const Primitive& primitive, cases::Profile profile, T& nominal)
         is_first = false;
     }
     // "the range of z values spanned by the primitive": of the triangle as it is, that has no end.
-    const double high = is_endless(primitive) ? unit_at(kEndless) : unit_at(most);
+    const double high = is_endless(primitive) ? unit_at(kEndless)
+                        : has_exponent(least) ? unit_at(most)
+                                              : std::max(unit_at(most), kUnitOfNoExponent);
     nominal = T(unit_at(most));
     return {T(least == 0 ? 0.0 : unit_at(least)), T(high)};
 }

@@ -5,6 +5,7 @@
 // whole.
 #include <gtest/gtest.h>
 
+#include "cases/load/loader.hpp"
 #include "diff/verdict.hpp"
 #include "rasterizers/captures.hpp"
 #include "tests/unit/diff/perfect_capture.hpp"
@@ -50,6 +51,64 @@ TEST(ReferenceCapture, TheLastWriterGoesWithTheHits) {
     EXPECT_EQ(drawn.hits[0].x + drawn.hits[0].y, 1.0F);
     EXPECT_EQ(drawn.writers[0].primitive, 0U);
     EXPECT_EQ(drawn.color[0][3], 255U);
+}
+
+// Overestimated and cut by the target's border, so that values beyond the triangle's own edges are
+// free, and so is their sign: what the reference draws there is not negative, as a shader that
+// discards negative values leaves it.
+TEST(ReferenceCapture, WhatMayBeDiscardedIsNotDrawnNegative) {
+    const auto loaded = cases::load_text(R"(
+format = 1
+description = "A case."
+rules = ["discard.value"]
+[target]
+size = [4, 4]
+[[draw]]
+conservative = "overestimate"
+discard = "negative"
+discard_attribute = "a"
+vertices = [[-2, 0], [3.75, 0], [-2, 5.75]]
+[[draw.attribute]]
+name = "a"
+values = [1, 0, 0]
+[[draw]]
+vertices = [[2, 2], [6, 2], [2, 6]]
+)",
+                                         "case.toml", "case");
+    ASSERT_TRUE(loaded) << loaded.error().front().message;
+    const Verdict verdict = judged(loaded->front());
+    EXPECT_TRUE(verdict.ok()) << verdict.error;
+}
+
+// Where nobody counts hits, a stencil has none to be held to, and the first finding is a colour's.
+TEST(ReferenceCapture, TheFirstFindingOfAColourBesideAStencil) {
+    const auto loaded = cases::load_text(R"(
+format = 1
+description = "A case."
+rules = ["cover.inside"]
+[target]
+size = [4, 4]
+stencil = true
+attachments = "color"
+[target.color]
+format = "rgba8-unorm"
+[[draw]]
+stencil = { pass = "increment-wrap" }
+color = { value = [1, 0, 0, 1] }
+vertices = [[0, 0], [8, 0], [0, 8]]
+)",
+                                         "case.toml", "case");
+    ASSERT_TRUE(loaded) << loaded.error().front().message;
+    const cases::Case& c = loaded->front();
+    const ref::Expectation e = ref::expect(c, {}, cases::Profile::vulkan);
+    capture::Capture drawn = rasterizers::draw_by_reference(c);
+    EXPECT_TRUE(compare_to_first(c, e, drawn).ok());
+    drawn.color[5] = {0, 0, 0, 0};
+    const Verdict verdict = compare_to_first(c, e, drawn);
+    EXPECT_EQ(verdict.error, "");
+    ASSERT_EQ(verdict.findings.size(), 1U);
+    EXPECT_EQ(verdict.findings[0].x, 1U);
+    EXPECT_EQ(verdict.findings[0].y, 1U);
 }
 
 }  // namespace

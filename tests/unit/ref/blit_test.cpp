@@ -176,6 +176,20 @@ TEST(BlitReference, NaNAndInfinityAreNeverRight) {
     }
 }
 
+TEST(BlitReference, OutsideTheClearValueStaysAndItsZerosHaveEitherSign) {
+    cases::Case c =
+        blit_case(1, 2, {0, 0, 1, 1}, {0, 0, 1, 1}, BlitFilter::nearest, ColorFormat::rgba16_float);
+    c.target.color->clear = {0.0F, -0.0F, 1.0F, -2.0F};
+    const BlitReference reference(c);
+    for (const Profile profile : kProfiles) {
+        for (const uint32_t zero : {0x0000U, 0x8000U}) {
+            EXPECT_TRUE(reference.allows(1, 1, {zero, zero, 0x3c00, 0xc000}, profile));
+        }
+        EXPECT_FALSE(reference.allows(1, 1, {0x0001, 0x8000, 0x3c00, 0xc000}, profile));
+        EXPECT_FALSE(reference.allows(1, 1, {0x0000, 0x8000, 0x3c00, 0x4000}, profile));
+    }
+}
+
 TEST(BlitReference, ConversionsAllowNeighbours) {
     cases::Case c =
         blit_case(4, 4, {0, 0, 4, 4}, {0, 0, 4, 4}, BlitFilter::nearest, ColorFormat::rgba8_unorm);

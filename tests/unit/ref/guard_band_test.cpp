@@ -63,6 +63,47 @@ values = [-0.25, 1, 1]
     }
 }
 
+// At the height of the sample the triangle is behind the eye or at most 3/4 * 7.34e-8 before it:
+// 1/w is anything from 1.8e7 on. Exactly cut, nothing is left of it, and roundings leave a sliver.
+TEST(GuardBand, WhatRoundingsLeaveHasNoHull) {
+    const cases::Case c = case_of(R"(
+[target]
+size = [5, 1]
+[[draw]]
+vertices = [[-2, 1], [4, 0], [7, -1], [-3, -6, 0.5, -3], [-3, -6, 0.5, 2.75],
+    [-3, -5.999999727521624]]
+)");
+    for (const Profile profile : cases::kProfiles) {
+        ValueReference values(c, Limits{}, profile);
+        FragmentValues device;
+        device.frag_coord = {0.5F, 0.5F, 0.5F, std::bit_cast<float>(0x5ee1d10bU)};
+        device.depth = 0.5F;
+        EXPECT_TRUE(values.judge(1, {0, 0, 0}, device).ok) << cases::to_string(profile);
+        EXPECT_TRUE(values.judge_exact(1, {0, 0, 0}, device).ok) << cases::to_string(profile);
+        // Of a triangle that is there, it is no value at all.
+        EXPECT_FALSE(values.judge(0, {0, 0, 0}, device).ok) << cases::to_string(profile);
+        EXPECT_FALSE(values.judge_exact(0, {0, 0, 0}, device).ok) << cases::to_string(profile);
+    }
+}
+
+// All depths are 0, which has no exponent: r is what a device makes of it, here 2^-125.
+TEST(GuardBand, DepthsOfZeroHaveAUnitOfTheDevice) {
+    const cases::Case c = case_of(R"(
+[target]
+size = [16, 16]
+[[draw]]
+viewport = { depth = [0, 0] }
+depth = { bias = { constant = -131072 }, clamp = true }
+vertices = [[0, 0, 0.109375], [11, 0, 0.0625], [0, 2, 0.203125]]
+)");
+    for (const bool is_oracle : {false, true}) {
+        for (const float z : {0.0F, -0x1p-132F, -0x1p-108F}) {
+            EXPECT_TRUE(accepts(c, 0, {0, 0, 0}, {z, 1, 0}, is_oracle)) << z;
+        }
+        EXPECT_FALSE(accepts(c, 0, {0, 0, 0}, {-0x1p-100F, 1, 0}, is_oracle));
+    }
+}
+
 // The viewport begins at y = 1/4, and the sample at (3/8, 1/8) is drawn by a device that does not
 // cut there: its depth lies beyond those of the polygon that is left below the border.
 TEST(GuardBand, BesideABorderBetweenPixelsTheHullIsThatOfTheTriangle) {
