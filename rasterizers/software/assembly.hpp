@@ -4,10 +4,13 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "cases/model/case.hpp"
+#include "rasterizers/software/choice/device.hpp"
 #include "rasterizers/software/choice/fault.hpp"
+#include "rasterizers/software/target/query_unit.hpp"
 
 namespace software {
 
@@ -22,5 +25,11 @@ struct Primitive {
 // The triangles of a draw, as an input assembler walks the index stream: a window of the last
 // vertices and a parity bit for strips, hub and last rim vertex for fans.
 std::vector<Primitive> assemble_primitives(const cases::Draw& draw, Fault fault);
+
+// Counts the pipeline statistics of what comes before rasterization for draw `number`, whose
+// primitives these are: vertices and primitives that are assembled, vertices that are shaded.
+void count_assembled(const cases::Draw& draw, uint32_t number,
+                     std::span<const Primitive> primitives, const Device& device,
+                     QueryUnit& queries);
 
 }  // namespace software

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-#include "rasterizers/software/target/statistics.hpp"
+#include "rasterizers/software/assembly.hpp"
 
 namespace software {
 

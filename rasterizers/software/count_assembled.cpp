@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "rasterizers/software/target/statistics.hpp"
-
 #include <set>
 
 #include "cases/model/sample.hpp"
+#include "rasterizers/software/assembly.hpp"
 
 namespace software {
 
