@@ -5,6 +5,8 @@
 // whole.
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "cases/load/loader.hpp"
 #include "diff/verdict.hpp"
 #include "rasterizers/captures.hpp"
@@ -12,6 +14,14 @@
 
 namespace diff {
 namespace {
+
+cases::Case case_of(const std::string& text) {
+    const auto loaded = cases::load_text(
+        "format = 1\ndescription = \"A case.\"\nrules = [\"cover.inside\"]\n" + text, "case.toml",
+        "case");
+    EXPECT_TRUE(loaded) << (loaded ? "" : loaded.error().front().message);
+    return loaded ? loaded->front() : cases::Case{};
+}
 
 Verdict judged(const cases::Case& c) {
     return compare(c, ref::expect(c, {}, cases::Profile::direct3d),
@@ -58,10 +68,7 @@ TEST(ReferenceCapture, TheLastWriterGoesWithTheHits) {
 // negative values takes away. Whether the second triangle is drawn hangs on the stencil of the
 // first.
 TEST(ReferenceCapture, WhatMayBeDiscardedIsNotDrawnNegative) {
-    const auto loaded = cases::load_text(R"(
-format = 1
-description = "A case."
-rules = ["cover.inside"]
+    const cases::Case c = case_of(R"(
 [target]
 size = [1, 1]
 stencil = true
@@ -74,19 +81,14 @@ values = [0, 0, -1]
 [[draw]]
 stencil = { back = { compare = "greater", reference = 1 } }
 vertices = [[2, 1], [0, 1], [0, 0]]
-)",
-                                         "case.toml", "case");
-    ASSERT_TRUE(loaded) << loaded.error().front().message;
-    const Verdict verdict = judged(loaded->front());
+)");
+    const Verdict verdict = judged(c);
     EXPECT_TRUE(verdict.ok()) << verdict.error;
 }
 
 // Where nobody counts hits, a stencil has none to be held to, and the first finding is a colour's.
 TEST(ReferenceCapture, TheFirstFindingOfAColourBesideAStencil) {
-    const auto loaded = cases::load_text(R"(
-format = 1
-description = "A case."
-rules = ["cover.inside"]
+    const cases::Case c = case_of(R"(
 [target]
 size = [4, 4]
 stencil = true
@@ -97,10 +99,7 @@ format = "rgba8-unorm"
 stencil = { pass = "increment-wrap" }
 color = { value = [1, 0, 0, 1] }
 vertices = [[0, 0], [8, 0], [0, 8]]
-)",
-                                         "case.toml", "case");
-    ASSERT_TRUE(loaded) << loaded.error().front().message;
-    const cases::Case& c = loaded->front();
+)");
     const ref::Expectation e = ref::expect(c, {}, cases::Profile::vulkan);
     capture::Capture drawn = rasterizers::draw_by_reference(c);
     EXPECT_TRUE(compare_to_first(c, e, drawn).ok());

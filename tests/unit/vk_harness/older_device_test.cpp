@@ -102,5 +102,28 @@ TEST(OlderDevice, AGeometryShaderNamesLayersAndViewports) {
     EXPECT_EQ(stages(), StageWay::vertex);
 }
 
+// Doors that need what a way to draw does without, or that are that way.
+TEST(OlderDevice, EachWayClosesItsDoorsAlone) {
+    using cases::Door;
+    TargetLayout pass, state, geometry;
+    pass.has_pass = state.holds_state = geometry.has_geometry = true;
+    const auto closed = [&](Door door) {
+        std::string out;
+        out += closed_by(pass, door) ? "pass " : "";
+        out += closed_by(state, door) ? "state " : "";
+        out += closed_by(geometry, door) ? "geometry " : "";
+        return out;
+    };
+    EXPECT_EQ(closed(Door::pass_split), "pass ");
+    EXPECT_EQ(closed(Door::transform_feedback), "pass ");
+    EXPECT_EQ(closed(Door::render_pass), "pass ");
+    EXPECT_EQ(closed(Door::multiview), "pass geometry ");
+    EXPECT_EQ(closed(Door::shader_objects), "pass state geometry ");
+    EXPECT_EQ(closed(Door::geometry), "geometry ");
+    EXPECT_EQ(closed(Door::stride_dynamic), "state ");
+    EXPECT_EQ(closed(Door::index_16), "");
+    EXPECT_EQ(closed_by(TargetLayout{}, Door::shader_objects), std::nullopt);
+}
+
 }  // namespace
 }  // namespace vk_harness::testing
