@@ -124,11 +124,11 @@ list(JOIN control_names ", " control_names)
 list(JOIN evaluation_names ", " evaluation_names)
 
 # Fragment shaders: attributes x the combinations of features below, one letter each:
-# p probes, l lod, b barycentrics, m mask in, s sample, o mask out, k discard, z depth, c colour (float), u colour (uint),
+# p probes, l lod, b barycentrics, m mask in, s sample, r shading rate, o mask out, k discard, z depth, c colour (float), u colour (uint),
 # w two sources of colour (float), j several colours, n no instruments, t split instruments, d split with attributes in pairs (at most 8 colour attachments).
 set(plain_features "-" o c u co uo cn un con uon k kc ku kcn kun z zc zu zn zcn zun kz kzc kzu kzcn kzun wn won kwn zwn kzwn
     j oj kj zj kzj jn ojn kjn zjn kzjn)
-set(attribute_features p pl b m ms mo mso pb pm pms po bms bm)
+set(attribute_features p pl b m ms mo mso pb pm pms po bms bm r rm)
 set(fragment_table "")
 foreach(count RANGE 4)
     set(features ${plain_features})
@@ -155,7 +155,7 @@ foreach(count RANGE 4)
     foreach(feature IN LISTS features)
         set(defines "ATTRIBUTES=${count}")
         set(row "${count}")
-        foreach(pair "p;PROBES" "l;LOD" "b;BARYCENTRICS" "m;MASK_IN" "s;SAMPLE" "o;MASK_OUT" "k;DISCARD" "z;DEPTH" "t;SPLIT" "d;PAIRS")
+        foreach(pair "p;PROBES" "l;LOD" "b;BARYCENTRICS" "m;MASK_IN" "s;SAMPLE" "r;RATE" "o;MASK_OUT" "k;DISCARD" "z;DEPTH" "t;SPLIT" "d;PAIRS")
             list(GET pair 0 letter)
             list(GET pair 1 define)
             if(feature MATCHES "${letter}")

@@ -10,6 +10,7 @@
 #include "cases/model/derive.hpp"
 #include "diff/attribution.hpp"
 #include "diff/color.hpp"
+#include "diff/fragment_check.hpp"
 #include "diff/last_fragment.hpp"
 #include "diff/pixel_check.hpp"
 #include "diff/resolve.hpp"
@@ -112,6 +113,10 @@ class Comparison {
                                    capture_, expectation_.profile,
                                    [this](Finding finding) { add(std::move(finding)); },
                                    stencil_ ? &*stencil_ : nullptr);
+        if (!is_enough() && selection_.is_all() && has_fragment_rules(case_, expectation_)) {
+            check_fragments(case_, expectation_, capture_,
+                            [this](Finding finding) { add(std::move(finding)); });
+        }
         if (!is_enough()) {
             judge_queries(case_, capture_, attribution_, verdict_);
         }

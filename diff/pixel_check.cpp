@@ -25,24 +25,6 @@ struct Fragment {
     std::vector<uint32_t> samples;
 };
 
-const cases::Triangle* triangle_of(const ref::Expectation& e, const capture::CaptureView& capture,
-                                   const ref::SampleExpectation& expected,
-                                   const capture::Writer& writer) {
-    // Without gl_PrimitiveID triangles with the same provoking vertex cannot be told apart.
-    const cases::Triangle* found = nullptr;
-    for (uint32_t k = 0; k < expected.writers_count; ++k) {
-        const cases::Triangle& t = e.triangles[e.writers[expected.writers_begin + k]];
-        if (writer.draw == t.draw && writer.provoking_vertex == t.provoking &&
-            (!capture.has_primitive || writer.primitive == t.primitive)) {
-            if (found != nullptr) {
-                return nullptr;
-            }
-            found = &t;
-        }
-    }
-    return found;
-}
-
 std::vector<Fragment> fragments_of(const ref::Expectation& e, const capture::CaptureView& capture,
                                    size_t first) {
     std::vector<Fragment> out;
@@ -51,8 +33,7 @@ std::vector<Fragment> fragments_of(const ref::Expectation& e, const capture::Cap
         if (capture::sample_state(capture, index) != capture::SampleState::drawn) {
             continue;
         }
-        const cases::Triangle* t =
-            triangle_of(e, capture, e.samples[index], capture.writers[index]);
+        const cases::Triangle* t = written_triangle(e, capture, index);
         if (t == nullptr) {
             continue;
         }
@@ -142,6 +123,25 @@ std::optional<Finding> check_masks(const cases::Draw& draw, const capture::Captu
 }
 
 }  // namespace
+
+const cases::Triangle* written_triangle(const ref::Expectation& e,
+                                        const capture::CaptureView& capture, size_t index) {
+    // Without gl_PrimitiveID triangles with the same provoking vertex cannot be told apart.
+    const ref::SampleExpectation& expected = e.samples[index];
+    const capture::Writer& writer = capture.writers[index];
+    const cases::Triangle* found = nullptr;
+    for (uint32_t k = 0; k < expected.writers_count; ++k) {
+        const cases::Triangle& t = e.triangles[e.writers[expected.writers_begin + k]];
+        if (writer.draw == t.draw && writer.provoking_vertex == t.provoking &&
+            (!capture.has_primitive || writer.primitive == t.primitive)) {
+            if (found != nullptr) {
+                return nullptr;
+            }
+            found = &t;
+        }
+    }
+    return found;
+}
 
 bool has_pixel_rules(const cases::Case& c) {
     return c.target.samples > 1 &&

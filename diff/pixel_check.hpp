@@ -15,6 +15,11 @@
 
 namespace diff {
 
+// The triangle that has written a sample last, by what the capture says of the writer; null if it
+// does not tell one from another.
+const cases::Triangle* written_triangle(const ref::Expectation& expectation,
+                                        const capture::CaptureView& capture, size_t index);
+
 // Whether any draw has something to agree on.
 bool has_pixel_rules(const cases::Case& c);
 

@@ -221,8 +221,10 @@ capture::Capture draw_by_reference(const cases::Case& c) {
                                   capture::kClearId};
         const bool writes_depth = c.draws[triangle.draw].depth.write && !stores_discarded;
         ref::FragmentValues drawn;
-        drawn.frag_coord =
-            glm::vec4(static_cast<float>(id.x) + 0.5F, static_cast<float>(id.y) + 0.5F, 0.0F, 1.0F);
+        const cases::PixelBlock block = cases::fragment_block(c.draws[triangle.draw], id.x, id.y);
+        drawn.frag_coord = glm::vec4(
+            static_cast<float>(block.x) + static_cast<float>(block.width) / 2.0F,
+            static_cast<float>(block.y) + static_cast<float>(block.height) / 2.0F, 0.0F, 1.0F);
         drawn.depth = capture.depth[index];
         // Of a place behind the eye no value is the nearest one; a vertex's is among those allowed.
         for (size_t a = 0; a < c.draws[triangle.draw].attributes.size(); ++a) {

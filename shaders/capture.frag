@@ -6,7 +6,7 @@
 //
 // Defined by the build is only what changes capabilities or what is statically used: ATTRIBUTES (0..4),
 // PROBES (interpolateAt*, derivatives), LOD (textureQueryLod), BARYCENTRICS, MASK_IN (gl_SampleMaskIn),
-// SAMPLE (gl_SampleID, gl_SamplePosition), MASK_OUT (gl_SampleMask), DISCARD, DEPTH (gl_FragDepth), COLOR (0 none, 1 float, 2 uint,
+// SAMPLE (gl_SampleID, gl_SamplePosition), RATE (gl_ShadingRateEXT), MASK_OUT (gl_SampleMask), DISCARD, DEPTH (gl_FragDepth), COLOR (0 none, 1 float, 2 uint,
 // 3 two sources of float, 4 several, each as float and as uint), INSTRUMENTS (0: the colour output alone), SPLIT (the instruments as four small outputs), PAIRS (with them
 // each attribute as two). What an attribute holds is chosen by specialization
 // constants (shaders.hpp). All inputs are smooth here: Flat, NoPerspective, Centroid and Sample are
@@ -15,6 +15,9 @@
 #version 450
 #if BARYCENTRICS
 #extension GL_EXT_fragment_shader_barycentric : require
+#endif
+#if RATE
+#extension GL_EXT_fragment_shading_rate : require
 #endif
 
 layout(push_constant) uniform Draw {
@@ -186,7 +189,13 @@ layout(location = COLOR_LOCATION + 7) out uvec4 out_integer3;
 #else
 #define SAMPLE_CASES(result)
 #endif
-#if PROBES || LOD || BARYCENTRICS || MASK_IN || SAMPLE
+#if RATE
+#define RATE_CASES(result) \
+    case 21u: result = vec4(float(uint(gl_ShadingRateEXT)), 0.0, 0.0, 0.0); break;
+#else
+#define RATE_CASES(result)
+#endif
+#if PROBES || LOD || BARYCENTRICS || MASK_IN || SAMPLE || RATE
 #define CHOOSE(value, choice, k, result)                                      \
     switch (choice) {                                                          \
         PROBE_CASES(value, k, result)                                          \
@@ -194,6 +203,7 @@ layout(location = COLOR_LOCATION + 7) out uvec4 out_integer3;
         BARYCENTRIC_CASES(result)                                              \
         MASK_CASES(result)                                                     \
         SAMPLE_CASES(result)                                                   \
+        RATE_CASES(result)                                                     \
         default: result = value; break;                                        \
     }
 #else

@@ -41,6 +41,7 @@ struct FragmentVariant {
     bool barycentrics = false;
     bool mask_in = false;
     bool sample = false;  // gl_SampleID, gl_SamplePosition: turn sample shading on
+    bool rate = false;    // gl_ShadingRateEXT
     bool mask_out = false;
     bool discards = false;
     bool depth_out = false;  // gl_FragDepth
@@ -61,6 +62,7 @@ enum class Choice : uint32_t {
     sample_mask_in = 18,
     sample_id = 19,
     sample_position = 20,
+    shading_rate = 21,
 };
 // Ids of the specialization constants of capture.frag: k the choice (uint) of attribute k; then the
 // attribute that is the colour (-1: the push constant).

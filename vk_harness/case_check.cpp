@@ -9,6 +9,7 @@
 
 #include "cases/format/color_format.hpp"
 #include "cases/model/derive.hpp"
+#include "cases/model/sample.hpp"
 #include "vk_harness/commands/blit.hpp"
 #include "vk_harness/device/format.hpp"
 #include "vk_harness/pipeline/pipeline_key.hpp"
@@ -383,6 +384,43 @@ std::optional<Rejection> check_conservative(const DeviceInfo& device, const case
     return std::nullopt;
 }
 
+// "If any of the following conditions are met", fragments have one pixel (Vulkan specification,
+// "Combining the Fragment Shading Rates"); those that a case may meet, with what a device may have
+// against it.
+std::optional<Rejection> check_fragment_size(const FragmentSizeSupport& device,
+                                             const cases::Draw& draw, const cases::Target& target) {
+    if (!cases::asks_shading_rate(draw)) {
+        return std::nullopt;
+    }
+    if (!device.is_supported) {
+        return unsupported(
+            "the device lacks the feature pipelineFragmentShadingRate "
+            "(VK_KHR_fragment_shading_rate)");
+    }
+    if (!device.has(draw.fragment_size, target.samples)) {
+        return unsupported("the device has no fragments of {} x {} pixels at sample count {}",
+                           draw.fragment_size[0], draw.fragment_size[1], target.samples);
+    }
+    if (!cases::has_large_fragments(draw)) {
+        return std::nullopt;
+    }
+    const uint32_t all = (1U << target.samples) - 1;
+    if ((draw.multisample.sample_mask & all) != all && !device.with_sample_mask) {
+        return unsupported(
+            "the device has fragments of one pixel where a sample mask is used "
+            "(fragmentShadingRateWithSampleMask)");
+    }
+    const bool has_mask = std::ranges::any_of(draw.attributes, [](const cases::Attribute& a) {
+        return a.source == cases::Source::sample_mask_in;
+    });
+    if (has_mask && !device.with_shader_mask) {
+        return unsupported(
+            "the device has fragments of one pixel where the shader reads gl_SampleMaskIn "
+            "(fragmentShadingRateWithShaderSampleMask)");
+    }
+    return std::nullopt;
+}
+
 std::optional<Rejection> check_draw(const Capabilities& c, const cases::Draw& draw) {
     if (auto rejection = check_viewport(c, draw.viewport)) {
         return rejection;
@@ -502,6 +540,9 @@ std::optional<Rejection> check_counting(const Capabilities& device, const cases:
 std::optional<Rejection> check_case(const Capabilities& capabilities, const cases::Case& c) {
     for (const cases::Draw& draw : c.draws) {
         if (auto rejection = check_draw(capabilities, draw)) {
+            return rejection;
+        }
+        if (auto rejection = check_fragment_size(capabilities.fragment_sizes, draw, c.target)) {
             return rejection;
         }
         if (draw.other_colors.size() != c.target.other_colors.size()) {

@@ -279,6 +279,7 @@ class Needs {
         add(d.provoking == cases::ProvokingVertex::last, "provoking-last");
         add(d.rasterizer_discard, "rasterizer-discard");
         add(d.conservative != cases::Conservative::none, "conservative-rasterization");
+        add(cases::asks_shading_rate(d), "fragment-size");
         add(d.discard != cases::Discard::none, "discard");
         add(d.early_tests, "early-tests");
         add(d.frag_depth.has_value(), "frag-depth");

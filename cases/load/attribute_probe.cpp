@@ -17,6 +17,7 @@ uint32_t components_of(Source source) {
         case Source::vertex:
         case Source::sample_mask_in:
         case Source::sample_id:
+        case Source::shading_rate:
             break;
     }
     return 1;

@@ -34,44 +34,25 @@ class DrawLoader {
 
     // Once: what is loaded is moved out.
     Draw load(const std::string& name, std::vector<std::string>& notes) {
-        context_.known_keys(table_, "[[draw]]",
-                            {"topology",
-                             "space",
-                             "vertices",
-                             "generate",
-                             "indices",
-                             "viewport",
-                             "scissor",
-                             "viewport_index",
-                             "layer",
-                             "cull",
-                             "front_face",
-                             "rasterizer_discard",
-                             "provoking",
-                             "depth",
-                             "depth_volume",
-                             "clip_distance",
-                             "cull_distance",
-                             "attribute",
-                             "mirror",
-                             "rotate",
-                             "offset",
-                             "winding",
-                             "first",
-                             "order",
-                             "color",
-                             "sample_mask",
-                             "shader_mask",
-                             "min_sample_shading",
-                             "stencil",
-                             "discard",
-                             "early_tests",
-                             "frag_depth",
-                             "query",
-                             "discard_by",
-                             "conservative",
-                             "conservative_extra",
-                             "discard_attribute"});
+        context_.known_keys(table_, "[[draw]]", {"topology",      "space",
+                                                 "vertices",      "generate",
+                                                 "indices",       "viewport",
+                                                 "scissor",       "viewport_index",
+                                                 "layer",         "cull",
+                                                 "front_face",    "rasterizer_discard",
+                                                 "provoking",     "depth",
+                                                 "depth_volume",  "clip_distance",
+                                                 "cull_distance", "attribute",
+                                                 "mirror",        "rotate",
+                                                 "offset",        "winding",
+                                                 "first",         "order",
+                                                 "color",         "sample_mask",
+                                                 "shader_mask",   "min_sample_shading",
+                                                 "stencil",       "discard",
+                                                 "early_tests",   "frag_depth",
+                                                 "query",         "discard_by",
+                                                 "conservative",  "conservative_extra",
+                                                 "fragment_size", "discard_attribute"});
         draw_.where = table_.where;
         context_.read(table_, "topology", draw_.topology);
         context_.read(table_, "cull", draw_.cull);
@@ -93,6 +74,7 @@ class DrawLoader {
         }
         read_query();
         read_conservative();
+        read_fragment_size(context_, table_, draw_);
         read_viewport();
         read_scissor();
         context_.read(table_, "viewport_index", draw_.viewport_index, 0, kMaxViewportIndex);
@@ -116,6 +98,7 @@ class DrawLoader {
             read_discard_attribute();
             check_shader();
             check_written_depth();
+            check_fragment_size(context_, table_, draw_, target_);
             return std::move(draw_);
         }
         move_vertices(context_, table_, space_, target_, vertices_);
@@ -140,6 +123,7 @@ class DrawLoader {
         }
         read_clipping(source, *positions, *order);
         check_conservative();
+        check_fragment_size(context_, table_, draw_, target_);
         draw_.positions = ordered(std::move(*positions), *order);
         check_written_depth();
         for (Attribute& attribute : draw_.attributes) {

@@ -53,6 +53,12 @@ std::string objection(const Relation& relation, const Case& c) {
                 return fmt::format("has {} tiles, at most {} are drawn; make them larger", tiles,
                                    kMaxTiles);
             }
+            if (any_draw([&](const Draw& draw) {
+                    return relation.tile[0] % draw.fragment_size[0] != 0 ||
+                           relation.tile[1] % draw.fragment_size[1] != 0;
+                })) {
+                return "has tiles that cut fragments; make their sides multiples of fragment_size";
+            }
             return {};
         case RelationKind::other_clears:
         case RelationKind::write_masks:

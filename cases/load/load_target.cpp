@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "cases/base/counted.hpp"
 #include "cases/load/color.hpp"
 #include "cases/load/parts.hpp"
+#include "cases/model/sample.hpp"
 
 namespace cases {
 
@@ -189,6 +191,115 @@ Multisample load_multisample(LeafContext& context, const TomlValue& draw) {
     context.read_fraction(draw, "min_sample_shading", state.min_sample_shading,
                           "; write the fraction of the samples that is shaded at least");
     return state;
+}
+
+namespace {
+
+// gl_SampleMaskIn reaches the capture as a number, and every device with the extension has as many
+// coverage samples (maxFragmentShadingRateCoverageSamples is at least 16).
+constexpr uint32_t kMaxMaskInSamples = 16;
+
+bool is_shaded_by_sample(const Attribute& a) {
+    return a.auxiliary == Auxiliary::sample || a.source == Source::sample_id ||
+           a.source == Source::sample_position;
+}
+
+bool has_rate(const Attribute& a) {
+    return a.source == Source::shading_rate;
+}
+
+// What a draw has that does not go with fragments of several pixels; empty if there is nothing.
+// "If Sample Shading is enabled", the final rate is {1,1}. Of the others either no text says what
+// is right (distances at a sample are tested somewhere in the fragment, where an enlarged
+// primitive's centroid lies), or what is right is another thing than of one pixel: derivatives are
+// those between fragments, offsets and masks are numbered by the fragment, and what a shader
+// discards or writes is one for all pixels.
+const char* obstacle(const Draw& draw, const Target& target) {
+    const auto any = [&](auto&& has) { return std::ranges::any_of(draw.attributes, has); };
+    if (draw.multisample.min_sample_shading || any(is_shaded_by_sample)) {
+        return "sample shading";
+    }
+    if (!target.sample_locations.empty()) {
+        return "sample_locations";
+    }
+    if (draw.conservative != Conservative::none) {
+        return "conservative";
+    }
+    if (draw.distances.clip_count > 0 || draw.distances.cull_count > 0) {
+        return "clip and cull distances";
+    }
+    if (draw.discard != Discard::none && draw.discard != Discard::front &&
+        draw.discard != Discard::back) {
+        return "a discard by pixels or values";
+    }
+    if (draw.frag_depth) {
+        return "frag_depth";
+    }
+    if (draw.multisample.shader_mask) {
+        return "shader_mask";
+    }
+    if (draw.query == Query::fragment_invocations) {
+        return "a query of fragment invocations";
+    }
+    if (any([](const Attribute& a) { return a.probe != Probe::value; })) {
+        return "probes";
+    }
+    if (any([](const Attribute& a) { return a.source == Source::barycentric; })) {
+        return "barycentric inputs";
+    }
+    return nullptr;
+}
+
+}  // namespace
+
+void read_fragment_size(LeafContext& context, const TomlValue& table, Draw& draw) {
+    const TomlValue* value = table.find("fragment_size");
+    if (value == nullptr || !context.array_of(*value, "fragment_size", 2, "[width, height]")) {
+        return;
+    }
+    for (size_t k = 0; k < 2; ++k) {
+        const std::optional<int64_t> side =
+            context.integer(value->array[k], "fragment_size", 1, kMaxFragmentSide);
+        if (side && *side == 3) {
+            context.error(value->array[k].where, "a side of fragment_size is 1, 2 or 4, not 3");
+        } else if (side) {
+            draw.fragment_size.at(k) = static_cast<uint32_t>(*side);
+        }
+    }
+}
+
+void check_fragment_size(LeafContext& context, const TomlValue& table, const Draw& draw,
+                         const Target& target) {
+    const auto any = [&](auto&& has) { return std::ranges::any_of(draw.attributes, has); };
+    if (any(has_rate) && any([](const Attribute& a) {
+            return a.probe != Probe::value ||
+                   (a.source != Source::vertex && a.source != Source::sample_mask_in &&
+                    a.source != Source::shading_rate);
+        })) {
+        context.error(table.find("attribute")->where,
+                      "no shader here reads the shading rate beside probes, barycentric inputs, "
+                      "gl_SampleID and gl_SamplePosition; put them into two draws");
+    }
+    if (!has_large_fragments(draw)) {
+        return;
+    }
+    const SourceLocation& where = table.find("fragment_size")->where;
+    if (const char* other = obstacle(draw, target)) {
+        context.error(
+            where, fmt::format("fragment_size does not go with {}; leave out one of them", other));
+        return;
+    }
+    const uint32_t samples = samples_of_fragment(draw, target);
+    const bool has_mask =
+        any([](const Attribute& a) { return a.source == Source::sample_mask_in; });
+    const uint32_t most = has_mask ? kMaxMaskInSamples : kMaxFragmentSamples;
+    if (samples > most) {
+        context.error(where,
+                      fmt::format("a fragment of {} x {} pixels has {} samples, at most {} are "
+                                  "judged{}; write a smaller one",
+                                  draw.fragment_size[0], draw.fragment_size[1], samples, most,
+                                  has_mask ? " with source = \"sample-mask-in\"" : ""));
+    }
 }
 
 }  // namespace cases

@@ -34,6 +34,12 @@ DepthState read_depth_state(LeafContext& context, const TomlValue& value);
 FragDepth read_frag_depth(LeafContext& context, const TomlValue& value);
 void check_frag_depth(LeafContext& context, const TomlValue& value, const Draw& draw);
 
+// Reads `fragment_size` of a draw; and what it must be beside the rest of the draw, once that is
+// known.
+void read_fragment_size(LeafContext& context, const TomlValue& table, Draw& draw);
+void check_fragment_size(LeafContext& context, const TomlValue& table, const Draw& draw,
+                         const Target& target);
+
 // Reads the table `stencil` of a draw: keys of both faces, and those of one in `front` and `back`.
 StencilState read_stencil_state(LeafContext& context, const TomlValue& value, const Target& target);
 

@@ -14,6 +14,7 @@
 #include "cases/model/case.hpp"
 #include "cases/model/derive.hpp"
 #include "cases/model/rule_ids.hpp"
+#include "cases/model/sample.hpp"
 #include "cases/model/triangle.hpp"
 
 namespace cases {
@@ -306,6 +307,9 @@ bool reaches_into_target(const Case& c) {
         return x >= kReach && y >= kReach;
     });
 }
+
+// Blocks of pixels stay blocks.
+static_assert(kMovedColumns % kMaxFragmentSide == 0 && kMovedRows % kMaxFragmentSide == 0);
 
 bool can_be_moved(const Case& c) {
     return has_exact_window(c) && reaches_into_target(c);

@@ -77,6 +77,7 @@ enum class Source : uint8_t {
     sample_mask_in,   // gl_SampleMaskIn[0] as a number; 1 component
     sample_id,        // gl_SampleID as a number; 1 component, turns sample shading on
     sample_position,  // gl_SamplePosition; 2 components, turns sample shading on
+    shading_rate,     // gl_ShadingRateEXT as a number; 1 component
 };
 // What the fragment shader writes of an attribute from vertices.
 enum class Probe : uint8_t {
@@ -97,7 +98,8 @@ enum class Probe : uint8_t {
 };
 
 inline constexpr uint32_t kMaxAttributes = 4;
-inline constexpr float kMaxConservativeExtra = 4;       // pixels; known devices have up to 0.75
+inline constexpr uint32_t kMaxFragmentSide = 4;    // VUID-VkGraphicsPipelineCreateInfo-04500, 04501
+inline constexpr float kMaxConservativeExtra = 4;  // pixels; known devices have up to 0.75
 inline constexpr uint32_t kRestartIndex = 0xffffffffU;  // primitive restart, 32-bit indices
 inline constexpr float kMaxAttributeMagnitude =
     0x1p126F;  // larger ones could look like the clear value
@@ -301,7 +303,9 @@ struct Draw {
     ProvokingVertex provoking = ProvokingVertex::first;
     bool rasterizer_discard = false;  // rasterizerDiscardEnable: no fragment comes of it
     Conservative conservative = Conservative::none;
-    float conservative_extra = 0;     // extraPrimitiveOverestimationSize, pixels; overestimate
+    float conservative_extra = 0;  // extraPrimitiveOverestimationSize, pixels; overestimate
+    // Pixels that a fragment is, width and height, each 1, 2 or 4 (VK_KHR_fragment_shading_rate).
+    std::array<uint32_t, 2> fragment_size{1, 1};
     Discard discard = Discard::none;  // by the fragment shader
     uint32_t discard_attribute = 0;   // Discard::negative: number of the attribute
     DiscardBy discard_by = DiscardBy::kill;
@@ -334,6 +338,7 @@ struct Draw {
         visit("rasterizer_discard", d.rasterizer_discard...);
         visit("conservative", d.conservative...);
         visit("conservative_extra", d.conservative_extra...);
+        visit("fragment_size", d.fragment_size...);
         visit("discard", d.discard...);
         visit("discard_attribute", d.discard_attribute...);
         visit("discard_by", d.discard_by...);

@@ -157,6 +157,46 @@ inline bool counts_fragments(const Case& c) {
                                [](const Draw& draw) { return counts_fragments(draw.query); });
 }
 
+// Fragments of several pixels (VK_KHR_fragment_shading_rate): a block whose first pixel has
+// coordinates that are multiples of its sides. Source: Vulkan specification, "Multisampling", where
+// pixel (x, y) of the framebuffer is p_x = x % f_w, p_y = y % f_h of its fragment.
+struct PixelBlock {
+    uint32_t x = 0, y = 0, width = 1, height = 1;  // the last ones may lie beyond the target
+    friend bool operator==(const PixelBlock&, const PixelBlock&) = default;
+};
+inline bool has_large_fragments(const Draw& draw) {
+    return draw.fragment_size[0] > 1 || draw.fragment_size[1] > 1;
+}
+inline bool has_large_fragments(const Case& c) {
+    return std::ranges::any_of(c.draws, [](const Draw& draw) { return has_large_fragments(draw); });
+}
+inline PixelBlock fragment_block(const Draw& draw, uint32_t x, uint32_t y) {
+    const auto [width, height] = draw.fragment_size;
+    return {x - x % width, y - y % height, width, height};
+}
+// The samples of all of its pixels.
+inline constexpr uint32_t kMaxFragmentSamples = 32;  // of the cases here
+inline uint32_t samples_of_fragment(const Draw& draw, const Target& target) {
+    return draw.fragment_size[0] * draw.fragment_size[1] * target.samples;
+}
+// The coverage index of a sample in its fragment: j = i + r ((f_w f_h) - 1 - p), p = p_x + p_y f_w
+// (ibid.): the last pixel's samples come first.
+inline uint32_t coverage_index(const PixelBlock& block, const Target& target, const SampleId& id) {
+    const uint32_t p = (id.x - block.x) + (id.y - block.y) * block.width;
+    return id.sample + target.samples * (block.width * block.height - 1 - p);
+}
+// gl_ShadingRateEXT: log2 of the width, times 4, and log2 of the height (SPIR-V, "Fragment Shading
+// Rate": Vertical2Pixels 1, Vertical4Pixels 2, Horizontal2Pixels 4, Horizontal4Pixels 8).
+inline uint32_t shading_rate_bits(const Draw& draw) {
+    return draw.fragment_size[0] / 2 * 4 + draw.fragment_size[1] / 2;
+}
+// Whether anything asks for the extension: a fragment of several pixels, or its rate.
+inline bool asks_shading_rate(const Draw& draw) {
+    return has_large_fragments(draw) ||
+           std::ranges::any_of(draw.attributes,
+                               [](const Attribute& a) { return a.source == Source::shading_rate; });
+}
+
 // Whether a fragment is as if it had never been.
 inline bool takes_away_pixel(const Draw& draw, uint32_t x, uint32_t y) {
     return !draw.early_tests && discards_pixel(draw.discard, x, y);

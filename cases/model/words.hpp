@@ -77,8 +77,8 @@ inline constexpr auto kWords<DepthFormat> = detail::words_in(kDepthFormats);
 template <>
 inline constexpr WordList<3> kWords<DepthBiasRepresentation> = {"format", "force-unorm", "float"};
 template <>
-inline constexpr WordList<5> kWords<Source> = {"vertex", "barycentric", "sample-mask-in",
-                                               "sample-id", "sample-position"};
+inline constexpr WordList<6> kWords<Source> = {"vertex",    "barycentric",     "sample-mask-in",
+                                               "sample-id", "sample-position", "shading-rate"};
 template <>
 inline constexpr WordList<14> kWords<Probe> = {
     "value",  "at-centroid", "at-sample",     "at-offset",   "dfdx",
@@ -146,7 +146,7 @@ static_assert(detail::ends_with(Topology::triangle_fan) &&
               detail::ends_with(ProvokingVertex::last) && detail::ends_with(CompareOp::always) &&
               detail::ends_with(DepthFormat::d16_unorm) &&
               detail::ends_with(DepthBiasRepresentation::floating) &&
-              detail::ends_with(Source::sample_position) && detail::ends_with(Probe::lod) &&
+              detail::ends_with(Source::shading_rate) && detail::ends_with(Probe::lod) &&
               detail::ends_with(BlendFactor::one_minus_src1_alpha) &&
               detail::ends_with(BlendOp::max) && detail::ends_with(LogicOp::set) &&
               detail::ends_with(Resolve::max) && detail::ends_with(BlitFilter::linear) &&

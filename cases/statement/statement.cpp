@@ -292,6 +292,22 @@ constexpr Statement kStatements[] = {
      "One that loses its area when it is snapped is a back face, or culled, as degenerateTrianglesRasterized says; one "
      "that had none before is open if they are drawn. Its values are not judged.",
      {"conservative.degenerate"}, ""},
+    {"which pixels a fragment of several pixels is, and its FragCoord.xy", exact, Strictness::free,
+     "FragCoord.xy is the centre of the block whose first pixel is a multiple of the fragment's size. Coverage, depth and "
+     "stencil are those of each pixel and sample. Direct3D leaves open where the grid of blocks begins.",
+     {"fragment-size.area"}, ""},
+    {"the shading rate that a fragment shader reads", exact, exact,
+     "It is the pipeline's, which is one of the device's rates for the sample count.",
+     {"fragment-size.rate"}, ""},
+    {"one invocation for all pixels of a fragment", Strictness::free, exact,
+     "From practice on all that a triangle wrote last in a block has the same bits; of triangles that are clipped it is "
+     "not asked, since they may be several fragments there.",
+     {"fragment-size.shared"}, ""},
+    {"where the inputs of a fragment of several pixels are evaluated", Strictness::free, exact,
+     "Anywhere in the block, with one sample a pixel anywhere between its samples, in the triangle or not; at direct3d at "
+     "the block's centre. Centroid inputs: in the block and in the triangle; at direct3d at any covered sample, or at the "
+     "centre if all are covered or a pixel has one.",
+     {"interp.perspective", "interp.linear", "interp.centroid", "fragcoord.w"}, ""},
     {"lines and points", Strictness::free, Strictness::free,
      "",
      {}, "Not triangles."},

@@ -365,6 +365,10 @@ std::string draw_text(const Draw& draw, const Target& target) {
     table.add_flag("rasterizer_discard", draw.rasterizer_discard, usual.rasterizer_discard);
     add_word(table, "conservative", draw.conservative, usual.conservative);
     add_number(table, "conservative_extra", draw.conservative_extra, usual.conservative_extra);
+    if (draw.fragment_size != usual.fragment_size) {
+        table.add("fragment_size",
+                  fmt::format("[{}, {}]", draw.fragment_size[0], draw.fragment_size[1]));
+    }
     add_word(table, "discard", draw.discard, usual.discard);
     if (discards_by_value(draw) && draw.discard_attribute != usual.discard_attribute) {
         table.add("discard_attribute",

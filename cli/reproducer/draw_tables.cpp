@@ -84,6 +84,7 @@ std::string_view kind_of(const cases::Attribute& a) {
             return "SAMPLE_POSITION";
         case cases::Source::sample_mask_in:
             return "SAMPLE_MASK";
+        case cases::Source::shading_rate:  // of no case that becomes a program
         case cases::Source::barycentric:
         case cases::Source::vertex:
             break;

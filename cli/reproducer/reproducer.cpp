@@ -79,6 +79,7 @@ std::string_view missing_of(const cases::Draw& d) {
     return first_of({
         {d.viewport_index != 0, "several viewports"},
         {d.conservative != cases::Conservative::none, "conservative rasterization"},
+        {cases::asks_shading_rate(d), "a fragment size"},
         {d.discard != cases::Discard::none || d.early_tests,
          "fragments that the shader discards, or early tests"},
         {d.frag_depth.has_value(), "a depth that the shader writes"},

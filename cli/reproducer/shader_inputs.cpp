@@ -111,6 +111,7 @@ uint32_t Inputs::choice(size_t k) const {
             return static_cast<uint32_t>(shaders::Choice::sample_id);
         case cases::Source::sample_position:
             return static_cast<uint32_t>(shaders::Choice::sample_position);
+        case cases::Source::shading_rate:  // of no case that becomes a program
         case cases::Source::vertex:
             break;
     }

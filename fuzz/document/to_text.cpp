@@ -19,7 +19,7 @@ using Kind = Document::Kind;
 constexpr size_t kColumns = 100;  // of a line, where values allow it
 
 // The order in which docs/cases.md tells the keys of a table; all others follow.
-constexpr std::array<std::string_view, 61> kOrder = {
+constexpr std::array<std::string_view, 62> kOrder = {
     // a file
     "format", "description", "catches", "rules", "links", "leaves", "relations", "matrix", "target",
     "blit",
@@ -29,10 +29,11 @@ constexpr std::array<std::string_view, 61> kOrder = {
     // [[draw]]; what its triangles are stands last
     "name", "source", "probe", "interpolation", "auxiliary", "topology", "space", "viewport",
     "scissor", "viewport_index", "layer", "cull", "front_face", "rasterizer_discard",
-    "conservative", "conservative_extra", "discard", "discard_attribute", "early_tests",
-    "frag_depth", "query", "provoking", "sample_mask", "shader_mask", "min_sample_shading", "depth",
-    "depth_volume", "depth_clear", "color", "generate", "vertices", "indices", "mirror", "rotate",
-    "offset", "winding", "first", "order", "draw", "attribute", "expect"};
+    "conservative", "conservative_extra", "fragment_size", "discard", "discard_attribute",
+    "early_tests", "frag_depth", "query", "provoking", "sample_mask", "shader_mask",
+    "min_sample_shading", "depth", "depth_volume", "depth_clear", "color", "generate", "vertices",
+    "indices", "mirror", "rotate", "offset", "winding", "first", "order", "draw", "attribute",
+    "expect"};
 
 size_t rank(const cases::TomlEntry& entry) {
     return static_cast<size_t>(std::find(kOrder.begin(), kOrder.end(), entry.key) - kOrder.begin());

@@ -194,6 +194,10 @@ class CaseWriter {
                 line("conservative_extra = {}", number == 0 ? 0.25 : 0.75);
             }
         }
+        if (!pose_.is_default("fragment-size") && (draws_ == 1 || number != 1)) {
+            const std::string_view size = pose_.value("fragment-size");
+            line("fragment_size = [{}, {}]", size.front(), size.back());
+        }
         const bool is_last = number + 1 == draws_;
         const std::string discard =
             is_last || !state_.one_in(3) ? discard_of(pose_, state_) : std::string();

@@ -115,8 +115,10 @@ constexpr uint64_t kPosesOfBlit = 48, kFirstOfBlit = 8;
 // One pose in so many has conservative draws besides what it is, unless that does not go with them:
 // many devices lack them, and would lose every pose that had them for its pairs.
 constexpr uint64_t kPosesOfArea = 8, kFirstOfArea = 5;
-// Which is drawn apart, and stands last.
-constexpr size_t kAreaFeatures = 1;
+// And one in so many has fragments of several pixels, which few devices have, too.
+constexpr uint64_t kFirstOfFragments = 2;
+// These two are drawn apart, and stand last.
+constexpr size_t kAreaFeatures = 2;
 
 }  // namespace
 
@@ -195,6 +197,7 @@ const std::vector<Feature>& features() {
         {"w", {"one", "equal", "unequal", "steep", "behind"}},
         {"z", {"half", "plane", "beyond"}},
         {"conservative", {"none", "overestimate", "underestimate", "extra"}},
+        {"fragment-size", {"1x1", "2x1", "2x2", "1x2", "4x2", "2x4", "4x4"}},
     };
     return kAll;
 }
@@ -318,14 +321,35 @@ Pose Poses::draw(size_t candidate) const {
     return pose;
 }
 
+namespace {
+
+// What a fragment size goes with (cases/load/load_target.cpp).
+bool goes_with_fragments(const Pose& pose) {
+    constexpr std::string_view kOthers[] = {
+        "blit",           "clip-distances",   "cull-distances", "complement", "probe", "source",
+        "sample-shading", "sample-locations", "shader-mask",    "frag-depth", "query", "discard"};
+    return std::ranges::all_of(kOthers, [&](std::string_view f) { return pose.is_default(f); }) &&
+           !pose.is("auxiliary", "sample") && !pose.is("relation", "scissor-tiles");
+}
+
+}  // namespace
+
 Pose Poses::with_area(const Pose& pose) const {
     Pose out = pose;
     const bool goes_with_it = pose.is_default("clip-distances") &&
                               pose.is_default("cull-distances") && pose.is_default("probe") &&
                               pose.is_default("blit") && !pose.is("auxiliary", "centroid");
+    const uint64_t number = count_ / kPosesOfArea + seed_;
     if (count_ % kPosesOfArea == kFirstOfArea && goes_with_it) {
-        const size_t kinds = features().back().values.size() - 1;
-        out.set(features().size() - kAreaFeatures, 1 + (count_ / kPosesOfArea + seed_) % kinds);
+        const size_t feature = index_of("conservative");
+        out.set(feature, 1 + number % (features()[feature].values.size() - 1));
+    }
+    if (count_ % kPosesOfArea == kFirstOfFragments && goes_with_fragments(pose)) {
+        // Of four samples and more the first four sizes have 32 samples at most.
+        const size_t feature = index_of("fragment-size");
+        const bool is_any = pose.is("samples", "1") || pose.is("samples", "2");
+        const size_t sizes = is_any ? features()[feature].values.size() - 1 : 3;
+        out.set(feature, 1 + number % sizes);
     }
     return out;
 }

@@ -72,7 +72,7 @@ class Poses {
     static constexpr size_t kCandidates = 12;
     Pose draw(size_t candidate) const;
     static Pose blit(uint64_t number);
-    // The pose, or, of some, the same with conservative draws.
+    // The pose, or, of some, the same with conservative draws, or with fragments of several pixels.
     Pose with_area(const Pose& pose) const;
     size_t fresh_pairs(const Pose& pose) const;
     void take(const Pose& pose);

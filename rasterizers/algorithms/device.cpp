@@ -175,6 +175,9 @@ std::string unsupported_reason(const cases::Case& c) {
         if (d.conservative != cases::Conservative::none) {
             return "the algorithms cover by samples, and not by area";
         }
+        if (cases::asks_shading_rate(d)) {
+            return "the algorithms have fragments of one pixel";
+        }
         if (d.discard != cases::Discard::none || d.early_tests || d.frag_depth) {
             return "the algorithms have no shaders that discard fragments or write their depth";
         }

@@ -83,6 +83,13 @@ cases::Draw effective(const cases::Case& c, uint32_t number, const Device& devic
                draw.conservative == cases::Conservative::underestimate) {
         draw.conservative = cases::Conservative::overestimate;
     }
+    if (fault == Fault::fragment_size_ignored) {
+        draw.fragment_size = {1, 1};
+    } else if (fault == Fault::fragment_size_exchanged) {
+        std::swap(draw.fragment_size[0], draw.fragment_size[1]);
+    } else if (fault == Fault::fragment_size_of_first_draw) {
+        draw.fragment_size = c.draws[0].fragment_size;
+    }
     if (fault == Fault::layer_of_first_draw) {
         draw.layer = c.draws[0].layer;
     }

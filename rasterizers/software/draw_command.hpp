@@ -63,8 +63,8 @@ class DrawCommand {
     glm::vec4 distances_of(uint32_t v, const Primitive& primitive, size_t k) const;
     bool inside_viewport(double x, double y) const;
     bool is_before_scissor(int64_t i, int64_t j, uint32_t s) const;
-    // Sample s of pixel (i,j) is covered: with several samples the fragment waits until all of its
-    // samples are known.
+    // Sample s of pixel (i,j) is covered: with several samples or pixels the fragment waits until
+    // all of its samples are known.
     void cover(const Primitive& primitive, const TrianglePlanes& planes, const WindowVertex& first,
                bool front, int64_t i, int64_t j, uint32_t s);
     void shade_covered(const Primitive& primitive, const WindowVertex& first, bool front);
@@ -84,6 +84,7 @@ class DrawCommand {
     void shade_in(uint32_t layer, const Primitive& primitive, const TrianglePlanes& planes,
                   const WindowVertex& first, bool front, int64_t i, int64_t j, uint32_t s,
                   uint32_t covered);
+    void shade_coarse(const Primitive& primitive, const WindowVertex& first, bool front);
     size_t index_in(uint32_t layer, int64_t i, int64_t j, uint32_t s) const;
     void write_color(size_t at, uint32_t primitive);
 
@@ -100,6 +101,9 @@ class DrawCommand {
     std::vector<SampleOffset> samples_;
     // Samples of the fragments of the triangle at hand: by pixel (row first) and planes.
     std::map<std::tuple<int64_t, int64_t, const TrianglePlanes*>, uint32_t> covered_;
+    // The same of fragments of several pixels, by their first one; and that which is shaded.
+    std::map<std::tuple<int64_t, int64_t, const TrianglePlanes*>, CoarseFragment> coarse_;
+    const CoarseFragment* shaded_ = nullptr;
     std::map<std::pair<int64_t, int64_t>, uint32_t> owners_;  // of pixels, where a fault has them
     std::unique_ptr<TrianglePlanes> cached_planes_;
     WindowVertex cached_first_;

@@ -80,7 +80,11 @@ void DrawCommand::cover(const Primitive& primitive, const TrianglePlanes& planes
     if (device_.fault == Fault::scissor_half_early && is_before_scissor(i, j, s)) {
         return;
     }
-    if (samples_.size() == 1) {
+    if (draw_.fragment_size[0] > 1 || draw_.fragment_size[1] > 1) {
+        const CoarseFragment fragment = coarse_fragment(draw_, device_, i, j, rect_.x0, rect_.y0);
+        coarse_.try_emplace({fragment.y, fragment.x, &planes}, fragment)
+            .first->second.covered_at(i, j) |= 1U << s;
+    } else if (samples_.size() == 1) {
         shade(primitive, planes, first, front, i, j, s, 1U);
     } else {
         covered_[{j, i, &planes}] |= 1U << s;
@@ -97,6 +101,31 @@ void DrawCommand::shade_covered(const Primitive& primitive, const WindowVertex& 
         }
     }
     covered_.clear();
+    shade_coarse(primitive, first, front);
+}
+
+void DrawCommand::shade_coarse(const Primitive& primitive, const WindowVertex& first, bool front) {
+    for (auto& [where, fragment] : coarse_) {
+        const TrianglePlanes& planes = *std::get<2>(where);
+        if (device_.fault == Fault::fragment_covered_whole) {
+            fragment.covered.fill((1U << samples_.size()) - 1);
+        }
+        shaded_ = &fragment;
+        const int64_t x1 = std::min(fragment.x + fragment.width(), rect_.x1);
+        const int64_t y1 = std::min(fragment.y + fragment.height(), rect_.y1);
+        for (int64_t j = std::max(fragment.y, rect_.y0); j < y1; ++j) {
+            for (int64_t i = std::max(fragment.x, rect_.x0); i < x1; ++i) {
+                const uint32_t covered = fragment.covered_at(i, j);
+                for (uint32_t s = 0; s < samples_.size(); ++s) {
+                    if (((covered >> s) & 1U) != 0) {
+                        shade(primitive, planes, first, front, i, j, s, covered);
+                    }
+                }
+            }
+        }
+        shaded_ = nullptr;
+    }
+    coarse_.clear();
 }
 
 void DrawCommand::shade(const Primitive& primitive, const TrianglePlanes& planes,
@@ -169,6 +198,9 @@ glm::vec4 DrawCommand::attribute_value(const TrianglePlanes& planes, const Windo
             break;
         case cases::Source::sample_position:
             value = {invocation.sample_position.x, invocation.sample_position.y, 0, 0};
+            break;
+        case cases::Source::shading_rate:
+            value = glm::vec4(static_cast<float>(invocation.rate), 0, 0, 0);
             break;
         case cases::Source::vertex:
         case cases::Source::barycentric:
@@ -299,6 +331,9 @@ void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const Tri
                            uint32_t covered) {
     const Fault fault = device_.fault;
     Invocation invocation = invoke(draw_, device_, samples_, i, j, s, covered);
+    if (shaded_ != nullptr) {
+        coarsen(draw_, device_, samples_, *shaded_, i, j, invocation);
+    }
     const auto end = [&](Ending ending) {
         const bool is_first = (covered & ((1U << s) - 1)) == 0;
         attachments_.queries.count(number_, ending, is_first, {i >> 1, j >> 1, primitive.id});
@@ -331,6 +366,8 @@ void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const Tri
         z = planes.depth(static_cast<float>(i), static_cast<float>(j));
     } else if (fault == Fault::depth_at_centre) {
         z = planes.depth(static_cast<float>(i) + 0.5F, static_cast<float>(j) + 0.5F);
+    } else if (fault == Fault::fragment_depth_of_centre) {
+        z = shaded_ == nullptr ? z : planes.depth(invocation.centre.x, invocation.centre.y);
     } else if (fault == Fault::depth_samples_mirrored) {
         z = planes.depth(2 * static_cast<float>(i) + 1 - sample_x, sample_y);
     }

@@ -112,4 +112,87 @@ Invocation invoke(const cases::Draw& draw, const Device& device,
     return out;
 }
 
+CoarseFragment coarse_fragment(const cases::Draw& draw, const Device& device, int64_t i, int64_t j,
+                               int64_t left, int64_t top) {
+    CoarseFragment out;
+    while ((1U << out.log_width) < draw.fragment_size[0]) {
+        ++out.log_width;
+    }
+    while ((1U << out.log_height) < draw.fragment_size[1]) {
+        ++out.log_height;
+    }
+    int64_t from_x = 0;
+    int64_t from_y = 0;
+    if (device.fault == Fault::fragment_grid_at_scissor) {
+        from_x = left;
+        from_y = top;
+    } else if (device.fault == Fault::fragment_grid_at_viewport) {
+        from_x = static_cast<int64_t>(std::floor(draw.viewport.x));
+        from_y = static_cast<int64_t>(
+            std::floor(std::min(draw.viewport.y, draw.viewport.y + draw.viewport.height)));
+    }
+    // The bits below the size are those of the pixel in its fragment.
+    out.x = from_x + (((i - from_x) >> out.log_width) << out.log_width);
+    out.y = from_y + (((j - from_y) >> out.log_height) << out.log_height);
+    return out;
+}
+
+void coarsen(const cases::Draw& draw, const Device& device, std::span<const SampleOffset> samples,
+             const CoarseFragment& fragment, int64_t i, int64_t j, Invocation& out) {
+    const Fault fault = device.fault;
+    const float unit = std::ldexp(1.0F, -device.subpixel_bits);
+    const auto count = static_cast<uint32_t>(samples.size());
+    const uint32_t pixels = fragment.width() * fragment.height();
+    const uint32_t mask = state_mask(draw, fault, count);
+    out.rate = fragment.log_width << 2U | fragment.log_height;
+    if (fault == Fault::fragment_rate_exchanged) {
+        out.rate = fragment.log_height << 2U | fragment.log_width;
+    } else if (fault == Fault::fragment_rate_unknown) {
+        out.rate = 0;
+    }
+    const auto first_x = static_cast<float>(fragment.x);
+    const auto first_y = static_cast<float>(fragment.y);
+    const Place own{static_cast<float>(i) + 0.5F, static_cast<float>(j) + 0.5F};
+    Place centre{first_x + static_cast<float>(fragment.width()) * 0.5F,
+                 first_y + static_cast<float>(fragment.height()) * 0.5F};
+    if (fault == Fault::fragment_at_first_pixel) {
+        centre = {first_x + 0.5F, first_y + 0.5F};
+    }
+    // The last pixel's samples are the mask's first.
+    out.mask_in = 0;
+    bool is_partial = false;
+    Place first = centre;
+    Place sum;
+    float alive_count = 0;
+    for (uint32_t k = 0; k < pixels; ++k) {
+        const uint32_t pixel = pixels - 1 - k;
+        const uint32_t alive = fragment.covered.at(pixel) & mask;
+        const uint32_t from = fault == Fault::fragment_mask_forwards ? pixel : k;
+        out.mask_in |= from * count < 32 ? alive << (from * count) : 0U;
+        for (uint32_t s = 0; s < count; ++s) {
+            is_partial = is_partial || (fragment.covered.at(pixel) >> s & 1U) == 0;
+            if ((alive >> s & 1U) == 0) {
+                continue;
+            }
+            const Place at{first_x + static_cast<float>(pixel & (fragment.width() - 1)) +
+                               static_cast<float>(samples[s].x) * unit,
+                           first_y + static_cast<float>(pixel >> fragment.log_width) +
+                               static_cast<float>(samples[s].y) * unit};
+            first = alive_count > 0 ? first : at;
+            sum = {sum.x + at.x, sum.y + at.y};
+            alive_count += 1;
+        }
+    }
+    out.frag_coord = fault == Fault::fragment_coord_of_pixel ? own : centre;
+    out.centre = fault == Fault::fragment_inputs_of_pixel ? own
+                 : device.coarse_inputs_at_sample         ? first
+                                                          : centre;
+    out.centroid = out.centre;
+    if (is_partial && alive_count > 0 && fault != Fault::centroid_at_centre) {
+        out.centroid = device.centroid == Centroid::first_sample
+                           ? first
+                           : Place{sum.x / alive_count, sum.y / alive_count};
+    }
+}
+
 }  // namespace software

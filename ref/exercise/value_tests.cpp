@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
+#include "cases/model/sample.hpp"
+#include "ref/coverage/exact/exact.hpp"
 #include "ref/exercise/tests.hpp"
 #include "ref/value/fragment/shading_rate.hpp"
 
@@ -45,6 +47,35 @@ bool has_barycentric(const View& view, std::string_view) {
             return a.source == cases::Source::barycentric;
         });
     });
+}
+
+// A device without the extension says 0 of every fragment.
+bool has_rate_of_several(const View& view, std::string_view rule) {
+    return has_value(view, rule) && is_written_by_draw(view, [](const cases::Draw& draw) {
+               return cases::has_large_fragments(draw);
+           });
+}
+
+bool is_of_shared_fragment(const View& view, std::string_view) {
+    const cases::Target& target = view.of().target;
+    const cases::SampleId& id = view.sample.id;
+    const auto is_covered_elsewhere = [&](uint32_t t) {
+        const TriangleSetup& setup = view.setups[t];
+        const cases::PixelBlock block = cases::fragment_block(view.facts.draw_of(t), id.x, id.y);
+        const uint32_t end_x = std::min(block.x + block.width, target.width);
+        const uint32_t end_y = std::min(block.y + block.height, target.height);
+        for (uint32_t y = block.y; y < end_y; ++y) {
+            for (uint32_t x = block.x; x < end_x; ++x) {
+                const bool is_own = x == id.x && y == id.y;
+                if (!is_own && exact::classify(setup, sample_position(x, y, id.sample, target)) ==
+                                   Coverage::must) {
+                    return !setup.is_clipped;
+                }
+            }
+        }
+        return false;
+    };
+    return target.has_instruments && is_written_by(view, is_covered_elsewhere);
 }
 
 bool is_at_sample(const View& view, std::string_view) {

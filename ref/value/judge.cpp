@@ -109,7 +109,7 @@ bool ValueReference::Impl::filter(uint32_t t, cases::SampleId id, const Fragment
     const value::Point<double> centre{id.x + 0.5, id.y + 0.5};
     const value::Point<double> sample{pixels(fixed.x), pixels(fixed.y)};
     value::FilterPoints places{centre, sample, centre};
-    if (c.target.samples > 1) {
+    if (c.target.samples > 1 || cases::has_large_fragments(*triangle.primitive.draw)) {
         // The likeliest alternative; the others are left to the next stage.
         const auto nominal =
             value::evaluations<Ball>(fragment(t, id, Profile::direct3d), Profile::direct3d).front();

@@ -54,7 +54,7 @@ size_t ValueReference::Impl::judge_run(uint32_t t, const FragmentRun& run,
     const value::Loaded& triangle = load_filters(t);
     const value::Primitive& primitive = triangle.primitive;
     if (!primitive.is_finite || !is_plain_depth(primitive) || c.target.samples != 1 ||
-        discards_by_value(*primitive.draw) ||
+        discards_by_value(*primitive.draw) || has_large_fragments(*primitive.draw) ||
         value::shading_rate(*primitive.draw, 1) != value::ShadingRate::fragment) {
         return 0;
     }

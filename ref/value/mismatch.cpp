@@ -121,17 +121,20 @@ const value::SetBounds& ValueReference::Impl::bounds(uint32_t t, Profile at) {
     Loaded& triangle = load(t);
     std::optional<value::SetBounds>& slot = triangle.bounds.at(static_cast<size_t>(at));
     if (!slot) {
-        // What is asked for lies in pixels that the triangle reaches, and in the target.
-        constexpr double kMargin = 2;
-        value::PixelBox box{0, 0, static_cast<double>(c.target.width),
-                            static_cast<double>(c.target.height)};
+        // What is asked for lies in pixels that the triangle reaches, and in the target, or in
+        // fragments that have some of their pixels there.
+        const bool is_large = cases::has_large_fragments(*triangle.primitive.draw);
+        const double beyond = is_large ? cases::kMaxFragmentSide : 0;
+        const double margin = 2 + beyond;
+        value::PixelBox box{0, 0, static_cast<double>(c.target.width) + beyond,
+                            static_cast<double>(c.target.height) + beyond};
         if (triangle.primitive.is_projectable) {
             const auto v = value::ideal_vertices<Ball>(triangle.primitive);
             const auto shrink = [&](const value::Triple<Ball>& h, double& low, double& high) {
                 const auto [least, most] =
                     std::minmax({h[0].v / v.w[0].v, h[1].v / v.w[1].v, h[2].v / v.w[2].v});
-                low = std::max(low, std::floor(least) - kMargin);
-                high = std::min(high, std::ceil(most) + kMargin);
+                low = std::max(low, std::floor(least) - margin);
+                high = std::min(high, std::ceil(most) + margin);
             };
             shrink(v.hx, box.low_x, box.high_x);
             shrink(v.hy, box.low_y, box.high_y);

@@ -68,10 +68,98 @@ Point<T> point_of(const Spot& spot) {
     return {T(spot.x), T(spot.y)};
 }
 
+template <class T>
+std::vector<Point<T>> rectangle(double x0, double y0, double x1, double y1) {
+    return {{T(x0), T(y0)}, {T(x1), T(y0)}, {T(x1), T(y1)}, {T(x0), T(y1)}};
+}
+
+// Where a fragment of several pixels may have its centroid at direct3d: at its centre if all of its
+// samples may be covered, or there is one a pixel (then nothing says that it is elsewhere), or at
+// any that may be. Which of them is the first is not asked: no text of Vulkan has that order.
+std::vector<Spot> block_centroids(const Fragment& f, const Spot& centre) {
+    const cases::PixelBlock& b = f.block;
+    const uint32_t samples = f.target->samples;
+    const uint64_t all = (uint64_t{1} << (b.width * b.height * samples)) - 1;
+    std::vector<Spot> spots;
+    if (samples == 1 || f.coverage.may == all) {
+        spots.push_back(centre);
+    }
+    for (uint32_t y = b.y; y < b.y + b.height; ++y) {
+        for (uint32_t x = b.x; x < b.x + b.width; ++x) {
+            for (uint32_t s = 0; s < samples; ++s) {
+                const uint32_t j = cases::coverage_index(b, *f.target, {x, y, s});
+                if ((f.coverage.may >> j & 1U) != 0 &&
+                    (f.draw->multisample.sample_mask >> s & 1U) != 0) {
+                    const FixedPoint p = sample_position(x, y, s, *f.target);
+                    spots.push_back({pixels(p.x), pixels(p.y)});
+                }
+            }
+        }
+    }
+    return spots;
+}
+
+// The same as evaluations(), of a fragment of several pixels, which has no sample shading.
+template <class T>
+std::vector<Evaluation<T>> block_evaluations(const Fragment& f, Profile profile) {
+    const cases::PixelBlock& b = f.block;
+    const Spot centre{b.x + b.width / 2.0, b.y + b.height / 2.0};
+    const Spot own = spot_of(f, f.id.sample);
+    const Point<T> sample = point_of<T>(own);
+    std::vector<Spot> centroid;
+    if (has_centroid(*f.draw)) {
+        centroid = block_centroids(f, centre);
+    }
+    if (centroid.empty()) {
+        centroid = {own};
+    }
+    std::vector<Evaluation<T>> all;
+    for (const Spot& c : centroid) {
+        all.push_back({{point_of<T>(centre)}, {point_of<T>(centre)}, sample, {point_of<T>(c)}, {}});
+    }
+    if (profile == Profile::direct3d) {
+        return all;
+    }
+    // Anywhere in the block; with one sample a pixel between the samples, of which the centre is
+    // one of the places. FragCoord.z and w have no place of their own in any text.
+    const bool is_single = f.target->samples == 1;
+    const double inset = is_single ? 0.5 : 0;
+    Evaluation<T> anywhere;
+    anywhere.attributes =
+        rectangle<T>(b.x + inset, b.y + inset, b.x + b.width - inset, b.y + b.height - inset);
+    anywhere.sample = sample;
+    if (is_single) {  // both sentences hold of it, and the centre may lie outside of the primitive
+        anywhere.centroid = rectangle<T>(b.x, b.y, b.x + b.width, b.y + b.height);
+    } else {
+        for (const Point<mpq_class>& p : f.region) {
+            anywhere.centroid.push_back({from_exact<T>(p.x), from_exact<T>(p.y)});
+        }
+    }
+    if (anywhere.centroid.empty()) {
+        anywhere.centroid = {sample};
+    }
+    if (profile == Profile::practice) {
+        const auto exact = [&](double by) {
+            return rectangle<mpq_class>(b.x + by, b.y + by, b.x + b.width - by,
+                                        b.y + b.height - by);
+        };
+        anywhere.one_point = {exact(inset),
+                              is_single ? exact(0)
+                              : f.region.empty()
+                                  ? std::vector<Point<mpq_class>>{point_of<mpq_class>(own)}
+                                  : f.region};
+    }
+    all.push_back(std::move(anywhere));
+    return all;
+}
+
 }  // namespace
 
 template <class T>
 std::vector<Evaluation<T>> evaluations(const Fragment& f, Profile profile) {
+    if (cases::has_large_fragments(*f.draw)) {
+        return block_evaluations<T>(f, profile);
+    }
     const Spot centre{f.id.x + 0.5, f.id.y + 0.5};
     const Spot own = spot_of(f, f.id.sample);
     const Point<T> sample = point_of<T>(own);

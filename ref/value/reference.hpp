@@ -226,7 +226,8 @@ struct ValueReference::Impl {
     // Where the fragment is, and what a profile says of its coverage if anything depends on it.
     value::Fragment fragment(uint32_t t, cases::SampleId id, Profile at, bool is_exact = false) {
         value::Fragment f = covered_fragment(t, id, at, is_exact);
-        if (at != Profile::direct3d && c.target.samples > 1 && value::has_centroid(*f.draw)) {
+        const bool has_places = c.target.samples > 1 || has_large_fragments(*f.draw);
+        if (at != Profile::direct3d && has_places && value::has_centroid(*f.draw)) {
             f.region = coverage_at(at).region(t, id.x, id.y);
         }
         return f;
@@ -238,10 +239,12 @@ struct ValueReference::Impl {
         f.id = id;
         f.target = &c.target;
         f.draw = &c.draws[triangles[t].draw];
+        f.block = cases::fragment_block(*f.draw, id.x, id.y);
         const bool has_mask =
             std::any_of(quantities_of(t).begin(), quantities_of(t).end(),
                         [](const Quantity& q) { return q.kind == Kind::sample_mask; });
-        const bool has_centroid = c.target.samples > 1 && value::has_centroid(*f.draw);
+        const bool has_centroid =
+            (c.target.samples > 1 || has_large_fragments(*f.draw)) && value::has_centroid(*f.draw);
         if (has_mask || has_centroid) {
             FragmentCoverage& cover = coverage_at(at);
             f.coverage = is_exact ? cover.exact(t, id.x, id.y) : cover.of(t, id.x, id.y);

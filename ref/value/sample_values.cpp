@@ -35,8 +35,24 @@ Pair in_framebuffer(const Fragment& f, const Pair& in_pixel) {
     return {static_cast<float>(f.id.x) + in_pixel.x, static_cast<float>(f.id.y) + in_pixel.y};
 }
 
+// Of the fragment: a half, or a whole number below 2^15.
 Pair centre_of(const Fragment& f) {
-    return in_framebuffer(f, {0.5F, 0.5F});
+    const auto at = [](uint32_t first, uint32_t side) {
+        return static_cast<float>(first) + static_cast<float>(side) / 2.0F;
+    };
+    return {at(f.block.x, f.block.width), at(f.block.y, f.block.height)};
+}
+
+// The bits of a mask of samples for all pixels of a fragment.
+uint32_t in_all_pixels(const Fragment& f, uint32_t mask) {
+    const uint32_t samples = f.target->samples;
+    const uint32_t bits = f.block.width * f.block.height * samples;
+    const uint32_t one = mask & static_cast<uint32_t>((uint64_t{1} << samples) - 1);
+    uint32_t out = 0;
+    for (uint32_t j = 0; j < std::min(bits, cases::kMaxFragmentSamples); j += samples) {
+        out |= one << j;
+    }
+    return out;
 }
 
 // Where FragCoord.xy may be.
@@ -103,8 +119,8 @@ struct MaskBounds {
     uint32_t own = 0, must = 0, may = 0;
 };
 MaskBounds mask_bounds(const Fragment& f) {
-    const uint32_t own = 1U << f.id.sample;
-    const uint32_t state = f.draw->multisample.sample_mask;
+    const uint32_t own = 1U << cases::coverage_index(f.block, *f.target, f.id);
+    const uint32_t state = in_all_pixels(f, f.draw->multisample.sample_mask);
     return {own, (f.coverage.must & state) | own, (f.coverage.may & state) | own};
 }
 
@@ -214,7 +230,7 @@ StoredDepth stored_of(const Fragment& f) {
 
 bool is_sample_kind(Kind kind) {
     return kind == Kind::written_depth || kind == Kind::pixel_centre || kind == Kind::sample_mask ||
-           kind == Kind::sample_id || kind == Kind::sample_position;
+           kind == Kind::sample_id || kind == Kind::sample_position || kind == Kind::shading_rate;
 }
 
 bool may_be(const Fragment& f, const Quantity& q, const FragmentValues& device, Profile profile) {
@@ -238,6 +254,8 @@ bool may_be(const Fragment& f, const Quantity& q, const FragmentValues& device, 
                        : whole(got) == int64_t{f.id.sample};
         case Kind::sample_mask:
             return is_mask_in(f, got, profile);
+        case Kind::shading_rate:
+            return whole(got) == int64_t{cases::shading_rate_bits(*f.draw)};
         case Kind::written_depth:
             return stored_of(f).may_be(got, profile);
         case Kind::linear:
@@ -266,8 +284,10 @@ float nominal_number(const Fragment& f, const Quantity& q) {
         case Kind::sample_mask:
             return static_cast<float>(rate == ShadingRate::sample
                                           ? 1U << f.id.sample
-                                          : f.coverage.may & f.draw->multisample.sample_mask &
-                                                0xffffU);
+                                          : f.coverage.may & 0xffffU &
+                                                in_all_pixels(f, f.draw->multisample.sample_mask));
+        case Kind::shading_rate:
+            return static_cast<float>(cases::shading_rate_bits(*f.draw));
         case Kind::linear:
         case Kind::perspective:
         case Kind::flat:
@@ -286,6 +306,7 @@ std::string also_allowed(const Fragment& f, const Quantity& q, Profile profile) 
         case Kind::sample_position:
             return others(sample_positions(f, profile), q.id.component, number);
         case Kind::written_depth:
+        case Kind::shading_rate:
             return {};
         case Kind::sample_id:
             return profile == Profile::vulkan && f.target->samples > 1
@@ -320,10 +341,17 @@ std::string allowed_text(const Fragment& f, const Quantity& q, Profile profile) 
     }
     const bool is_centre = q.kind == Kind::pixel_centre &&
                            shading_rate(*f.draw, f.target->samples) == ShadingRate::fragment;
+    const std::string centre = cases::has_large_fragments(*f.draw)
+                                   ? fmt::format("the centre of the fragment's {} x {} pixels",
+                                                 f.block.width, f.block.height)
+                                   : "the pixel centre";
+    const std::string rate =
+        fmt::format("the rate of fragments of {} x {} pixels", f.block.width, f.block.height);
     return fmt::format("{} exactly, {}", nominal_number(f, q),
-                       is_centre                     ? "the pixel centre"
-                       : q.kind == Kind::sample_mask ? "the covered samples of the invocation"
-                                                     : fmt::format("sample {}", f.id.sample));
+                       is_centre                      ? centre
+                       : q.kind == Kind::sample_mask  ? "the covered samples of the invocation"
+                       : q.kind == Kind::shading_rate ? rate
+                                                      : fmt::format("sample {}", f.id.sample));
 }
 
 }  // namespace ref::value

@@ -50,7 +50,7 @@ def lavapipe_alone_lacks(device, reason):
     if "independentResolveNone" in reason:
         return device["limits"].get("independentResolveNone") == 1
     for text, facts in (("fragmentShaderBarycentric", "features"), ("VK_EXT_sample_locations", "extensions"), ("depthBiasControl", "features"),
-                        ("depthBounds", "features"), ("VK_EXT_conservative_rasterization", "extensions")):
+                        ("depthBounds", "features"), ("pipelineFragmentShadingRate", "features"), ("VK_EXT_conservative_rasterization", "extensions")):
         if text in reason:
             return text in device[facts]
     return False

@@ -89,6 +89,7 @@ VKAPI_ATTR VkResult VKAPI_CALL create_shader_module(VkDevice device,
                  "shaderSampleRateInterpolationFunctions");
             need(capability == 69, "shaderOutputLayer");
             need(capability == 70, "shaderOutputViewportIndex");
+            need(capability == 4422, "pipelineFragmentShadingRate");
             need(capability == 5284, "fragmentShaderBarycentric");
             need(capability == 5379, "shaderDemoteToHelperInvocation");
         }

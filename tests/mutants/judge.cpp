@@ -147,6 +147,9 @@ std::vector<LegalDevice> legal_devices() {
     add("inputs_near_a_corner_at_vulkan",
         "with several samples undecorated inputs are evaluated near a corner of the pixel",
         Profile::vulkan, [](Device& d) { d.corner_inputs = true; });
+    add("inputs_at_a_sample_of_coarse_fragments",
+        "inputs of fragments of several pixels are evaluated at the first covered sample",
+        Profile::practice, [](Device& d) { d.coarse_inputs_at_sample = true; });
     add("facing_of_unsnapped_positions_at_vulkan",
         "facing comes from unsnapped positions, so that slivers may face either way",
         Profile::vulkan, [](Device& d) { d.facing_unsnapped = true; });

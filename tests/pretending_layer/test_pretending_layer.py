@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: The Edgecase authors
 # SPDX-License-Identifier: Apache-2.0
-"""No driver here has VK_EXT_conservative_rasterization. A layer pretends that lavapipe has it: the program asks for its
-limits, enables it and makes pipelines with it, and judges what lavapipe draws, which covers by samples as ever."""
+"""No driver here has VK_EXT_conservative_rasterization and VK_KHR_fragment_shading_rate. A layer pretends that lavapipe
+has them: the program asks for their limits, enables them and makes pipelines with them, and judges what lavapipe draws,
+which covers by samples as ever, and whose fragments have one pixel."""
 import json
 import os
 import pathlib
@@ -58,6 +59,27 @@ class PretendingLayer(unittest.TestCase):
                 self.assertEqual(case["status"], "fail", case)
             else:  # the layer says that triangles without area are culled, and so does lavapipe
                 self.assertEqual(case["status"], "pass", case)
+
+    def test_fragment_sizes_are_asked(self):
+        cases, asked = self.run_cases("fragment-size/shared-edge", "fragment-size/stencil", "fragment-size/mask-in")
+        self.assertEqual(asked, {"size 2 1", "size 2 2"})
+        for name, case in cases.items():
+            if "wide=4" in name and "mask-in" not in name:
+                sides = "4 x 1" if "high=1" in name else "4 x 2"
+                self.assertEqual((case["status"], case["reason"]),
+                                 ("unsupported",
+                                  f"the device has no fragments of {sides} pixels at sample count 1"))
+            elif "mask-in" in name:
+                self.assertEqual(case["status"], "unsupported", case)
+            else:
+                self.assertEqual(case["status"], "fail", case)
+                self.assertIn("fragment-size.area", json.dumps(case))
+
+    def test_without_the_feature_sizes_are_unsupported(self):
+        cases, _ = self.run_cases("fragment-size/shared-edge", pretends=False)
+        self.assertEqual({(case["status"], case["reason"]) for case in cases.values()},
+                         {("unsupported", "the device lacks the feature pipelineFragmentShadingRate "
+                                          "(VK_KHR_fragment_shading_rate)")})
 
 
 if __name__ == "__main__":

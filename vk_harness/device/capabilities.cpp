@@ -216,6 +216,41 @@ void query_conservative(Capabilities& c) {
     c.info.most_overestimation = conservative.maxExtraPrimitiveOverestimationSize;
 }
 
+// The extension needs render passes of Vulkan 1.2.
+void query_fragment_sizes(Capabilities& c) {
+    if (c.info.api_version < VK_API_VERSION_1_2 ||
+        vkGetPhysicalDeviceFragmentShadingRatesKHR == nullptr ||
+        !has_device_extension(c.physical, VK_KHR_FRAGMENT_SHADING_RATE_EXTENSION_NAME)) {
+        return;
+    }
+    VkPhysicalDeviceFragmentShadingRateFeaturesKHR features =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADING_RATE_FEATURES_KHR};
+    VkPhysicalDeviceFeatures2 all = Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
+    chain(all, features);
+    vkGetPhysicalDeviceFeatures2(c.physical, &all);
+    VkPhysicalDeviceFragmentShadingRatePropertiesKHR limits =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADING_RATE_PROPERTIES_KHR};
+    get_properties(c.physical, limits);
+    FragmentSizeSupport& out = c.fragment_sizes;
+    out.is_supported = features.pipelineFragmentShadingRate == VK_TRUE;
+    out.with_sample_mask = limits.fragmentShadingRateWithSampleMask == VK_TRUE;
+    out.with_shader_mask = limits.fragmentShadingRateWithShaderSampleMask == VK_TRUE;
+    uint32_t count = 0;
+    if (vkGetPhysicalDeviceFragmentShadingRatesKHR(c.physical, &count, nullptr) != VK_SUCCESS) {
+        count = 0;
+    }
+    VkPhysicalDeviceFragmentShadingRateKHR blank =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADING_RATE_KHR};
+    std::vector<VkPhysicalDeviceFragmentShadingRateKHR> rates(count, blank);
+    if (vkGetPhysicalDeviceFragmentShadingRatesKHR(c.physical, &count, rates.data()) < 0) {
+        count = 0;
+    }
+    rates.resize(std::min(rates.size(), size_t{count}));
+    for (const VkPhysicalDeviceFragmentShadingRateKHR& rate : rates) {
+        out.sizes.push_back({rate.fragmentSize.width, rate.fragmentSize.height, rate.sampleCounts});
+    }
+}
+
 void query_features(Capabilities& c) {
     std::vector<std::string>& missing = c.info.missing;
     c.core = query_core_support(c.physical, c.info.api_version, has_device_extension);
@@ -225,6 +260,7 @@ void query_features(Capabilities& c) {
         c.info.has_dynamic_state = c.core.dynamic_state;
         query_optional_features(c);
         query_conservative(c);
+        query_fragment_sizes(c);
     }
 
     uint32_t count = 0;
@@ -340,6 +376,13 @@ void query_depth_formats(Capabilities& c) {
 }
 
 }  // namespace
+
+bool FragmentSizeSupport::has(const std::array<uint32_t, 2>& size,
+                              VkSampleCountFlags samples) const {
+    return (size[0] == 1 && size[1] == 1) || std::ranges::any_of(sizes, [&](const Size& own) {
+               return own.width == size[0] && own.height == size[1] && (own.samples & samples) != 0;
+           });
+}
 
 Capabilities query_capabilities(VkPhysicalDevice physical, uint32_t index) {
     Capabilities c;

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "cases/model/case.hpp"
 #include "vk_harness/device/clip_support.hpp"
@@ -26,6 +27,21 @@ struct PortabilitySupport {
     bool view_reinterpretation = true;    // imageViewFormatReinterpretation
     bool multisampled_arrays = true;      // multisampleArrayImage
     bool constant_alpha_factors = true;   // constantAlphaColorBlendFactors
+};
+
+// VK_KHR_fragment_shading_rate, with pipelineFragmentShadingRate.
+struct FragmentSizeSupport {
+    bool is_supported = false;
+    // fragmentShadingRateWithSampleMask and fragmentShadingRateWithShaderSampleMask: without them
+    // fragments have one pixel where the one or the other masks.
+    bool with_sample_mask = false, with_shader_mask = false;
+    // What the device has, each with its sample counts; nothing stands for one pixel.
+    struct Size {
+        uint32_t width = 1, height = 1;
+        VkSampleCountFlags samples = 0;
+    };
+    std::vector<Size> sizes;
+    bool has(const std::array<uint32_t, 2>& size, VkSampleCountFlags samples) const;
 };
 
 // As far as the harness needs it.
@@ -72,6 +88,7 @@ struct Capabilities {
     DiscardSupport discard;
     DoorSupport doors;
     bool barycentrics = false;  // VK_KHR_fragment_shader_barycentric
+    FragmentSizeSupport fragment_sizes;
 };
 
 // Whether optimally tiled images of the format have all these features.

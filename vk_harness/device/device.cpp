@@ -123,6 +123,9 @@ Result<Device> Device::create(const Capabilities& capabilities) {
     VkPhysicalDeviceFragmentShaderBarycentricFeaturesKHR barycentric =
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADER_BARYCENTRIC_FEATURES_KHR};
     barycentric.fragmentShaderBarycentric = VK_TRUE;
+    VkPhysicalDeviceFragmentShadingRateFeaturesKHR fragment_sizes =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADING_RATE_FEATURES_KHR};
+    fragment_sizes.pipelineFragmentShadingRate = VK_TRUE;
     VkPhysicalDeviceDepthClipEnableFeaturesEXT depth_clip =
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_ENABLE_FEATURES_EXT};
     depth_clip.depthClipEnable = VK_TRUE;
@@ -151,6 +154,9 @@ Result<Device> Device::create(const Capabilities& capabilities) {
     }
     if (capabilities.barycentrics) {
         enable(VK_KHR_FRAGMENT_SHADER_BARYCENTRIC_EXTENSION_NAME, barycentric);
+    }
+    if (capabilities.fragment_sizes.is_supported) {
+        enable(VK_KHR_FRAGMENT_SHADING_RATE_EXTENSION_NAME, fragment_sizes);
     }
     features.features.multiViewport = has_viewports;
     features.features.independentBlend = VK_TRUE;

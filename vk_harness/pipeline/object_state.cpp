@@ -75,6 +75,10 @@ void set_rasterization(const Device& device, VkCommandBuffer commands, const Pip
         vk.vkCmdSetExtraPrimitiveOverestimationSizeEXT(
             commands, own.conservative.extraPrimitiveOverestimationSize);
     }
+    if (c.fragment_sizes.is_supported) {
+        const auto size = fragment_size_state(key);
+        vk.vkCmdSetFragmentShadingRateKHR(commands, &size.fragmentSize, size.combinerOps);
+    }
 }
 
 }  // namespace

@@ -226,6 +226,11 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
         Typed{VK_STRUCTURE_TYPE_PIPELINE_TESSELLATION_STATE_CREATE_INFO};
     tessellation.patchControlPoints = 3;
 
+    // "The default is {1,1}" of a pipeline that does not say it.
+    VkPipelineFragmentShadingRateStateCreateInfoKHR fragments = fragment_size_state(key);
+    const void* further = key.fragment_size[0] * key.fragment_size[1] > 1 ? &fragments : nullptr;
+    rendering.pNext = further;
+
     VkGraphicsPipelineCreateInfo info = Typed{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO};
     if (key.pass) {
         auto pass = get_pass(*key.pass);
@@ -234,6 +239,7 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
         }
         info.renderPass = *pass;
         info.subpass = key.subpass;
+        info.pNext = further;
     } else {
         info.pNext = &rendering;
     }

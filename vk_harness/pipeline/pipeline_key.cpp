@@ -167,6 +167,7 @@ PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw,
     key.depth_clip = draw.depth.clip;
     key.conservative = draw.conservative;
     key.extra_bits = std::bit_cast<uint32_t>(draw.conservative_extra);
+    key.fragment_size = draw.fragment_size;
     key.tests_bounds = cases::tests_bounds(c);
     key.has_depth = c.target.has_depth;
     key.has_stencil = c.target.has_stencil;
@@ -271,6 +272,9 @@ shaders::FragmentVariant fragment_variant(const PipelineKey& key) {
             case cases::Source::sample_id:
             case cases::Source::sample_position:
                 v.sample = true;
+                break;
+            case cases::Source::shading_rate:
+                v.rate = true;
                 break;
         }
         v.lod = v.lod || attribute.probe == cases::Probe::lod;

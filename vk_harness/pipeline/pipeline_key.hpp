@@ -71,7 +71,8 @@ struct PipelineKey {
     bool depth_clamp = false;
     std::optional<bool> depth_clip = {};
     cases::Conservative conservative = cases::Conservative::none;
-    uint32_t extra_bits = 0;    // of Draw::conservative_extra
+    uint32_t extra_bits = 0;  // of Draw::conservative_extra
+    std::array<uint32_t, 2> fragment_size{1, 1};
     bool tests_bounds = false;  // some draw of the case
     bool has_depth = true;
     bool has_stencil = false;

@@ -98,6 +98,14 @@ void rasterization_state(const PipelineKey& key, RasterizationState& state) {
     }
 }
 
+VkPipelineFragmentShadingRateStateCreateInfoKHR fragment_size_state(const PipelineKey& key) {
+    VkPipelineFragmentShadingRateStateCreateInfoKHR state =
+        Typed{VK_STRUCTURE_TYPE_PIPELINE_FRAGMENT_SHADING_RATE_STATE_CREATE_INFO_KHR};
+    state.fragmentSize = {key.fragment_size[0], key.fragment_size[1]};
+    state.combinerOps[0] = state.combinerOps[1] = VK_FRAGMENT_SHADING_RATE_COMBINER_OP_KEEP_KHR;
+    return state;
+}
+
 VkPipelineInputAssemblyStateCreateInfo assembly_state(const PipelineKey& key) {
     VkPipelineInputAssemblyStateCreateInfo assembly =
         Typed{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};

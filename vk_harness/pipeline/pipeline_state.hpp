@@ -31,6 +31,9 @@ struct RasterizationState {
 };
 void rasterization_state(const PipelineKey& key, RasterizationState& state);
 
+// The fragment size, which alone decides the rate ("KEEP").
+VkPipelineFragmentShadingRateStateCreateInfoKHR fragment_size_state(const PipelineKey& key);
+
 VkPipelineInputAssemblyStateCreateInfo assembly_state(const PipelineKey& key);
 
 struct ViewportState {

@@ -79,6 +79,11 @@ Result<Handle<VkPipeline>> PipelineCache::make_from_library(
             rendering = Typed{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
             rendering.viewMask = whole_rendering.viewMask;
         }
+        // The fragment size is state of all shaders but of nothing beside them.
+        const bool has_shaders =
+            part == VK_GRAPHICS_PIPELINE_LIBRARY_PRE_RASTERIZATION_SHADERS_BIT_EXT ||
+            part == VK_GRAPHICS_PIPELINE_LIBRARY_FRAGMENT_SHADER_BIT_EXT;
+        rendering.pNext = has_shaders ? whole_rendering.pNext : nullptr;
         which.pNext = &rendering;
         own.pNext = &which;
         own.flags |= VK_PIPELINE_CREATE_LIBRARY_BIT_KHR;

@@ -23,6 +23,8 @@ shaders::Choice choice_of(const AttributeKey& attribute) {
             return shaders::Choice::sample_id;
         case cases::Source::sample_position:
             return shaders::Choice::sample_position;
+        case cases::Source::shading_rate:
+            return shaders::Choice::shading_rate;
     }
     return static_cast<shaders::Choice>(attribute.probe);
 }

@@ -22,6 +22,7 @@ bool has_two_numbers(const cases::Attribute& a) {
         case cases::Source::sample_position:
         case cases::Source::sample_mask_in:
         case cases::Source::sample_id:
+        case cases::Source::shading_rate:
             return true;
         case cases::Source::vertex:
             break;

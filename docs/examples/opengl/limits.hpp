@@ -31,6 +31,7 @@ inline std::string refusal(const Context& gl, const Json& c) {
         {"barycentrics", "OpenGL has no barycentric coordinates"},
         {"alpha-to-one", "OpenGL has it with several samples alone"},
         {"conservative-rasterization", "OpenGL has no conservative rasterization"},
+        {"fragment-size", "this program has fragments of one pixel"},
         {"dual-source-blend", "this program writes one source of colour"},
         {"depth-bias-control", "OpenGL has no other representation of depth bias"}};
     static const std::map<std::string, std::string> extensions = {

@@ -33,6 +33,7 @@ const NEVER = {
   'cull-distance': 'WebGPU has no cull distances',
   'rasterizer-discard': 'WebGPU has no rasterizer discard',
   'conservative-rasterization': 'WebGPU has no conservative rasterization',
+  'fragment-size': 'WebGPU has fragments of one pixel',
   'early-tests': 'WebGPU has no early tests',
   'sample-mask': 'this program sets no sample mask',
   'sample-shading': 'WebGPU has no sample shading',

@@ -72,12 +72,13 @@ struct Device {
         false;                  // positions: that 1/w is often a unit in the last place too small
     bool scales_first = false;  // the viewport's scale is multiplied before the division
     Centroid centroid = Centroid::first_sample;
-    bool inputs_follow_samples = true;  // with sample shading inputs are evaluated at the sample
-    bool corner_inputs = false;         // with several samples undecorated ones near a corner
-    bool facing_unsnapped = false;      // the sign of the area comes from unsnapped positions
-    bool odd_quads = false;             // quads of derivatives begin at odd pixels
-    int viewport_bits = 0;              // viewportSubPixelBits
-    bool keeps_viewport_grid = false;   // bounds of viewports are rounded to it, halves up
+    bool inputs_follow_samples = true;     // with sample shading inputs are evaluated at the sample
+    bool corner_inputs = false;            // with several samples undecorated ones near a corner
+    bool coarse_inputs_at_sample = false;  // of several pixels: at the first covered sample
+    bool facing_unsnapped = false;         // the sign of the area comes from unsnapped positions
+    bool odd_quads = false;                // quads of derivatives begin at odd pixels
+    int viewport_bits = 0;                 // viewportSubPixelBits
+    bool keeps_viewport_grid = false;      // bounds of viewports are rounded to it, halves up
     // Barycentrics of strips in the first convention's order, with the last convention, too.
     bool first_strip_order = false;
     Overestimation overestimation = Overestimation::none;

@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <limits>
 
+#include "cases/model/sample.hpp"
 #include "ref/number/edge_function.hpp"
 #include "ref/position/clip.hpp"
 #include "ref/position/viewport_grid.hpp"
@@ -356,11 +357,14 @@ std::optional<CandidateSet<T>> try_candidates(const Primitive& primitive,
 
     const bool is_overestimated = primitive.draw->conservative == cases::Conservative::overestimate;
     const bool is_nothing_left = primitive.needs_clipping && polygon.empty();
+    const bool is_large = cases::has_large_fragments(*primitive.draw);
     for (size_t q = 0; q < set.hulls.size(); ++q) {
-        // The centre of a pixel that is covered may lie outside of the triangle, where values are
-        // extrapolated: nothing holds them in the range of the vertices. And what roundings leave
-        // of a triangle, if clipping leaves nothing, has corners anywhere on its edges.
-        if (is_overestimated || (is_nothing_left && !quantities[q].id.is_attribute())) {
+        // The centre of a pixel that is covered, or of a fragment of several pixels, may lie
+        // outside of the triangle, where values are extrapolated: nothing holds them in the range
+        // of the vertices. And what roundings leave of a triangle, if clipping leaves nothing, has
+        // corners anywhere on its edges.
+        if (is_overestimated || (is_large && !quantities[q].at_sample) ||
+            (is_nothing_left && !quantities[q].id.is_attribute())) {
             set.hulls[q] = {T(-0x1p127), T(0x1p127)};
         }
     }

@@ -14,21 +14,33 @@ namespace {
 using Points = std::vector<value::Point<mpq_class>>;
 
 template <class Classify>
-PixelCoverage coverage_of(const cases::Target& target, const TriangleSetup& setup, uint32_t x,
-                          uint32_t y, Classify classify) {
+PixelCoverage coverage_of(const cases::Target& target, const TriangleSetup& setup,
+                          const cases::PixelBlock& block, Classify classify) {
     PixelCoverage out;
     out.is_one_fragment = !setup.is_clipped;
-    for (uint32_t s = 0; s < target.samples; ++s) {
-        switch (classify(setup, sample_position(x, y, s, target))) {
+    const auto add = [&](const cases::SampleId& id) {
+        const uint32_t j = cases::coverage_index(block, target, id);
+        // Beyond the framebuffer there are no samples.
+        if (j >= cases::kMaxFragmentSamples || id.x >= target.width || id.y >= target.height) {
+            return;
+        }
+        switch (classify(setup, sample_position(id.x, id.y, id.sample, target))) {
             case Coverage::must:
-                out.must |= 1U << s;
-                out.may |= 1U << s;
+                out.must |= 1U << j;
+                out.may |= 1U << j;
                 break;
             case Coverage::either:
-                out.may |= 1U << s;
+                out.may |= 1U << j;
                 break;
             case Coverage::must_not:
                 break;
+        }
+    };
+    for (uint32_t y = block.y; y < block.y + block.height; ++y) {
+        for (uint32_t x = block.x; x < block.x + block.width; ++x) {
+            for (uint32_t s = 0; s < target.samples; ++s) {
+                add({x, y, s});
+            }
         }
     }
     return out;
@@ -54,8 +66,8 @@ Points cut(const Points& polygon, const value::Form<mpq_class>& inside) {
     return out;
 }
 
-Points pixel_region(const TriangleSetup& setup, uint32_t x, uint32_t y) {
-    const mpq_class x0(x), y0(y), x1(x + 1), y1(y + 1);
+Points pixel_region(const TriangleSetup& setup, const cases::PixelBlock& block) {
+    const mpq_class x0(block.x), y0(block.y), x1(block.x + block.width), y1(block.y + block.height);
     Points region = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
     if (setup.kind != TriangleSetup::Kind::outlines || !setup.has_outline) {
         return region;
@@ -98,21 +110,23 @@ const TriangleSetup& FragmentCoverage::setup(uint32_t t) {
 }
 
 const PixelCoverage& FragmentCoverage::of(uint32_t t, uint32_t x, uint32_t y) {
-    if (!last_ || !last_->is_of(t, x, y)) {
-        last_ = {t, x, y, coverage_of(case_.target, setup(t), x, y, fast::classify)};
+    const cases::PixelBlock block = block_of(t, x, y);
+    if (!last_ || !last_->is_of(t, block)) {
+        last_ = {t, block, coverage_of(case_.target, setup(t), block, fast::classify)};
     }
     return last_->answer;
 }
 
 const Points& FragmentCoverage::region(uint32_t t, uint32_t x, uint32_t y) {
-    if (!last_region_ || !last_region_->is_of(t, x, y)) {
-        last_region_ = {t, x, y, pixel_region(setup(t), x, y)};
+    const cases::PixelBlock block = block_of(t, x, y);
+    if (!last_region_ || !last_region_->is_of(t, block)) {
+        last_region_ = {t, block, pixel_region(setup(t), block)};
     }
     return last_region_->answer;
 }
 
 PixelCoverage FragmentCoverage::exact(uint32_t t, uint32_t x, uint32_t y) {
-    return coverage_of(case_.target, setup(t), x, y, exact::classify);
+    return coverage_of(case_.target, setup(t), block_of(t, x, y), exact::classify);
 }
 
 }  // namespace ref

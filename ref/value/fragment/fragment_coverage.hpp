@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the fragment of a triangle in a pixel may be: the samples that it covers, and the part of
-// the pixel that lies in the primitive. Centroid interpolation and gl_SampleMaskIn depend on it.
+// What the fragment of a triangle in a pixel, or in a block of pixels, may be: the samples that it
+// covers, and the part of the pixels that lies in the primitive. Centroid interpolation and
+// gl_SampleMaskIn depend on it.
 #pragma once
 
 #include <gmpxx.h>
@@ -13,6 +14,7 @@
 
 #include "cases/model/case.hpp"
 #include "cases/model/profile.hpp"
+#include "cases/model/sample.hpp"
 #include "cases/model/triangle.hpp"
 #include "ref/coverage/setup.hpp"
 #include "ref/number/plane_budget.hpp"
@@ -20,24 +22,26 @@
 
 namespace ref {
 
-// Bit s stands for sample s. Scissor and viewport have been applied, sample masks have not.
+// Bit s stands for sample s, in a block for the sample with coverage index s; the first 32 of them.
+// Scissor and viewport have been applied, sample masks have not.
 struct PixelCoverage {
     uint32_t must = 0, may = 0;
     // False: the triangle is clipped, and devices may make several fragments of its pieces.
     bool is_one_fragment = true;
 };
 
-// Corners of the intersection of pixel (x,y) with the convex hull of the positions that a device
-// may use, in pixels, exact. The whole pixel where the positions have no bounds (w <= 0). May be
-// empty.
-std::vector<value::Point<mpq_class>> pixel_region(const TriangleSetup& setup, uint32_t x,
-                                                  uint32_t y);
+// Corners of the intersection of a block of pixels with the convex hull of the positions that a
+// device may use, in pixels, exact. The whole block where the positions have no bounds (w <= 0).
+// May be empty.
+std::vector<value::Point<mpq_class>> pixel_region(const TriangleSetup& setup,
+                                                  const cases::PixelBlock& block);
 
 // The part of a convex polygon where a x + b y + c >= 0 (Sutherland and Hodgman 1974).
 std::vector<value::Point<mpq_class>> cut(const std::vector<value::Point<mpq_class>>& polygon,
                                          const value::Form<mpq_class>& inside);
 
-// Sets each triangle up once, when first asked, and keeps the last pixel.
+// Sets each triangle up once, when first asked, and keeps the last fragment. Fragments are named by
+// any of their pixels.
 class FragmentCoverage {
   public:
     FragmentCoverage(const cases::Case& c, const Limits& limits, cases::Profile profile,
@@ -59,12 +63,16 @@ class FragmentCoverage {
     std::vector<std::optional<TriangleSetup>> setups_;
     template <class Answer>
     struct Last {
-        uint32_t t = 0, x = 0, y = 0;
+        uint32_t t = 0;
+        cases::PixelBlock block;
         Answer answer;
-        bool is_of(uint32_t triangle, uint32_t column, uint32_t row) const {
-            return t == triangle && x == column && y == row;
+        bool is_of(uint32_t triangle, const cases::PixelBlock& other) const {
+            return t == triangle && block == other;
         }
     };
+    cases::PixelBlock block_of(uint32_t t, uint32_t x, uint32_t y) const {
+        return cases::fragment_block(case_.draws[triangles_[t].draw], x, y);
+    }
     std::optional<Last<PixelCoverage>> last_;
     std::optional<Last<std::vector<value::Point<mpq_class>>>> last_region_;
 };

@@ -132,6 +132,10 @@ bool set_sample_source(cases::Source source, Quantity& q) {
             q.kind = Kind::sample_position;
             q.rule = cases::rule::sample_id;
             return true;
+        case cases::Source::shading_rate:
+            q.kind = Kind::shading_rate;
+            q.rule = cases::rule::fragment_size_rate;
+            return true;
         case cases::Source::vertex:
         case cases::Source::barycentric:
             break;
@@ -162,11 +166,13 @@ std::optional<Derivative> derivative_of(cases::Probe probe) {
 }
 
 std::vector<Quantity> quantities(const cases::Draw& draw, const cases::Target& target) {
-    // With one sample in the centre the sample is where everything is evaluated.
-    const bool multisampled = target.samples > 1 || !target.sample_locations.empty();
+    // With one sample in the centre of a fragment the sample is where everything is evaluated.
+    const bool is_large = has_large_fragments(draw);
+    const bool multisampled = target.samples > 1 || !target.sample_locations.empty() || is_large;
     const bool is_shaded = shading_rate(draw, target.samples) != ShadingRate::fragment;
-    const std::string_view xy =
-        is_shaded ? cases::rule::fragcoord_sample : cases::rule::fragcoord_xy;
+    const std::string_view xy = is_large    ? cases::rule::fragment_size_area
+                                : is_shaded ? cases::rule::fragcoord_sample
+                                            : cases::rule::fragcoord_xy;
     std::vector<Quantity> all;
     all.push_back({Kind::pixel_centre, false, 0, QuantityId::of_frag_coord(0), xy});
     all.push_back({Kind::pixel_centre, false, 0, QuantityId::of_frag_coord(1), xy});

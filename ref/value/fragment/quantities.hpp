@@ -33,6 +33,7 @@ enum class Kind : uint8_t {
     sample_mask,   // gl_SampleMaskIn
     sample_id,
     sample_position,
+    shading_rate,   // gl_ShadingRateEXT
     written_depth,  // that the fragment shader writes, stored
     probe,          // made of an input by a function (probe.hpp)
 };

@@ -89,9 +89,10 @@ std::vector<Change> target_changes() {
 std::vector<Change> draw_changes() {
     [[maybe_unused]] const auto& [topology, positions, indices, primitive_restart, attributes,
                                   viewport, scissor, cull, front_face, provoking,
-                                  rasterizer_discard, conservative, conservative_extra, discard,
-                                  discard_attribute, discard_by, early_tests, frag_depth, query,
-                                  depth, stencil, distances, multisample, color,
+                                  rasterizer_discard, conservative, conservative_extra,
+                                  fragment_size, discard, discard_attribute, discard_by,
+                                  early_tests, frag_depth, query, depth, stencil, distances,
+                                  multisample, color,
                                   other_colors,  // not told
                                   layer, viewport_index, where] = cases::Draw{};
     [[maybe_unused]] const auto& [x, y, width, height, min_depth, max_depth] = cases::Viewport{};
@@ -122,6 +123,10 @@ std::vector<Change> draw_changes() {
         {"conservative",
          [](Case& c) { draw(c).conservative = cases::Conservative::underestimate; }},
         {"conservative_extra", [](Case& c) { draw(c).conservative_extra = 0.5F; }},
+        {"fragment_size",
+         [](Case& c) {
+             draw(c).fragment_size = {1, 2};
+         }},
         {"discard", [](Case& c) { draw(c).discard = cases::Discard::odd_rows; }},
         {"discard_attribute",
          [](Case& c) {

@@ -280,6 +280,68 @@ f:8:1: error: [expect] has no hits; draw one row a pixel row)~"},
     {triangle(R"~([expect]
 hits = 1)~"),
      R"~(f:9:8: error: hits is the number 1; write a string)~"},
+    {triangle(R"~(fragment_size = [2])~"),
+     R"~(f:8:17: error: fragment_size has 1 number; write [width, height])~"},
+    {triangle(R"~(fragment_size = [3, 2])~"),
+     R"~(f:8:18: error: a side of fragment_size is 1, 2 or 4, not 3)~"},
+    {triangle(R"~(fragment_size = [2, 8])~"),
+     R"~(f:8:21: error: fragment_size is not an integer from 1 to 4)~"},
+    {triangle(R"~(fragment_size = [2, 1]
+min_sample_shading = 1)~"),
+     R"~(f:8:17: error: fragment_size does not go with sample shading; leave out one of them)~"},
+    {triangle(R"~(fragment_size = [1, 2]
+conservative = "underestimate")~"),
+     R"~(f:8:17: error: fragment_size does not go with conservative; leave out one of them)~"},
+    {triangle(R"~(fragment_size = [1, 2]
+discard = "odd-rows")~"),
+     R"~(f:8:17: error: fragment_size does not go with a discard by pixels or values; leave out one of them)~"},
+    {triangle(R"~(fragment_size = [1, 2]
+frag_depth = { value = 0.5 })~"),
+     R"~(f:8:17: error: fragment_size does not go with frag_depth; leave out one of them)~"},
+    {triangle(R"~(fragment_size = [1, 2]
+shader_mask = 1)~"),
+     R"~(f:8:17: error: fragment_size does not go with shader_mask; leave out one of them)~"},
+    {triangle(R"~(fragment_size = [1, 2]
+query = "fragment-invocations")~"),
+     R"~(f:8:17: error: fragment_size does not go with a query of fragment invocations; leave out one of them)~"},
+    {triangle(R"~(fragment_size = [1, 2]
+[[draw.clip_distance]]
+constant = 1)~"),
+     R"~(f:8:17: error: fragment_size does not go with clip and cull distances; leave out one of them)~"},
+    {triangle(R"~(fragment_size = [1, 2]
+[[draw.attribute]]
+constant = 1
+probe = "dfdx")~"),
+     R"~(f:8:17: error: fragment_size does not go with probes; leave out one of them)~"},
+    {triangle(R"~(fragment_size = [1, 2]
+[[draw.attribute]]
+source = "barycentric")~"),
+     R"~(f:8:17: error: fragment_size does not go with barycentric inputs; leave out one of them)~"},
+    {triangle(R"~(fragment_size = [1, 2]
+[[draw.attribute]]
+source = "sample-id")~"),
+     R"~(f:8:17: error: fragment_size does not go with sample shading; leave out one of them)~"},
+    {triangle(R"~([[draw.attribute]]
+source = "shading-rate"
+[[draw.attribute]]
+source = "sample-id")~"),
+     R"~(f:8:1: error: no shader here reads the shading rate beside probes, barycentric inputs, gl_SampleID and gl_SamplePosition; put them into two draws)~"},
+    {triangle(R"~([[draw.attribute]]
+source = "shading-rate"
+constant = 1)~"),
+     R"~(f:10:12: error: constant goes with source = "vertex" only)~"},
+    {whole(kHead + "[target]\nsize = [8, 8]\nsamples = 4\n" + kDraw +
+           "fragment_size = [4, 4]\n"),
+     R"~(f:9:17: error: a fragment of 4 x 4 pixels has 64 samples, at most 32 are judged; write a smaller one)~"},
+    {whole(kHead + "[target]\nsize = [8, 8]\nsamples = 4\n" + kDraw +
+           "fragment_size = [4, 2]\n[[draw.attribute]]\nsource = \"sample-mask-in\"\n"),
+     R"~(f:9:17: error: a fragment of 4 x 2 pixels has 32 samples, at most 16 are judged with source = "sample-mask-in"; write a smaller one)~"},
+    {whole("relations = [{ scissor-tiles = [3, 4] }]\n" + kHead + kTarget + kDraw +
+           "fragment_size = [1, 4]\n"),
+     R"~(no error)~"},
+    {whole("relations = [{ scissor-tiles = [3, 4] }]\n" + kHead + kTarget + kDraw +
+           "fragment_size = [2, 1]\n"),
+     R"~(f:1:14: error: the relation scissor-tiles has tiles that cut fragments; make their sides multiples of fragment_size)~"},
     {draw(R"~(generate = 1)~"),
      R"~(f:7:12: error: generate is the number 1; write a table)~"},
     {draw(R"~(space = "ndc"

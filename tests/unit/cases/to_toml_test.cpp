@@ -263,6 +263,33 @@ conservative_extra = 0.25
     EXPECT_EQ(to_bytes(*back), to_bytes(*c));
 }
 
+TEST(ToToml, KeepsFragmentSizes) {
+    const std::string text = R"toml(format      = 1
+description = "A case."
+rules       = ["fragment-size.rate"]
+
+[target]
+size = [8, 8]
+
+[[draw]]
+vertices      = [[0,0], [8,0], [0,8]]
+fragment_size = [4, 2]
+
+[[draw.attribute]]
+source = "shading-rate"
+)toml";
+    const std::optional<Case> c = load_one(text, "family/name");
+    ASSERT_TRUE(c);
+    EXPECT_EQ(c->draws[0].fragment_size, (std::array<uint32_t, 2>{4, 2}));
+    const Expected<std::string> once = to_toml(*c);
+    ASSERT_TRUE(once);
+    EXPECT_NE(once->find("fragment_size = [4, 2]\n"), std::string::npos) << *once;
+    EXPECT_NE(once->find("source = \"shading-rate\"\n"), std::string::npos) << *once;
+    const std::optional<Case> back = load_one(*once, "family/name");
+    ASSERT_TRUE(back);
+    EXPECT_EQ(to_bytes(*back), to_bytes(*c));
+}
+
 // One row a way to write a number: what is given, and the vertices that come of it.
 TEST(ToToml, WritesNumbersShortest) {
     struct NumberRow {

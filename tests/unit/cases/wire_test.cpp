@@ -41,6 +41,7 @@ Case sample() {
     draw.rasterizer_discard = true;
     draw.conservative = cases::Conservative::overestimate;
     draw.conservative_extra = 0.75F;
+    draw.fragment_size = {4, 2};
     draw.discard = cases::Discard::negative;
     draw.discard_attribute = 1;
     draw.discard_by = cases::DiscardBy::terminate;
@@ -152,6 +153,7 @@ TEST(Wire, RoundTripKeepsEveryBit) {
         EXPECT_EQ(a.discard, b.discard);
         EXPECT_EQ(a.conservative, b.conservative);
         EXPECT_EQ(a.conservative_extra, b.conservative_extra);
+        EXPECT_EQ(a.fragment_size, b.fragment_size);
         EXPECT_EQ(a.discard_attribute, b.discard_attribute);
         EXPECT_EQ(a.discard_by, b.discard_by);
         EXPECT_EQ(a.early_tests, b.early_tests);

@@ -63,9 +63,9 @@ TEST(PixelRegion, IsPixelAndTriangle) {
     const cases::Case c = triangle(Auxiliary::none);
     const std::vector<cases::Triangle> triangles = assemble(c);
     FragmentCoverage coverage(c, {8}, Profile::direct3d, triangles);
-    EXPECT_EQ(pixel_region(coverage.setup(0), 2, 2).size(), 4U);
+    EXPECT_EQ(pixel_region(coverage.setup(0), {2, 2, 1, 1}).size(), 4U);
     // Below x + y = 8: the corner (5,4) is cut off between (5,3) and (4,4).
-    const std::vector<P> part = pixel_region(coverage.setup(0), 4, 3);
+    const std::vector<P> part = pixel_region(coverage.setup(0), {4, 3, 1, 1});
     EXPECT_GE(part.size(), 3U);
     for (const P& p : part) {
         EXPECT_LE(p.x + p.y, 8);
@@ -73,7 +73,7 @@ TEST(PixelRegion, IsPixelAndTriangle) {
     }
     EXPECT_TRUE(
         std::any_of(part.begin(), part.end(), [](const P& p) { return p.x == 5 && p.y == 3; }));
-    EXPECT_TRUE(pixel_region(coverage.setup(0), 7, 7).empty());
+    EXPECT_TRUE(pixel_region(coverage.setup(0), {7, 7, 1, 1}).empty());
 }
 
 // The last region is kept: another triangle, column or row has its own.
@@ -85,7 +85,7 @@ TEST(PixelRegion, IsThatOfTheTriangleAndPixelAskedFor) {
     FragmentCoverage coverage(c, {8}, Profile::vulkan, e.triangles);
     size_t parts = 0;
     const auto check = [&](uint32_t t, uint32_t x, uint32_t y) {
-        const std::vector<P> right = pixel_region(coverage.setup(t), x, y);
+        const std::vector<P> right = pixel_region(coverage.setup(t), {x, y, 1, 1});
         const std::vector<P>& kept = coverage.region(t, x, y);
         ASSERT_TRUE(std::equal(kept.begin(), kept.end(), right.begin(), right.end(),
                                [](const P& a, const P& b) { return a.x == b.x && a.y == b.y; }))

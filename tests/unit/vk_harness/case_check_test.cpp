@@ -73,6 +73,52 @@ TEST(CaseCheck, ProvokingVerticesAreMixedOnlyWhereTheyMayBe) {
     }
 }
 
+TEST(CaseCheck, FragmentSizesAreThoseOfTheDevice) {
+    Capabilities m = made_up();
+    cases::Case c = good();
+    c.draws[0].fragment_size = {2, 2};
+    expect_rejected(m, c, Rendered::Status::unsupported,
+                    "the device lacks the feature pipelineFragmentShadingRate "
+                    "(VK_KHR_fragment_shading_rate)");
+    m.fragment_sizes.is_supported = true;
+    expect_rejected(m, c, Rendered::Status::unsupported,
+                    "the device has no fragments of 2 x 2 pixels at sample count 1");
+    m.fragment_sizes.sizes = {{2, 2, VK_SAMPLE_COUNT_1_BIT | VK_SAMPLE_COUNT_4_BIT},
+                              {2, 1, VK_SAMPLE_COUNT_1_BIT}};
+    EXPECT_FALSE(check_case(m, c).has_value());
+    c.draws[0].fragment_size = {1, 2};
+    EXPECT_TRUE(check_case(m, c).has_value());
+    c.draws[0].fragment_size = {2, 1};
+    EXPECT_FALSE(check_case(m, c).has_value());
+    c.target.samples = 4;
+    expect_rejected(m, c, Rendered::Status::unsupported,
+                    "the device has no fragments of 2 x 1 pixels at sample count 4");
+    c.draws[0].fragment_size = {2, 2};
+    c.draws[0].multisample.sample_mask = 7;
+    expect_rejected(m, c, Rendered::Status::unsupported,
+                    "the device has fragments of one pixel where a sample mask is used "
+                    "(fragmentShadingRateWithSampleMask)");
+    m.fragment_sizes.with_sample_mask = true;
+    EXPECT_FALSE(check_case(m, c).has_value());
+    c.draws[0].multisample.sample_mask = 0xfffffff0U | 15U;
+    m.fragment_sizes.with_sample_mask = false;
+    EXPECT_FALSE(check_case(m, c).has_value());
+    cases::Attribute mask;
+    mask.source = cases::Source::sample_mask_in;
+    c.draws[0].attributes = {mask};
+    expect_rejected(m, c, Rendered::Status::unsupported,
+                    "the device has fragments of one pixel where the shader reads gl_SampleMaskIn "
+                    "(fragmentShadingRateWithShaderSampleMask)");
+    m.fragment_sizes.with_shader_mask = true;
+    EXPECT_FALSE(check_case(m, c).has_value());
+    // A rate is read of fragments of one pixel, too.
+    c.draws[0].fragment_size = {1, 1};
+    c.draws[0].attributes[0].source = cases::Source::shading_rate;
+    EXPECT_FALSE(check_case(m, c).has_value());
+    m.fragment_sizes.is_supported = false;
+    EXPECT_TRUE(check_case(m, c).has_value());
+}
+
 TEST(CaseCheck, GoodCasesPass) {
     cases::Case c = good();
     EXPECT_FALSE(check_case(made_up(), c).has_value());

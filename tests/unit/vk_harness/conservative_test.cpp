@@ -47,5 +47,16 @@ TEST(ConservativeState, IsThatOfTheDraw) {
     EXPECT_NE(under.info.pNext, nullptr);
 }
 
+TEST(FragmentSizeState, IsThatOfTheDrawAndCombinesNothing) {
+    PipelineKey key;
+    key.fragment_size = {4, 2};
+    const auto state = fragment_size_state(key);
+    EXPECT_EQ(state.sType, VK_STRUCTURE_TYPE_PIPELINE_FRAGMENT_SHADING_RATE_STATE_CREATE_INFO_KHR);
+    EXPECT_EQ(state.fragmentSize.width, 4U);
+    EXPECT_EQ(state.fragmentSize.height, 2U);
+    EXPECT_EQ(state.combinerOps[0], VK_FRAGMENT_SHADING_RATE_COMBINER_OP_KEEP_KHR);
+    EXPECT_EQ(state.combinerOps[1], VK_FRAGMENT_SHADING_RATE_COMBINER_OP_KEEP_KHR);
+}
+
 }  // namespace
 }  // namespace vk_harness
