@@ -103,14 +103,15 @@ class FragmentCheck {
         finding.rule = cases::rule::fragment_size_shared;
         finding.level = cases::Profile::practice;
         finding.quantity = to_text(number);
-        finding.expected = fmt::format("{} as at {}", cases::number_text(static_cast<double>(values.first)),
-                                       cases::sample_text(case_.target, first));
+        finding.expected =
+            fmt::format("{} as at {}", cases::number_text(static_cast<double>(values.first)),
+                        cases::sample_text(case_.target, first));
         finding.got = cases::number_text(static_cast<double>(values.second));
         const auto& size = case_.draws[t.draw].fragment_size;
-        finding.why =
-            fmt::format("triangle {} of draw {}: one invocation serves the {} x {} pixels of its "
-                        "fragment",
-                        t.primitive, t.draw, size[0], size[1]);
+        finding.why = fmt::format(
+            "triangle {} of draw {}: one invocation serves the {} x {} pixels of its "
+            "fragment",
+            t.primitive, t.draw, size[0], size[1]);
         return finding;
     }
 
@@ -130,8 +131,7 @@ bool has_fragment_rules(const cases::Case& c, const ref::Expectation& expectatio
 }
 
 void check_fragments(const cases::Case& c, const ref::Expectation& expectation,
-                     const capture::CaptureView& capture,
-                     const std::function<void(Finding)>& add) {
+                     const capture::CaptureView& capture, const std::function<void(Finding)>& add) {
     FragmentCheck(c, expectation, capture, add).run();
 }
 

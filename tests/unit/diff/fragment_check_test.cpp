@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Values planted in single pixels of a fragment.
+#include "diff/fragment_check.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "cases/model/rule_ids.hpp"
-#include "diff/fragment_check.hpp"
 #include "diff/verdict.hpp"
 #include "rasterizers/captures.hpp"
 #include "tests/unit/diff/perfect_capture.hpp"

@@ -58,9 +58,13 @@ TEST(FragmentSize, CoverageIndicesBeginWithTheLastPixel) {
 TEST(FragmentSize, RatesAreTwoLogarithms) {
     cases::Draw draw;
     EXPECT_EQ(cases::shading_rate_bits(draw), 0U);
-    for (const auto& [width, height, bits] :
-         {std::array{1U, 2U, 1U}, {1U, 4U, 2U}, {2U, 1U, 4U}, {4U, 1U, 8U}, {4U, 2U, 9U},
-          {2U, 4U, 6U}, {4U, 4U, 10U}}) {
+    for (const auto& [width, height, bits] : {std::array{1U, 2U, 1U},
+                                              {1U, 4U, 2U},
+                                              {2U, 1U, 4U},
+                                              {4U, 1U, 8U},
+                                              {4U, 2U, 9U},
+                                              {2U, 4U, 6U},
+                                              {4U, 4U, 10U}}) {
         draw.fragment_size = {width, height};
         EXPECT_EQ(cases::shading_rate_bits(draw), bits);
     }
@@ -190,7 +194,8 @@ TEST(FragmentSize, WhatIsExpectedIsAtTheCentre) {
     ASSERT_EQ(verdict.mismatches.size(), 2U);
     EXPECT_EQ(verdict.mismatches[0].rule, "fragment-size.area");
     EXPECT_EQ(verdict.mismatches[0].level, Profile::vulkan);
-    EXPECT_EQ(verdict.mismatches[0].expected, "5 exactly, the centre of the fragment's 2 x 2 pixels");
+    EXPECT_EQ(verdict.mismatches[0].expected,
+              "5 exactly, the centre of the fragment's 2 x 2 pixels");
 }
 
 }  // namespace
