@@ -38,10 +38,13 @@ if(EDGECASE_MOLD)
     endif()
 endif()
 
-# Headers that most files include, compiled once for the target; only in presets that ask for it. Targets of one `kind`
-# have the same compiler options and headers: the first one compiles them for all.
+# Headers that most files include, compiled once for the target; only where EDGECASE_PRECOMPILE asks for it. Of one
+# `kind`, with the same headers, the first target compiles them for all that have its compiler options.
 function(edgecase_precompile target kind)
     if(EDGECASE_PRECOMPILE)
+        get_target_property(options ${target} COMPILE_OPTIONS)
+        string(MD5 options "${options}")
+        set(kind "${kind}_${options}")
         get_property(first GLOBAL PROPERTY EDGECASE_PRECOMPILED_${kind})
         if(first)
             target_precompile_headers(${target} REUSE_FROM ${first})

@@ -115,10 +115,10 @@ class Layer(ClassTest):
 
 
 def share():
-    """The share of the suite that each class draws, as --shard takes it: one of eight, another one as the suite grows. All
-    of it takes eight times as long: EDGECASE_SUITE_SHARE=1/1, for the night."""
+    """The share of the suite that each class draws, as --shard takes it: one of 16, another one as the suite grows. All
+    of it takes 16 times as long: EDGECASE_SUITE_SHARE=1/1, for the night."""
     files = len(list((device_classes.SOURCE / "cases" / "suite").rglob("*.toml")))
-    return os.environ.get("EDGECASE_SUITE_SHARE", f"{files % 8 + 1}/8")
+    return os.environ.get("EDGECASE_SUITE_SHARE", f"{files % 16 + 1}/16")
 
 
 @functools.cache

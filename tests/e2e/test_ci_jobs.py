@@ -276,7 +276,7 @@ class Nightly(CiTest):
     RUNS = {
         "parsers": ["install-packages scripts/packages.txt scripts/packages-tests.txt scripts/packages-fuzz.txt", "fuzz 300"],
         "doors": ["install-packages scripts/packages.txt", "build release edgecase", "edgecase run --doors all -o out/doors"],
-        "tests": ["run-tests --all of 0/1 1/1"],
+        "tests": ["run-tests --all of 1/1"],
         "hunt": ["install-packages scripts/packages.txt", "build release edgecase",
                  "edgecase fuzz --time 20m --seed DAY -o out/hunt"]}
 
@@ -291,7 +291,7 @@ class Nightly(CiTest):
                      "build/release/bin/edgecase"):
             path = checkout / name
             path.parent.mkdir(parents=True, exist_ok=True)
-            shares = "SHARES=\"${EDGECASE_REASON_SHARE:+ of $EDGECASE_REASON_SHARE $EDGECASE_SUITE_SHARE}\""
+            shares = "SHARES=\"${EDGECASE_SUITE_SHARE:+ of $EDGECASE_SUITE_SHARE}\""
             path.write_text(f'#!/bin/sh\n{shares}\necho "{path.name} $*$SHARES" >> {log}\n[ "$FAILS" != {path.name} ]\n')
             path.chmod(0o755)
         env = {k: v for k, v in os.environ.items() if k != "FUZZ_SECONDS"}

@@ -48,8 +48,8 @@ class Suite(ProgramTest):
         return {case["id"]: case for case in results["cases"]}
 
     def test_profile_vulkan(self):
-        """What passes at direct3d, at which all of it is drawn below, passes here: a quarter shows that."""
-        self.of_share("vulkan", self.share(4))
+        """What passes at direct3d, at which all of it is drawn below, passes here: an eighth shows that."""
+        self.of_share("vulkan", self.share(8))
 
     def test_silent_under_the_validation_layer(self):
         """At profile practice, at which it passes like that, too."""
@@ -70,7 +70,7 @@ class Suite(ProgramTest):
     def test_the_reference_passes_its_own_judge(self):
         # It draws by rationals, minutes for all of these.
         for words in (("--quick",), ("multisample/**", "clip/**"), ("multisample/**", "clip/**", "--profile", "vulkan")):
-            self.edgecase("run", "-o", self.out, "--renderer", "reference", *words, "--shard", self.share(4), "--timeout", "100", check=0)
+            self.edgecase("run", "-o", self.out, "--renderer", "reference", *words, "--shard", self.share(12), "--timeout", "100", check=0)
             results = self.results()
             left_out = {case["id"]: case["reason"] for case in results["cases"] if case["status"] == "unsupported"}
             self.assertEqual(results["totals"]["pass"] + len(left_out), results["totals"]["cases"])
@@ -79,7 +79,7 @@ class Suite(ProgramTest):
                 self.assertIn("no doors", reason)
 
     def test_one_flipped_pixel_in_every_case_fails_every_case(self):
-        self.run_lavapipe("--no-expect", "--no-diagnosis", "--retries", "0", "--capture", "none", "--shard", self.share(4),
+        self.run_lavapipe("--no-expect", "--no-diagnosis", "--retries", "0", "--capture", "none", "--shard", self.share(8),
                           fault="flip-pixel", check=1)
         # Of triangles with bad numbers nothing is asked: the flipped sample may be one of theirs.
         statuses = {status for case_id, status in self.statuses().items() if not case_id.startswith("bad-numbers/")}

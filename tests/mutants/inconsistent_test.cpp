@@ -26,13 +26,13 @@ using cases::Profile;
 
 constexpr size_t kMostSamples = 1U << 14U;  // larger leaves are left out
 
-// Leaves with relations, of a share by EDGECASE_RELATION_SHARE=k/n; those of doors all, since few
+// Leaves with relations, of a share by EDGECASE_RELATION_SHARE=I/N; those of doors all, since few
 // leaves hold each of their rules.
 const std::vector<cases::Case>& related() {
     static const std::vector<cases::Case> cases = [] {
         std::vector<cases::Case> out;
         const cases::Suite suite = cases::load_suite(test_support::source_dir() + "/cases/suite");
-        const auto share = test_support::share_of("EDGECASE_RELATION_SHARE", 8, suite.cases.size());
+        const auto share = test_support::share_of(8, suite.cases.size(), "EDGECASE_RELATION_SHARE");
         for (const cases::Case& c : suite.cases) {
             const size_t samples = size_t{c.target.width} * c.target.rows() * c.target.samples;
             if (!c.relations.empty() && samples <= kMostSamples &&

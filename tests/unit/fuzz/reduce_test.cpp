@@ -17,6 +17,7 @@
 #include "fuzz/reduce/measure.hpp"
 #include "reduce_documents.hpp"
 #include "suite_documents.hpp"
+#include "tests/share.hpp"
 
 namespace fuzz {
 namespace {
@@ -252,23 +253,116 @@ Reduced checked(const Document& document, const Shows& shows,
     return reduced;
 }
 
+// Each kind of step that a reduction of the suite's files takes, without its numbers and names.
+constexpr const char* kKinds[] = {
+    "as a list without indices",
+    "at half the size",
+    "attribute  constant with ",
+    "clip distance  values with ",
+    "color value with ",
+    "cull distance  values with ",
+    "cut to what is drawn",
+    "in pixels",
+    "scissor with ",
+    "viewport with ",
+    "viewport with whole numbers",
+    "with  layer",
+    "with  sample",
+    "with  samples",
+    "with attribute  alike at all vertices",
+    "with attribute  constant as ",
+    "with attribute  from the vertices",
+    "with attribute  of one component fewer",
+    "with positions of half the digits",
+    "with positions of moderate numbers",
+    "with positions of whole numbers",
+    "with sample mask as ",
+    "with smooth attribute ",
+    "with w of ",
+    "with x of vertex  as ",
+    "with y of vertex  as ",
+    "with z of /",
+    "with z of whole numbers",
+    "without  column at the right",
+    "without  columns at the left",
+    "without  row at the bottom",
+    "without  rows at the top",
+    "without a colour target",
+    "with the format rgbaunorm",
+    "without a depth test",
+    "without attribute ",
+    "without attribute  auxiliary",
+    "without attribute  name",
+    "without attribute  probe",
+    "without catches",
+    "without clip distance ",
+    "without clip distance  negate",
+    "without cull distance ",
+    "without culling",
+    "without depth",
+    "without depth bias slope",
+    "without depth volume",
+    "without depth write",
+    "without draw ",
+    "without draws  to ",
+    "without expect",
+    "without front face",
+    "without indices",
+    "without layer",
+    "without links",
+    "without min sample shading",
+    "without order",
+    "without provoking",
+    "without rasterizer discard",
+    "without relation ",
+    "without relations",
+    "without run ",
+    "without sample mask",
+    "without scissor",
+    "without shader mask",
+    "without target color clear",
+    "without target depth",
+    "without target depth clear",
+    "without target depth resolve",
+    "without target resolve",
+    "without target sample locations",
+    "without target stencil",
+    "without the first  of  triangles",
+    "without the last  of  triangles",
+    "without topology",
+    "without triangle ",
+    "without triangles  to ",
+    "without unused vertices",
+    "without viewport",
+    "without viewport index",
+    "without what is left over of the list",
+    "without z and w",
+    "without z and w of vertex ",
+};
+constexpr size_t kParts = 3;  // of a file's properties; a share has one of a file
+
 // Over the plain files of the suite, each with a part of its properties needed, and answers without
 // a reason, which make the search take what no sensible one takes.
 TEST(Reduce, EndsAtAMinimumByStepsOfAllKinds) {
     std::map<std::string, size_t> kinds;
     const std::vector<SuiteDocument> files = plain_documents();
     EXPECT_GT(files.size(), 150U);
+    const test_support::Share share = test_support::share_of(kParts, files.size());
+    const auto reduce_part = [&](size_t k, size_t from) {
+        const std::set<std::string> needed = some_of(properties_of(load(files[k].text)), from);
+        const Shows shows = shows_with([&](const Case& candidate) {
+            return std::ranges::includes(properties_of(candidate), needed);
+        });
+        const Reduced reduced = checked(read(files[k].text), shows, kinds);
+        // Measured: at most 240 texts in 11 calls.
+        EXPECT_LE(reduced.tried, 400U) << files[k].name;
+        EXPECT_LE(reduced.rounds, 20U) << files[k].name;
+    };
     for (size_t k = 0; k < files.size(); ++k) {
-        const Document document = read(files[k].text);
-        for (const size_t from : {0U, 1U, 2U}) {  // each third of them
-            const std::set<std::string> needed = some_of(properties_of(load(files[k].text)), from);
-            const Shows shows = shows_with([&](const Case& candidate) {
-                return std::ranges::includes(properties_of(candidate), needed);
-            });
-            const Reduced reduced = checked(document, shows, kinds);
-            // Measured: at most 240 texts in 11 calls.
-            EXPECT_LE(reduced.tried, 400U) << files[k].name;
-            EXPECT_LE(reduced.rounds, 20U) << files[k].name;
+        for (size_t from = 0; from < kParts; ++from) {
+            if ((k + from) % share.shares == share.share) {
+                reduce_part(k, from);
+            }
         }
     }
     for (const std::string& needed : properties_of(load(kCrowded))) {
@@ -300,89 +394,18 @@ TEST(Reduce, EndsAtAMinimumByStepsOfAllKinds) {
         EXPECT_LE(reduced.tried, 1000U) << seed;
         EXPECT_LE(reduced.rounds, 80U) << seed;
     }
-    for (const char* kind : {"as a list without indices",
-                             "at half the size",
-                             "attribute  constant with ",
-                             "clip distance  values with ",
-                             "color value with ",
-                             "cull distance  values with ",
-                             "cut to what is drawn",
-                             "in pixels",
-                             "scissor with ",
-                             "viewport with ",
-                             "viewport with whole numbers",
-                             "with  layer",
-                             "with  sample",
-                             "with  samples",
-                             "with attribute  alike at all vertices",
-                             "with attribute  constant as ",
-                             "with attribute  from the vertices",
-                             "with attribute  of one component fewer",
-                             "with positions of half the digits",
-                             "with positions of moderate numbers",
-                             "with positions of whole numbers",
-                             "with sample mask as ",
-                             "with smooth attribute ",
-                             "with w of ",
-                             "with x of vertex  as ",
-                             "with y of vertex  as ",
-                             "with z of /",
-                             "with z of whole numbers",
-                             "without  column at the right",
-                             "without  columns at the left",
-                             "without  row at the bottom",
-                             "without  rows at the top",
-                             "without a colour target",
-                             "with the format rgbaunorm",
-                             "without a depth test",
-                             "without attribute ",
-                             "without attribute  auxiliary",
-                             "without attribute  name",
-                             "without attribute  probe",
-                             "without catches",
-                             "without clip distance ",
-                             "without clip distance  negate",
-                             "without cull distance ",
-                             "without culling",
-                             "without depth",
-                             "without depth bias slope",
-                             "without depth volume",
-                             "without depth write",
-                             "without draw ",
-                             "without draws  to ",
-                             "without expect",
-                             "without front face",
-                             "without indices",
-                             "without layer",
-                             "without links",
-                             "without min sample shading",
-                             "without order",
-                             "without provoking",
-                             "without rasterizer discard",
-                             "without relation ",
-                             "without relations",
-                             "without run ",
-                             "without sample mask",
-                             "without scissor",
-                             "without shader mask",
-                             "without target color clear",
-                             "without target depth",
-                             "without target depth clear",
-                             "without target depth resolve",
-                             "without target resolve",
-                             "without target sample locations",
-                             "without target stencil",
-                             "without the first  of  triangles",
-                             "without the last  of  triangles",
-                             "without topology",
-                             "without triangle ",
-                             "without triangles  to ",
-                             "without unused vertices",
-                             "without viewport",
-                             "without viewport index",
-                             "without what is left over of the list",
-                             "without z and w",
-                             "without z and w of vertex "}) {
+    // Then what is left of the files, until a kind that the share does not take is taken, too.
+    const auto is_each_taken = [&] {
+        return std::ranges::all_of(kKinds, [&](const char* kind) { return kinds[kind] > 0; });
+    };
+    for (const size_t k : test_support::spread(files.size())) {
+        for (size_t from = 0; from < kParts && !is_each_taken(); ++from) {
+            if ((k + from) % share.shares != share.share) {
+                reduce_part(k, from);
+            }
+        }
+    }
+    for (const char* kind : kKinds) {
         EXPECT_GT(kinds[kind], 0U) << "never taken: " << kind;
     }
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Every generated case is valid Vulkan: the Khronos validation layer has nothing to say about any.
-// 10,000 cases are drawn in shares (EDGECASE_FUZZ_SHARE=k/n, 0/1: all), those of a pose together.
+// 10,000 cases are drawn in shares (EDGECASE_FUZZ_SHARE=I/N, 1/1: all), those of a pose together.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ using vk_harness::Rendered;
 constexpr uint64_t kPoses = 1250, kGeometriesOfPose = 8, kSeed = 11;
 
 TEST(Validation, NothingToSayAboutGeneratedCases) {
-    const auto share = test_support::share_of("EDGECASE_FUZZ_SHARE", 25, kPoses);
+    const auto share = test_support::share_of(25, kPoses, "EDGECASE_FUZZ_SHARE");
     vk_harness::Options options;
     options.validation = true;
     auto renderer = vk_harness::Renderer::create(options);

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Every reason that is told decides: the reference answers otherwise once it is taken away. On some
-// samples of a share of the leaves of the suite at every profile (EDGECASE_REASON_SHARE, share.hpp;
-// all of it for the night).
+// samples of a share of the leaves of the suite at every profile (share.hpp).
 #include "ref/reason/reason.hpp"
 
 #include <gtest/gtest.h>
@@ -490,10 +489,11 @@ TEST(Reasons, DecideWhatTheyAreToldFor) {
         return k;
     };
     const cases::Suite suite = cases::load_suite(test_support::source_dir() + "/cases/suite");
-    const auto share = test_support::share_of("EDGECASE_REASON_SHARE", 3, suite.cases.size());
+    const auto share = test_support::share_of(8, suite.cases.size());
     // Then the other leaves, until a reason that the share does not show is seen, too.
     for (const bool is_of_share : {true, false}) {
-        for (const cases::Case& c : suite.cases) {
+        for (const size_t index : test_support::spread(suite.cases.size())) {
+            const cases::Case& c = suite.cases[index];
             for (const Profile profile : cases::kProfiles) {
                 if (!c.blit && share.has(c.id + std::string(to_string(profile))) == is_of_share &&
                     (is_of_share || first_unseen() <= static_cast<size_t>(kLastReason))) {

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "ref/number/ball.hpp"
+#include "tests/share.hpp"
 #include "value_case.hpp"
 
 namespace {
@@ -38,7 +39,7 @@ bool same(const ref::FragmentVerdict& a, const ref::FragmentVerdict& b) {
 TEST(ValueOracle, FilterAgreesAroundTheThreshold) {
     std::mt19937_64 rng(11);
     uint64_t values = 0, fragments = 0, accepted = 0, rejected = 0;
-    for (int n = 0; n < 120; ++n) {
+    for (int n = 0; n < test_support::rounds(120); ++n) {
         const auto shape = static_cast<value_test::Shape>(n % 3);
         const auto s =
             value_test::random_case(rng, n % 2 == 0 ? 64 : 2048, shape, n % 4 < 2 ? 0 : 8);
@@ -77,7 +78,7 @@ TEST(ValueOracle, FilterAgreesAroundTheThreshold) {
             }
         }
     }
-    EXPECT_GE(values, 100000U);
+    EXPECT_GE(values, 800U * static_cast<uint64_t>(test_support::rounds(120)));
     EXPECT_GT(accepted, fragments / 20);
     EXPECT_GT(rejected, fragments / 20);
 }

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Every reason that is told of a wrong value decides: the value is right once it is taken away. On
-// some samples of a share of the leaves of the suite at every profile (EDGECASE_REASON_SHARE,
-// share.hpp; all of it for the night).
+// some samples of a share of the leaves of the suite at every profile (share.hpp).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -227,7 +226,7 @@ TEST(Reasons, NameTheBarycentricOfAnotherVertex) {
 TEST(Reasons, OfValuesDecide) {
     std::map<ReasonKind, size_t> told, taken;
     const cases::Suite suite = cases::load_suite(test_support::source_dir() + "/cases/suite");
-    const auto share = test_support::share_of("EDGECASE_REASON_SHARE", 3, suite.cases.size());
+    const auto share = test_support::share_of(8, suite.cases.size());
     const auto is_shown = [&](ReasonKind kind) {
         return kind == ReasonKind::value_other_weight ||  // the test above
                (told[kind] > 0 && (kind == ReasonKind::value_exact || taken[kind] > 0));
@@ -241,7 +240,8 @@ TEST(Reasons, OfValuesDecide) {
     };
     // Then the other leaves, until a reason that the share does not show is seen, too.
     for (const bool is_of_share : {true, false}) {
-        for (const cases::Case& c : suite.cases) {
+        for (const size_t index : test_support::spread(suite.cases.size())) {
+            const cases::Case& c = suite.cases[index];
             for (const Profile profile : cases::kProfiles) {
                 if (!c.blit && c.target.has_instruments &&
                     share.has(c.id + std::string(to_string(profile))) == is_of_share &&

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The fast reference against the oracle on the shipped suite: what may be drawn, and what values
-// may be. A share of the leaves by EDGECASE_ORACLE_SHARE=k/n (0/1: all).
+// may be. On a share of the leaves (share.hpp).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -43,7 +43,7 @@ const Leaves& leaves() {
     static const Leaves kLeaves = [] {
         Leaves out;
         const auto suite = cases::load_suite(test_support::source_dir() + "/cases/suite");
-        const auto share = test_support::share_of("EDGECASE_ORACLE_SHARE", 32, suite.cases.size());
+        const auto share = test_support::share_of(64, suite.cases.size());
         for (const cases::Case& c : suite.cases) {
             if (c.blit || !share.has(c.id)) {
                 continue;
