@@ -96,8 +96,10 @@ std::optional<Finding> check_invocations(const cases::Draw& draw,
 std::optional<Finding> check_masks(const cases::Draw& draw, const capture::CaptureView& capture,
                                    const Fragment& f, size_t first, uint32_t attribute,
                                    cases::SampleId pixel) {
-    const bool is_one =
-        ref::value::shading_rate(draw, capture.target.samples) == ref::value::ShadingRate::fragment;
+    // Vulkan allows several invocations of a fragment of several pixels (fragment_check.hpp).
+    const bool is_one = ref::value::shading_rate(draw, capture.target.samples) ==
+                            ref::value::ShadingRate::fragment &&
+                        !cases::has_large_fragments(draw);
     const auto mask_of = [&](uint32_t s) -> uint32_t {
         const float v = capture.attributes[attribute][first + s].x;
         return v >= 0.0F && v < 0x1p16F ? static_cast<uint32_t>(v) : 0U;

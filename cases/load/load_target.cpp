@@ -195,8 +195,7 @@ Multisample load_multisample(LeafContext& context, const TomlValue& draw) {
 
 namespace {
 
-// gl_SampleMaskIn reaches the capture as a number, and every device with the extension has as many
-// coverage samples (maxFragmentShadingRateCoverageSamples is at least 16).
+// gl_SampleMaskIn reaches the capture as a number below 2^16 (ref/value/sample_values.cpp).
 constexpr uint32_t kMaxMaskInSamples = 16;
 
 bool is_shaded_by_sample(const Attribute& a) {
@@ -279,6 +278,12 @@ void check_fragment_size(LeafContext& context, const TomlValue& table, const Dra
         context.error(table.find("attribute")->where,
                       "no shader here reads the shading rate beside probes, barycentric inputs, "
                       "gl_SampleID and gl_SamplePosition; put them into two draws");
+    }
+    if (any(has_rate) && (target.color || draw.multisample.shader_mask || draw.frag_depth ||
+                          draw.discard != Discard::none)) {
+        context.error(table.find("attribute")->where,
+                      "no shader here reads the shading rate and writes a colour, a sample mask or "
+                      "a depth, or discards; leave out one of them");
     }
     if (!has_large_fragments(draw)) {
         return;

@@ -80,7 +80,7 @@ constexpr std::array kRules = {
         "FragCoord.xy of all its pixels is the centre of the block of f_w x f_h pixels with "
         "p_x = x % f_w and p_y = y % f_h, exactly, wherever viewport, scissor and target begin and "
         "end, and of however many of them the triangle covers samples.",
-        "primsrast-fragment-shading-rate", "", "ref/value/sample_values.cpp"},
+        "primsrast-multisampling-coverage-mask-vrfs", "", "ref/value/sample_values.cpp"},
     Rule{rule::fragment_size_rate, Profile::vulkan, "gl_ShadingRateEXT is the size of the fragment",
          "The pipeline's size, which the device has among its rates, and 0 of a pipeline without "
          "one: 1 and 2 for 2 and 4 pixels in height, 4 and 8 for 2 and 4 in width.",
@@ -92,7 +92,7 @@ constexpr std::array kRules = {
         "that one triangle wrote last in a block. Vulkan allows further invocations of a fragment, "
         "and says nothing of which pixels each serves; a clipped triangle may be several "
         "fragments.",
-        "primsrast-fragment-shading-rate", "", "diff/fragment_check.cpp"},
+        "fragops-shader", "", "diff/fragment_check.cpp"},
     Rule{rule::face_area_sign, Profile::vulkan, "Facing follows the sign of the area",
          "a = -1/2 sum(x_i y_i+1 - x_i+1 y_i) in framebuffer coordinates; positive is "
          "counter-clockwise. Zero area is back facing. Free where the sign depends on snapping.",

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "cases/model/sample.hpp"
 #include "cases/model/words.hpp"
 #include "cases/wire/bytes.hpp"
 
@@ -36,6 +37,16 @@ bool has_possible_colors(const Case& c) {
                        [others](const Draw& draw) { return draw.other_colors.size() == others; });
 }
 
+// Of fragments: a side divides a pixel's coordinates, and their samples are numbered.
+bool has_possible_fragments(const Case& c) {
+    const auto is_side = [](uint32_t side) { return side == 1 || side == 2 || side == 4; };
+    return std::ranges::all_of(c.draws, [&](const Draw& draw) {
+        return is_side(draw.fragment_size[0]) && is_side(draw.fragment_size[1]) &&
+               (!has_large_fragments(draw) ||
+                samples_of_fragment(draw, c.target) <= kMaxFragmentSamples);
+    });
+}
+
 }  // namespace
 
 std::string to_bytes(const Case& c) {
@@ -51,7 +62,8 @@ Expected<Case> from_bytes(std::span<const char> bytes) {
         return failure("these bytes are not a case of this program");
     }
     Case c = r.get<Case>();
-    if (!r.good() || !has_possible_sizes(c) || !has_possible_colors(c)) {
+    if (!r.good() || !has_possible_sizes(c) || !has_possible_colors(c) ||
+        !has_possible_fragments(c)) {
         return failure("the bytes of a case are cut short or damaged");
     }
     if (!r.at_end()) {

@@ -211,7 +211,8 @@ struct DepthTest::Impl {
             da.topology == db.topology && da.viewport == db.viewport && da.cull == db.cull &&
             da.front_face == db.front_face && da.scissor == db.scissor &&
             da.distances == db.distances && da.multisample == db.multisample &&
-            da.stencil == db.stencil && da.discard == db.discard &&
+            da.fragment_size == db.fragment_size && da.stencil == db.stencil &&
+            da.discard == db.discard && da.discard_by == db.discard_by &&
             da.early_tests == db.early_tests && da.frag_depth == db.frag_depth &&
             da.conservative == db.conservative &&
             same_bits(da.conservative_extra, db.conservative_extra) && has_equal_modes(da, db);

@@ -73,15 +73,30 @@ std::vector<Point<T>> rectangle(double x0, double y0, double x1, double y1) {
     return {{T(x0), T(y0)}, {T(x1), T(y0)}, {T(x1), T(y1)}, {T(x0), T(y1)}};
 }
 
+// Whether the scissor or the target's end cuts the block: nothing says if its centroid then is that
+// of what is left.
+bool is_cut(const Fragment& f) {
+    const cases::PixelBlock& b = f.block;
+    const cases::Rect& scissor = f.draw->scissor;
+    const auto reaches_beyond = [](int64_t begin, int64_t end, int64_t low, int64_t size) {
+        return begin < low || end > low + size;
+    };
+    return reaches_beyond(b.x, b.x + b.width, 0, f.target->width) ||
+           reaches_beyond(b.y, b.y + b.height, 0, f.target->height) ||
+           reaches_beyond(b.x, b.x + b.width, scissor.x, scissor.width) ||
+           reaches_beyond(b.y, b.y + b.height, scissor.y, scissor.height);
+}
+
 // Where a fragment of several pixels may have its centroid at direct3d: at its centre if all of its
-// samples may be covered, or there is one a pixel (then nothing says that it is elsewhere), or at
-// any that may be. Which of them is the first is not asked: no text of Vulkan has that order.
+// samples may be covered, or some may have been cut off, or there is one a pixel (then nothing says
+// that it is elsewhere), or at any that may be. Which of them is the first is not asked: no text of
+// Vulkan has that order.
 std::vector<Spot> block_centroids(const Fragment& f, const Spot& centre) {
     const cases::PixelBlock& b = f.block;
     const uint32_t samples = f.target->samples;
     const uint64_t all = (uint64_t{1} << (b.width * b.height * samples)) - 1;
     std::vector<Spot> spots;
-    if (samples == 1 || f.coverage.may == all) {
+    if (samples == 1 || f.coverage.may == all || is_cut(f)) {
         spots.push_back(centre);
     }
     for (uint32_t y = b.y; y < b.y + b.height; ++y) {
@@ -121,12 +136,15 @@ std::vector<Evaluation<T>> block_evaluations(const Fragment& f, Profile profile)
         return all;
     }
     // Anywhere in the block; with one sample a pixel between the samples, of which the centre is
-    // one of the places. FragCoord.z and w have no place of their own in any text.
+    // one of the places. Of FragCoord.z and w no text says a place: at vulkan anywhere.
     const bool is_single = f.target->samples == 1;
     const double inset = is_single ? 0.5 : 0;
     Evaluation<T> anywhere;
     anywhere.attributes =
         rectangle<T>(b.x + inset, b.y + inset, b.x + b.width - inset, b.y + b.height - inset);
+    if (profile == Profile::vulkan) {
+        anywhere.frag_coord = rectangle<T>(b.x, b.y, b.x + b.width, b.y + b.height);
+    }
     anywhere.sample = sample;
     if (is_single) {  // both sentences hold of it, and the centre may lie outside of the primitive
         anywhere.centroid = rectangle<T>(b.x, b.y, b.x + b.width, b.y + b.height);

@@ -115,13 +115,18 @@ int64_t whole(float v) {
 }
 
 // gl_SampleMaskIn of the invocation that writes the sample: all of `must`, nothing beyond `may`.
+// Before the shader runs, early tests may have taken samples away ("the coverage mask for the
+// current fragment as calculated by fragment operations that executed prior to fragment shading",
+// Vulkan specification, "Sample Mask") or not ("the set of samples covered by the primitive", at
+// the built-in): no text says which.
 struct MaskBounds {
     uint32_t own = 0, must = 0, may = 0;
 };
 MaskBounds mask_bounds(const Fragment& f) {
     const uint32_t own = 1U << cases::coverage_index(f.block, *f.target, f.id);
     const uint32_t state = in_all_pixels(f, f.draw->multisample.sample_mask);
-    return {own, (f.coverage.must & state) | own, (f.coverage.may & state) | own};
+    const uint32_t must = f.draw->early_tests ? 0U : f.coverage.must & state;
+    return {own, must | own, (f.coverage.may & state) | own};
 }
 
 bool is_mask_in(const Fragment& f, float value, Profile profile) {
@@ -136,7 +141,9 @@ bool is_mask_in(const Fragment& f, float value, Profile profile) {
     }
     switch (shading_rate(*f.draw, f.target->samples)) {
         case ShadingRate::fragment:
-            return !f.coverage.is_one_fragment || (mask & must) == must;
+            // Several invocations of a fragment of several pixels may share out its samples.
+            return !f.coverage.is_one_fragment || (mask & must) == must ||
+                   (profile == Profile::vulkan && cases::has_large_fragments(*f.draw));
         case ShadingRate::may_split:
         case ShadingRate::some:
             return true;

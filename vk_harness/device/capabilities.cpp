@@ -216,10 +216,9 @@ void query_conservative(Capabilities& c) {
     c.info.most_overestimation = conservative.maxExtraPrimitiveOverestimationSize;
 }
 
-// The extension needs render passes of Vulkan 1.2.
+// The extension needs render passes of Vulkan 1.2 or VK_KHR_create_renderpass2, as all here.
 void query_fragment_sizes(Capabilities& c) {
-    if (c.info.api_version < VK_API_VERSION_1_2 ||
-        vkGetPhysicalDeviceFragmentShadingRatesKHR == nullptr ||
+    if (vkGetPhysicalDeviceFragmentShadingRatesKHR == nullptr ||
         !has_device_extension(c.physical, VK_KHR_FRAGMENT_SHADING_RATE_EXTENSION_NAME)) {
         return;
     }

@@ -183,6 +183,21 @@ TEST(Wire, EveryCutIsRejected) {
               "error: more bytes follow than the case has");
 }
 
+TEST(Wire, FragmentsThatNothingCanNumberAreRejected) {
+    for (const std::array<uint32_t, 2>& size :
+         {std::array{0U, 1U}, {1U, 3U}, {8U, 1U}, {1U, 1U << 31U}}) {
+        Case c = sample();
+        c.draws[0].fragment_size = size;
+        EXPECT_FALSE(from_bytes(to_bytes(c))) << size[0] << " x " << size[1];
+    }
+    Case c = sample();
+    c.target.samples = 4;
+    c.draws[0].fragment_size = {4, 4};  // 64 samples
+    EXPECT_FALSE(from_bytes(to_bytes(c)));
+    c.draws[0].fragment_size = {4, 2};
+    EXPECT_TRUE(from_bytes(to_bytes(c)));
+}
+
 // Damage anywhere yields a case or an error, never a crash or a huge allocation.
 TEST(Wire, DamageIsHarmless) {
     const std::string bytes = to_bytes(sample());

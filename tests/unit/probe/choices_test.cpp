@@ -213,6 +213,8 @@ const std::map<std::string_view, const char*>& hidden() {
         {"rasterizes-degenerates",
          "devices tell it: degenerateTrianglesRasterized; a run judges by it"},
         {"counts-most", "it shows in pipeline statistics alone, which no experiment asks for"},
+        {"coarse-inputs-at-sample",
+         "it shows in fragments of several pixels alone, of which no experiment draws any"},
     };
     return kHidden;
 }

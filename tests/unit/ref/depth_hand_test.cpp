@@ -171,6 +171,9 @@ TEST(DepthHand, TheSameTriangleAgainIsEqual) {
         c.target.depth_format = DepthFormat::d32_float;
         c.draws[0].depth.compare = CompareOp::always;
         expect_hits(c, 1, 2);
+        c.draws[0].depth.compare = op;
+        c.draws[1].fragment_size = {2, 2};
+        expect_hits(c, 1, 2);
     }
 }
 

@@ -126,6 +126,16 @@ TEST(FragmentSize, CentroidsAreInTheTriangle) {
     EXPECT_EQ(accepted(c, kWhole, whole), "vpd");
 }
 
+// A scissor that takes column 5 away: no text says whether the block's centroid is then elsewhere.
+TEST(FragmentSize, CentroidsOfBlocksThatAreCut) {
+    cases::Case c = in_blocks(Auxiliary::centroid);
+    c.draws[0].scissor = {0, 0, 5, 8};
+    EXPECT_EQ(accepted(c, kPart, at_block({5, 3}, {5, 3})), "vpd");
+    EXPECT_EQ(accepted(c, kPart, at_block({5, 3}, {4.375, 2.125})), "vpd");
+    EXPECT_EQ(accepted(c, kPart, at_block({5, 3}, {5.125, 2.625})), "vp-");  // not covered any more
+    EXPECT_EQ(accepted(in_blocks(Auxiliary::centroid), kPart, at_block({5, 3}, {5, 3})), "vp-");
+}
+
 TEST(FragmentSize, SampleMaskInHasAllPixels) {
     cases::Case c = in_blocks(Auxiliary::none);
     cases::Attribute mask;
@@ -138,12 +148,36 @@ TEST(FragmentSize, SampleMaskInHasAllPixels) {
     };
     EXPECT_EQ(is_accepted(0xf550), "vpd");
     EXPECT_EQ(is_accepted(0x055f), "---");  // the first pixel first
-    EXPECT_EQ(is_accepted(0x0050), "---");  // of the pixel alone
+    EXPECT_EQ(is_accepted(0x0050), "v--");  // of an invocation for the pixel alone
+    EXPECT_EQ(is_accepted(0xf500), "---");  // without the sample that it writes
     EXPECT_EQ(is_accepted(0x5), "---");
     EXPECT_EQ(is_accepted(0xffff), "---");
     c.draws[0].multisample.sample_mask = 4;
     EXPECT_EQ(is_accepted(0x4440), "vpd");
     EXPECT_EQ(is_accepted(0xf550), "---");
+}
+
+// Samples that early tests took away may be missing, those that nothing covers are not there.
+TEST(FragmentSize, SampleMaskInMayBeThatAfterEarlyTests) {
+    for (const bool is_large : {true, false}) {
+        cases::Case c = is_large ? in_blocks(Auxiliary::none) : triangle(Auxiliary::none);
+        cases::Attribute mask;
+        mask.source = Source::sample_mask_in;
+        c.draws[0].attributes = {mask};
+        c.draws[0].early_tests = true;
+        const auto is_accepted = [&](uint32_t bits) {
+            FragmentValues v =
+                is_large ? at_block({5, 3}, {0, 0}) : fragment(kPart, {0, 0}, {0, 0});
+            v.attributes[0] = {static_cast<float>(bits), 0, 0, 0};
+            return accepted(c, kPart, v);
+        };
+        const uint32_t all = is_large ? 0xf550 : 0x5;
+        const uint32_t own = is_large ? 1U << (4 + kPart.sample) : 1U << kPart.sample;
+        EXPECT_EQ(is_accepted(all), "vpd");
+        EXPECT_EQ(is_accepted(own), "vpd");
+        EXPECT_EQ(is_accepted(all & ~own), "---");
+        EXPECT_EQ(is_accepted(own | 0x2), "---");
+    }
 }
 
 TEST(FragmentSize, TheRateIsTheDrawsOwn) {
