@@ -182,7 +182,10 @@ constexpr std::array kRules = {
         "fragops-covg", "", "ref/color/blend.hpp"},
     Rule{rule::sample_mask_in, Profile::vulkan,
          "gl_SampleMaskIn holds the samples of the invocation",
-         "Without sample shading the covered samples after the sample mask; with it a subset that "
+         "Without sample shading the covered samples after the sample mask, of a fragment of "
+         "several "
+         "pixels in Vulkan's order (at vulkan a part of them, since it may have further "
+         "invocations); early tests may have taken samples away. With sample shading a subset that "
          "holds the sample itself, which is that sample alone where every sample has an invocation "
          "(profile practice).",
          "interfaces-builtin-variables-samplemask", "", "ref/value/sample_values.hpp"},

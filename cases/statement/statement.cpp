@@ -184,7 +184,8 @@ constexpr Statement kStatements[] = {
      "Each by its own formula; cases where the two differ.",
      {"interp.perspective", "interp.linear"}, ""},
     {"values on a clipped polygon", Strictness::free, tolerance,
-     "Between the vertex values at vulkan; the plane equation at practice.",
+     "Between the vertex values at vulkan, of fragments of one pixel; the plane equation at "
+     "practice.",
      {"interp.hull", "interp.perspective"}, ""},
     {"flat values and provoking vertex", exact, exact,
      "Bit for bit the provoking vertex's value, first or last.",
