@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <fmt/format.h>
+
 #include <string>
+#include <utility>
 
 #include "vk_harness/public/harness.hpp"
 
@@ -13,5 +16,15 @@ struct Rejection {
     Rendered::Status status = Rendered::Status::unsupported;
     std::string reason;
 };
+
+template <class... T>
+Rejection unsupported(fmt::format_string<T...> text, T&&... values) {
+    return {Rendered::Status::unsupported, fmt::format(text, std::forward<T>(values)...)};
+}
+
+template <class... T>
+Rejection invalid(fmt::format_string<T...> text, T&&... values) {
+    return {Rendered::Status::error, fmt::format(text, std::forward<T>(values)...)};
+}
 
 }  // namespace vk_harness

@@ -326,6 +326,10 @@ source = "shading-rate"
 [[draw.attribute]]
 source = "sample-id")~"),
      R"~(f:8:1: error: no shader here reads the shading rate beside probes, barycentric inputs, gl_SampleID and gl_SamplePosition; put them into two draws)~"},
+    {triangle(R"~(shader_mask = 1
+[[draw.attribute]]
+source = "shading-rate")~"),
+     R"~(f:9:1: error: no shader here reads the shading rate and writes gl_SampleMask; leave out one of them)~"},
     {triangle(R"~([[draw.attribute]]
 source = "shading-rate"
 constant = 1)~"),
