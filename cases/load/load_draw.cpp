@@ -230,19 +230,13 @@ class DrawLoader {
         }
     }
 
-    // No shader is built that writes a colour or depth, or discards, and has these
-    // (cmake/Shaders.cmake).
+    // No shader is built that discards or writes depth and has these (cmake/Shaders.cmake).
     void check_shader() {
         const bool has_other = std::ranges::any_of(draw_.attributes, [](const Attribute& a) {
             return a.source != Source::vertex || a.probe != Probe::value;
         });
         if (!has_other && !draw_.multisample.shader_mask) {
             return;
-        }
-        if (has_other && target_.color && target_.has_instruments) {
-            context_.error(table_.where,
-                           "a shader that writes a colour has plain values here; leave out the "
-                           "target's color, or every source and probe");
         }
         const auto refuse = [&](const char* key, std::string_view does) {
             context_.error(table_.find(key)->where,

@@ -279,10 +279,11 @@ void check_fragment_size(LeafContext& context, const TomlValue& table, const Dra
                       "no shader here reads the shading rate beside probes, barycentric inputs, "
                       "gl_SampleID and gl_SamplePosition; put them into two draws");
     }
-    if (any(has_rate) && draw.multisample.shader_mask) {
+    if (any(has_rate) && (target.color || draw.multisample.shader_mask || draw.frag_depth ||
+                          draw.discard != Discard::none)) {
         context.error(table.find("attribute")->where,
-                      "no shader here reads the shading rate and writes gl_SampleMask; leave out "
-                      "one of them");
+                      "no shader here reads the shading rate and writes a colour, a sample mask or "
+                      "a depth, or discards; leave out one of them");
     }
     if (!has_large_fragments(draw)) {
         return;

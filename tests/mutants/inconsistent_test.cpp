@@ -32,7 +32,8 @@ const std::vector<cases::Case>& related() {
     static const std::vector<cases::Case> cases = [] {
         std::vector<cases::Case> out;
         const cases::Suite suite = cases::load_suite(test_support::source_dir() + "/cases/suite");
-        const auto share = test_support::share_of(8, suite.cases.size(), "EDGECASE_RELATION_SHARE");
+        const auto share =
+            test_support::share_of(16, suite.cases.size(), "EDGECASE_RELATION_SHARE");
         for (const cases::Case& c : suite.cases) {
             const size_t samples = size_t{c.target.width} * c.target.rows() * c.target.samples;
             if (!c.relations.empty() && samples <= kMostSamples &&

@@ -329,7 +329,7 @@ source = "sample-id")~"),
     {triangle(R"~(shader_mask = 1
 [[draw.attribute]]
 source = "shading-rate")~"),
-     R"~(f:9:1: error: no shader here reads the shading rate and writes gl_SampleMask; leave out one of them)~"},
+     R"~(f:9:1: error: no shader here reads the shading rate and writes a colour, a sample mask or a depth, or discards; leave out one of them)~"},
     {triangle(R"~([[draw.attribute]]
 source = "shading-rate"
 constant = 1)~"),

@@ -451,20 +451,6 @@ rules = ["cover.inside"]
 [target]
 size = [2, 1]
 samples = 4
-color = { format = "rgba8-unorm", clear = [0, 0, 0, 1] }
-[[draw]]
-vertices = [[0,0],[8,0],[0,8]]
-color = { value = [1, 0, 0, 1] }
-[[draw.attribute]]
-source = "sample-mask-in"
-)~"),
-     R"~(f:8:1: error: a shader that writes a colour has plain values here; leave out the target's color, or every source and probe)~"},
-    {whole(R"~(format = 1
-description = "d"
-rules = ["cover.inside"]
-[target]
-size = [2, 1]
-samples = 4
 [[draw]]
 vertices = [[0,0],[8,0],[0,8]]
 discard = "back"
