@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "cases/model/rule_ids.hpp"
+#include "cases/model/sample.hpp"
 #include "diff/verdict.hpp"
 #include "rasterizers/captures.hpp"
 #include "tests/unit/diff/perfect_capture.hpp"
@@ -98,6 +99,36 @@ TEST(FragmentCheck, ClippedTrianglesAreNotAsked) {
     ASSERT_EQ(capture.writers[index].primitive, 0U);
     capture.attributes[0][index].x = after(capture.attributes[0][index].x);
     EXPECT_TRUE(verdict_of(c, capture).ok());
+}
+
+// Two invocations of one fragment share out its 16 samples, those of one pixel among them: Vulkan
+// allows it, devices do not do it.
+TEST(FragmentCheck, InvocationsMayShareOutTheSamplesOfAMask) {
+    cases::Case c = in_blocks(2, 2);
+    c.target.samples = 4;
+    cases::Attribute mask;
+    mask.source = cases::Source::sample_mask_in;
+    mask.components = 1;
+    c.draws[0].attributes = {mask};
+    capture::Capture capture = rasterizers::draw_by_reference(c);
+    ASSERT_TRUE(verdict_of(c, capture).ok());
+    const uint32_t own = 1U << cases::coverage_index({0, 0, 2, 2}, c.target, {1, 0, 2});
+    const auto at = [&](uint32_t x, uint32_t y, uint32_t s) -> float& {
+        return capture.attributes[0][cases::index_of(c.target, {x, y, s})].x;
+    };
+    for (uint32_t y = 0; y < 2; ++y) {
+        for (uint32_t x = 0; x < 2; ++x) {
+            for (uint32_t s = 0; s < 4; ++s) {
+                ASSERT_EQ(at(x, y, s), 0xffff);
+                const bool is_apart = x == 1 && y == 0 && s == 2;
+                at(x, y, s) = static_cast<float>(is_apart ? own : 0xffff & ~own);
+            }
+        }
+    }
+    EXPECT_TRUE(verdict_of(c, capture, Profile::vulkan).ok());
+    EXPECT_FALSE(verdict_of(c, capture, Profile::practice).ok());
+    at(1, 0, 2) = static_cast<float>(own | 1U);  // which the other invocation has, too
+    EXPECT_FALSE(verdict_of(c, capture, Profile::vulkan).ok());
 }
 
 }  // namespace

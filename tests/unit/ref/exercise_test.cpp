@@ -444,5 +444,16 @@ TEST(Exercise, AFlatColourShowsItsVertex) {
     }
 }
 
+// The second draw leaves one pixel of each fragment of the first one, which then agrees with none.
+TEST(Exercise, SharedFragmentsKeepTwoPixels) {
+    const std::string target = "[target]\nsize = [2, 8]\n";
+    const std::string square = "vertices = [[0,0], [2,0], [0,8],  [2,0], [2,8], [0,8]]\n";
+    const std::string first = target + "[[draw]]\nfragment_size = [2, 1]\n" + square;
+    const std::string next = "[[draw]]\nscissor = [0, 0, 1, 8]\n" + square;
+    const std::vector<std::string> rules = {"fragment-size.shared"};
+    EXPECT_GT(exercise_of_text(first, rules).rules[0].samples, 4U);
+    EXPECT_EQ(exercise_of_text(first + next, rules).rules[0].samples, 0U);
+}
+
 }  // namespace
 }  // namespace ref
