@@ -196,7 +196,7 @@ constexpr std::array kRows = {
     Row{value_of_not_last, rule::provoking_last,
         "the flat input is that of another vertex than the last, which is the provoking one"},
     Row{value_other_weight, rule::barycentric_order, "this is the barycentric of another vertex"},
-    Row{value_exact, {}, "the sample and its pixel leave these exact numbers only"},
+    Row{value_exact, {}, "the sample and its fragment leave these exact numbers only"},
     Row{value_coord_depth, rule::depth_written,
         "the fragment shader wrote gl_FragCoord.z to gl_FragDepth, and another depth is stored"},
     Row{value_not_discarded, rule::discard_value,

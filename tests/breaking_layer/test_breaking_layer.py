@@ -4,7 +4,6 @@
 that catches.json names for it; matrix.py finds them. A machine without lavapipe fails these tests: they are never
 skipped."""
 import json
-import os
 import pathlib
 import shutil
 import subprocess
@@ -12,6 +11,7 @@ import tempfile
 import unittest
 
 import broken
+from shares import is_in_share
 
 CATCHES = json.loads((pathlib.Path(__file__).parent / "catches.json").read_text())
 # The faults that no case can see on this driver, with the reason (README.md).
@@ -66,9 +66,7 @@ def is_diagnosed(place):
     """Whether the failures of the fault at this place are diagnosed, too. No verdict here depends on the diagnosis, which
     takes five times as long as all the rest: that it lives is seen at one fault of eight, others as the faults grow in
     number, and by night at all (.ci/nightly)."""
-    share = os.environ.get("EDGECASE_SUITE_SHARE", f"{len(CATCHES) % 8 + 1}/8")
-    index, shares = map(int, share.split("/"))
-    return place // 4 % shares == index - 1  # of four in a row one is in each part
+    return is_in_share(place // 4, 8, len(CATCHES))  # of four in a row one is in each part
 
 
 def part(number, parts):

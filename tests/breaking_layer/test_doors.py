@@ -3,7 +3,6 @@
 """Faults that only a picture through a door shows: nobody sees them without doors, the door of doors.json does, and it
 says so by a rule of its own."""
 import json
-import os
 import pathlib
 import shutil
 import tempfile
@@ -11,14 +10,14 @@ import unittest
 
 import broken
 import doors
+from shares import is_in_share
 
 FOUND = json.loads((pathlib.Path(__file__).parent / "doors.json").read_text())
 
 
 def of_share(names):
     """Every other one, the others as the faults grow in number; by night all (.ci/nightly)."""
-    index, shares = map(int, os.environ.get("EDGECASE_SUITE_SHARE", f"{len(FOUND) % 2 + 1}/2").split("/"))
-    return [name for place, name in enumerate(names) if place % shares == index - 1]
+    return [name for place, name in enumerate(names) if is_in_share(place, 2, len(FOUND))]
 
 
 class Doors(unittest.TestCase):

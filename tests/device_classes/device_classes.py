@@ -5,7 +5,10 @@ import json
 import os
 import pathlib
 import subprocess
+import sys
 import tomllib
+
+sys.path.append(str(pathlib.Path(__file__).parents[1]))  # shares.py
 
 HERE = pathlib.Path(__file__).resolve().parent
 SOURCE = HERE.parents[1]

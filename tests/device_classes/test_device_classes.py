@@ -5,7 +5,6 @@ skipped."""
 import collections
 import functools
 import json
-import os
 import pathlib
 import shutil
 import subprocess
@@ -14,6 +13,7 @@ import unittest
 
 import device_classes
 import devices_page
+from shares import share_of
 
 WIDE = {"r32-sfloat", "r32g32-sfloat", "r32g32b32a32-sfloat"}
 
@@ -118,7 +118,7 @@ def share():
     """The share of the suite that each class draws, as --shard takes it: one of 16, another one as the suite grows. All
     of it takes 16 times as long: EDGECASE_SUITE_SHARE=1/1, for the night."""
     files = len(list((device_classes.SOURCE / "cases" / "suite").rglob("*.toml")))
-    return os.environ.get("EDGECASE_SUITE_SHARE", f"{files % 16 + 1}/16")
+    return share_of(16, files)
 
 
 @functools.cache

@@ -6,9 +6,12 @@ import os
 import pathlib
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 import xml.etree.ElementTree
+
+sys.path.append(str(pathlib.Path(__file__).parents[1]))  # shares.py
 
 PROGRAM = os.environ.get("EDGECASE_PROGRAM", "edgecase")
 SOURCE = pathlib.Path(os.environ.get("EDGECASE_SOURCE_DIR", pathlib.Path(__file__).parents[2]))

@@ -6,6 +6,7 @@ import os
 import unittest
 
 import support
+from shares import share_of
 from support import ProgramTest
 
 
@@ -21,7 +22,7 @@ class Suite(ProgramTest):
     def share(self, parts):
         """As --shard takes it: one of these parts, another one as the suite grows. By night all of it (.ci/nightly)."""
         count = len(self.edgecase("list", "--ids", check=0).stdout.splitlines())
-        return os.environ.get("EDGECASE_SUITE_SHARE", f"{count % parts + 1}/{parts}")
+        return share_of(parts, count)
 
     def of_share(self, profile, share, *words):
         cases = self.of_profile(profile, "--shard", share, *words)
