@@ -104,20 +104,31 @@ bool is_demanding(const cases::Case& c) {
     return c.target.samples > 4 || !c.target.sample_locations.empty() || c.target.layers > 1;
 }
 
+// Bytes that drawing the case moves, more or less: those of its capture, and of a vertex what its
+// position has on its way through a pipeline (16, read, written and clipped).
+uint64_t drawing_cost(const cases::Case& c) {
+    constexpr uint64_t kBytesOfVertex = 64;
+    uint64_t vertices = 0;
+    for (const cases::Draw& draw : c.draws) {
+        vertices += draw.indices ? draw.indices->size() : draw.positions.size();
+    }
+    return capture::capture_bytes(c) + kBytesOfVertex * vertices;
+}
+
 void cover(std::span<cases::Case* const> selected, const Wish& wish) {
     std::map<std::string, std::vector<cases::Case*>> families;
     for (cases::Case* c : selected) {
         families[family_of(*c)].push_back(c);
     }
     for (auto& [family, members] : families) {
-        std::vector<uint64_t> bytes;
+        std::vector<uint64_t> costs;
         for (const cases::Case* c : members) {
-            bytes.push_back(capture::capture_bytes(*c));
+            costs.push_back(drawing_cost(*c));
         }
         for (const cases::DoorRow& row : cases::all_doors()) {
             std::optional<size_t> best;
             const auto rank = [&](size_t k) {
-                return std::tuple(is_demanding(*members[k]), bytes[k], members[k]->doors.size(), k);
+                return std::tuple(is_demanding(*members[k]), costs[k], members[k]->doors.size(), k);
             };
             for (size_t k = 0; k < members.size(); ++k) {
                 if (wish.has(row.door) && cases::can_take(row.door, *members[k]) &&
