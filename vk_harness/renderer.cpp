@@ -16,6 +16,10 @@ namespace {
 // alone.
 constexpr VkDeviceSize kChunkBytes = VkDeviceSize{256} << 20;
 constexpr VkDeviceSize kKeptBytes = VkDeviceSize{512} << 20;
+// Pipelines and shader objects kept between submissions. The cases of a family follow each other, so
+// that few are asked for again behind these: a run of the suite takes as long with 4,096. One of
+// lavapipe takes some 600 KB, and a run through all doors makes tens of thousands.
+constexpr size_t kKeptPipelines = 512;
 
 // What is kept must not be why the next allocation fails, on a device of little memory.
 VkDeviceSize kept_bytes(const Capabilities& c) {
@@ -330,6 +334,7 @@ void BatchRenderer::run_chunk(std::vector<CasePlan>& plans, bool read_back,
     plans.clear();
     targets_.trim(kept_bytes(device_->capabilities()));
     submission_.trim(kept_bytes(device_->capabilities()));
+    pipelines_.trim(kKeptPipelines);
 }
 
 std::vector<Rendered> BatchRenderer::render(std::span<const cases::Case> batch, bool read_back,

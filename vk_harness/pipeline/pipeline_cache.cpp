@@ -122,6 +122,14 @@ Result<VkShaderModule> PipelineCache::shader_module(std::span<const uint32_t> co
     return modules_.emplace(std::move(key), std::move(*made)).first->second.get();
 }
 
+void PipelineCache::trim(size_t most) {
+    if (pipelines_.size() + objects_.size() > most) {
+        pipelines_.clear();
+        libraries_.clear();
+        objects_.clear();
+    }
+}
+
 Result<VkPipeline> PipelineCache::get(const PipelineKey& key) {
     return get_or_make(pipelines_, key, [&] { return make_graphics(key); });
 }

@@ -41,6 +41,10 @@ class PipelineCache {
     // The compute pipeline that copies the samples of an attachment to a buffer.
     Result<VkPipeline> get_copy(const Attachment& attachment);
 
+    // Lets go of all pipelines and shader objects of draws if there are more than `most` of them,
+    // and of what those were linked from. Nothing on the device may need them any more.
+    void trim(size_t most);
+
     VkPipelineLayout layout() const { return layout_.get(); }
     // Set 0 of a draw: binding 0, the texture whose level of detail is asked for.
     VkDescriptorSetLayout texture_set_layout() const { return texture_set_layout_.get(); }

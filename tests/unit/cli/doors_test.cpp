@@ -20,15 +20,16 @@ std::vector<cases::Case> load(const std::string& text, const std::string& id) {
 
 // A family whose smallest picture has thousands of triangles, beside a larger one of one triangle.
 std::vector<cases::Case> crowded_family(const std::string& family) {
-    std::vector<cases::Case> all =
-        load("format = 1\ndescription = \"d\"\ncatches = \"c\"\nrules = [\"cover.inside\"]\n[target]\nsize = [8, 8]\n[[draw]]\n"
-             "generate = { kind = \"surface\", shape = \"plane\", columns = 64, rows = 64, "
-             "radius = \"1/2\" }\n",
-             family + "/crowded");
-    for (cases::Case& c :
-         load("format = 1\ndescription = \"d\"\ncatches = \"c\"\nrules = [\"cover.inside\"]\n[target]\nsize = [32, 32]\n[[draw]]\n"
-              "vertices = [[1, 1], [7, 2], [2, 4]]\n",
-              family + "/plain")) {
+    std::vector<cases::Case> all = load(
+        "format = 1\ndescription = \"d\"\ncatches = \"c\"\nrules = "
+        "[\"cover.inside\"]\n[target]\nsize = [8, 8]\n[[draw]]\n"
+        "generate = { kind = \"surface\", shape = \"plane\", columns = 64, rows = 64, "
+        "radius = \"1/2\" }\n",
+        family + "/crowded");
+    for (cases::Case& c : load("format = 1\ndescription = \"d\"\ncatches = \"c\"\nrules = "
+                               "[\"cover.inside\"]\n[target]\nsize = [32, 32]\n[[draw]]\n"
+                               "vertices = [[1, 1], [7, 2], [2, 4]]\n",
+                               family + "/plain")) {
         all.push_back(std::move(c));
     }
     return all;
