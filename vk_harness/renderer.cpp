@@ -16,8 +16,8 @@ namespace {
 // alone.
 constexpr VkDeviceSize kChunkBytes = VkDeviceSize{256} << 20;
 constexpr VkDeviceSize kKeptBytes = VkDeviceSize{512} << 20;
-// Pipelines and shader objects kept between submissions. The cases of a family follow each other, so
-// that few are asked for again behind these: a run of the suite takes as long with 4,096. One of
+// Pipelines and shader objects kept between submissions. The cases of a family follow each other,
+// so that few are asked for again behind these: a run of the suite takes as long with 4,096. One of
 // lavapipe takes some 600 KB, and a run through all doors makes tens of thousands.
 constexpr size_t kKeptPipelines = 512;
 
