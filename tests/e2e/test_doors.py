@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Doors on lavapipe: what a run is asked for, what it draws, and what it tells of the rest."""
 import json
-import shutil
 import unittest
 
 from support import ProgramTest
@@ -82,27 +81,6 @@ class Doors(ProgramTest):
             sentence = "index-16: no picture was drawn; left out where no case asks for it, known to be broken by bug-7\n"
             self.assertEqual(sentence in done.stdout, not is_drawn)
             self.assertGreater(sum(d["pictures"] for d in results["doors"]), 2)
-
-    def test_the_whole_suite_takes_default(self):
-        shutil.rmtree(self.folder / "cases")  # which would be found first
-        env = {k: v for k, v in self.environment().items() if k != "EDGECASE_SUITE"}
-        done = self.edgecase("run", "--device", "llvmpipe", "-o", "out", "--no-diagnosis", "-q", env=env, check=0)
-        results = json.loads((self.folder / "out" / "results.json").read_text())
-        pictures = {d["door"]: d["pictures"] for d in results["doors"]}
-        self.assertEqual(len(pictures), len(self.edgecase("doors", check=0).stdout.splitlines()) // 3)
-        self.assertGreater(sum(pictures.values()), 1500)
-        # lavapipe has shader objects since Mesa 25.
-        lacking = {d["door"] for d in results["doors"] if d["pictures"] == 0 and d["reason"].startswith("the device lacks ")}
-        self.assertLessEqual(lacking, {"shader-objects", "mesh-shader"})
-        broken = {d["door"] for d in results["doors"] if d["pictures"] == 0 and d.get("skipped_by")}
-        self.assertLessEqual(broken, {"query-first", "transform-feedback"})  # of 22.3 and 25, of 25 and 26
-        self.assertEqual({door for door, count in pictures.items() if count == 0}, lacking | broken)
-        # A failure of the plain picture is drawn again without them.
-        known = [c for c in results["cases"] if c["status"] == "xfail" and not any(g.get("door") for g in c["groups"])]
-        self.assertGreater(len(known), 50)
-        self.assertEqual([c["rerun"] for c in known if "--doors" in c["rerun"]], [])
-        done = self.edgecase("run", "--device", "llvmpipe", "-o", "out", "coverage/bow-tie:*", env=env, check=0)
-        self.assertNotIn("doors:", done.stdout)
 
     def test_default_draws_each_door_with_each_family(self):
         _, results = self.run_doors("--doors", "default", "!a/strip", "--retries", "0", check=1)

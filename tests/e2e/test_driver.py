@@ -10,6 +10,7 @@ import subprocess
 import sys
 import unittest
 
+from shares import is_in_share
 from support import CASE, PROGRAM, SOURCE, ProgramTest
 
 
@@ -62,15 +63,18 @@ class Driver(ProgramTest):
         self.run_driver(*usual, *sorted(named), check=0)
         cases = [c for c in self.case_results() if c["status"] == "xfail"]
         self.assertGreater(len(cases), 60)
+        cases = [c for k, c in enumerate(cases) if is_in_share(k, 3, len(cases))]
         for fault in ("flip-pixel", "shift-value"):
-            left = [c["id"] for c in cases]
+            # Some are left out: there the device draws nothing but wrong samples, of the kind that is planted, or all
+            # others are free.
+            left = [c["id"] for c in cases if not c["id"].startswith(("scissor/rectangles:x=65536,", "clip/once-eye"))]
             # A fault at a sample that is wrong already changes what it shows, not what is wrong: then another sample
             # has it.
             for skipped in (0, 1, 2, 5, 11, 13, 37, 53, 70, 101, 150, 211, 280):
+                if not left:
+                    break
                 self.run_driver(*usual, *left, fault=",".join(f"{fault}+{skipped}@{i}" for i in left))
                 left = [i for i, s in self.short_statuses().items() if s == "xfail"]
-            # There the device draws nothing but wrong samples, of the kind that is planted, or all others are free.
-            left = [i for i in left if not i.startswith(("scissor/rectangles:x=65536,", "clip/once-eye"))]
             self.assertEqual(left, [], fault)
         mine = self.folder / "mine.txt"
         self.run_driver(*usual, "--no-expect", *(c["id"] for c in cases), check=1)
@@ -167,8 +171,10 @@ class Examples(ProgramTest):
                 seen.append(example)
                 # A hunt begins with a reduction of each known defect of the driver; test_fuzz has such ones.
                 of_it = {"EDGECASE_SUITE": f"{self.folder}/suite"} if "edgecase fuzz" in example else {}
+                if example == "edgecase run":  # test_suite draws all of it
+                    of_it = {"EDGECASE_SUITE": f"{self.folder}/suite/ties"}
                 # test_fuzz hunts for more; a hunt of these lengths shows whether the words are understood.
-                shown = example.replace("--cases 1024", "--cases 128")
+                shown = example.replace("--cases 1024", "--cases 128").replace("--runs 5", "--runs 1")
                 done = subprocess.run(["bash", "-c", "set -o pipefail; " + shown], env=env | of_it, cwd=self.folder,
                                       capture_output=True, text=True, timeout=240, check=False)
                 # What was snapped to 1/256 pixel may be wrong on a grid of 1/16, and a hunt may find something.

@@ -3,6 +3,7 @@
 """The suite itself, on lavapipe: it has to pass at every profile, silently under the validation layer, and a
 broken picture has to fail it. A machine without lavapipe fails these tests: they are never skipped."""
 import os
+import shutil
 import unittest
 
 import support
@@ -32,7 +33,9 @@ class Suite(ProgramTest):
     def of_profile(self, profile, *words):
         """Runs the suite and checks what holds at every profile; its cases by their ids."""
         self.run_lavapipe("--profile", profile, *words, check=0)
-        results = self.results()
+        return self.checked(profile, self.results())
+
+    def checked(self, profile, results):
         self.assertEqual(results["totals"]["cases"], results["totals"]["pass"] + results["totals"]["xfail"] + results["totals"]["unsupported"])
         self.assertGreaterEqual(results["totals"]["cases"], 200)
         self.assertLessEqual(results["totals"]["xfail"], 175)  # each told in cases/expectations
@@ -61,12 +64,35 @@ class Suite(ProgramTest):
         def told(c):
             return (c["id"], c["status"], c["counts"], c["either_samples"], c["worst_ratio"])
 
-        two = self.of_profile("direct3d", "-j", "2")
+        shutil.rmtree(self.folder / "cases")  # which would be found first
+        env = {k: v for k, v in self.environment().items() if k != "EDGECASE_SUITE"}
+        self.edgecase("run", "-j", "2", "--device", "llvmpipe", "-o", self.out, env=env, check=0)
+        results = self.results()
+        two = self.checked("direct3d", results)
+        self.check_default_doors(results)
         share = self.share(4)
         self.run_lavapipe("-j", "1", "--shard", share, check=0)
         one = self.results()["cases"]
         self.assertGreater(len(one) * int(share.split("/")[1]), 4000)
         self.assertEqual([told(c) for c in one], [told(two[c["id"]]) for c in one])
+
+    def check_default_doors(self, results):
+        """Whoever draws the whole suite that comes with the program draws each door with each family."""
+        pictures = {d["door"]: d["pictures"] for d in results["doors"]}
+        self.assertEqual(len(pictures), len(self.edgecase("doors", check=0).stdout.splitlines()) // 3)
+        self.assertGreater(sum(pictures.values()), 1500)
+        # lavapipe has shader objects since Mesa 25.
+        lacking = {d["door"] for d in results["doors"] if d["pictures"] == 0 and d["reason"].startswith("the device lacks ")}
+        self.assertLessEqual(lacking, {"shader-objects", "mesh-shader"})
+        broken = {d["door"] for d in results["doors"] if d["pictures"] == 0 and d.get("skipped_by")}
+        self.assertLessEqual(broken, {"query-first", "transform-feedback"})  # of 22.3 and 25, of 25 and 26
+        self.assertEqual({door for door, count in pictures.items() if count == 0}, lacking | broken)
+        # A failure of the plain picture is drawn again without them.
+        known = [c for c in results["cases"] if c["status"] == "xfail" and not any(g.get("door") for g in c["groups"])]
+        self.assertGreater(len(known), 50)
+        self.assertEqual([c["rerun"] for c in known if "--doors" in c["rerun"]], [])
+        done = self.run_lavapipe("coverage/bow-tie:*", check=0)
+        self.assertNotIn("doors:", done.stdout)
 
     def test_the_reference_passes_its_own_judge(self):
         # It draws by rationals, minutes for all of these.

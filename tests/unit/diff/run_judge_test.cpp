@@ -203,7 +203,7 @@ void expect_same_of_shorter(const cases::Case& c, const ref::Expectation& e,
     ASSERT_EQ(text_of(first), text_of(whole)) << n;
 }
 
-TEST(RunJudge, SaysWhatSamplesSayOneByOne) {
+TEST(ExhaustiveRunJudge, SaysWhatSamplesSayOneByOne) {
     Random rng(41);
     int right = 0, wrong_pictures = 0;
     for (int n = 0; n < 600; ++n) {
@@ -229,7 +229,7 @@ TEST(RunJudge, SaysWhatSamplesSayOneByOne) {
     EXPECT_GT(wrong_pictures, 100);
 }
 
-TEST(RunJudge, SaysWhatColoursAloneSayOneByOne) {
+TEST(ExhaustiveRunJudge, SaysWhatColoursAloneSayOneByOne) {
     Random rng(43);
     int right = 0, wrong_pictures = 0;
     for (int n = 0; n < 300; ++n) {
@@ -270,7 +270,7 @@ TEST(RunJudge, SaysWhatColoursAloneSayOneByOne) {
 
 // The stretches of memory against the state of each sample; nearly all of a right picture is in
 // them.
-TEST(RunJudge, StretchesHoldWhatTheirSamplesHold) {
+TEST(ExhaustiveRunJudge, StretchesHoldWhatTheirSamplesHold) {
     Random rng(47);
     size_t clear = 0, hit = 0, all = 0;
     for (int n = 0; n < 300; ++n) {

@@ -209,7 +209,7 @@ TEST(BlitReference, ConversionsAllowNeighbours) {
     EXPECT_FALSE(reference.allows(2, 1, codes, Profile::vulkan));
 }
 
-TEST(BlitReference, TheFilterAgreesWithTheRationals) {
+TEST(ExhaustiveBlitReference, TheFilterAgreesWithTheRationals) {
     std::mt19937_64 random(7);
     const auto below = [&](uint64_t n) { return static_cast<int32_t>(random() % n); };
     size_t accepted = 0;

@@ -40,7 +40,7 @@ cases::Draw negated(cases::Draw d) {
     return d;
 }
 
-TEST(ClipDistance, FastIsTheOracle) {
+TEST(ExhaustiveClipDistance, FastIsTheOracle) {
     uint64_t open = 0;
     uint64_t decided = 0;
     uint64_t pairs = 0;
@@ -121,7 +121,7 @@ bool has_area(const cases::Draw& d) {
     return (p[1].x - p[0].x) * (p[2].y - p[0].y) != (p[1].y - p[0].y) * (p[2].x - p[0].x);
 }
 
-TEST(ClipDistance, DecidesAsTheExactSignDoes) {
+TEST(ExhaustiveClipDistance, DecidesAsTheExactSignDoes) {
     uint64_t decided = 0;
     uint64_t all = 0;
     for (uint64_t seed = 1; seed <= 600; ++seed) {
@@ -175,7 +175,7 @@ struct Tested {
     }
 };
 
-TEST(ClipDistance, AllowsADeviceThatTestsEachSample) {
+TEST(ExhaustiveClipDistance, AllowsADeviceThatTestsEachSample) {
     uint64_t open_and_drawn = 0;
     for (uint64_t seed = 1; seed <= 600; ++seed) {
         RandomCases random(seed);
@@ -219,7 +219,7 @@ TEST(ClipDistance, AllowsADeviceThatTestsEachSample) {
     EXPECT_GT(open_and_drawn, 10U);
 }
 
-TEST(ClipDistance, OnThePlaneIsOpenForOneDrawAndClosedForTwo) {
+TEST(ExhaustiveClipDistance, OnThePlaneIsOpenForOneDrawAndClosedForTwo) {
     cases::Case c = pixels(8, 8, {{-1, -1}, {20, -1}, {-1, 20}});
     cases::Draw& d = c.draws[0];
     d.distances = {1, 0, {{-4.5F, 0, 0, 0}, {16.5F, 0, 0, 0}, {-4.5F, 0, 0, 0}}, {}};  // x - 3.5
@@ -241,7 +241,7 @@ TEST(ClipDistance, OnThePlaneIsOpenForOneDrawAndClosedForTwo) {
     }
 }
 
-TEST(ClipDistance, SeveralNegatedDistancesShareNoSample) {
+TEST(ExhaustiveClipDistance, SeveralNegatedDistancesShareNoSample) {
     cases::Case c = pixels(8, 8, {{-1, -1}, {20, -1}, {-1, 20}});
     c.draws[0].distances = {2,
                             0,
@@ -256,7 +256,7 @@ TEST(ClipDistance, SeveralNegatedDistancesShareNoSample) {
     EXPECT_EQ(hits_at(e, 5, 1).total_max, 0U);
 }
 
-TEST(ClipDistance, ZeroEverywhereClipsNothing) {
+TEST(ExhaustiveClipDistance, ZeroEverywhereClipsNothing) {
     cases::Case c = pixels(8, 8, {{-1, -1}, {20, -1}, {-1, 20}});
     c.draws[0].distances = {1, 0, std::vector<glm::vec4>(3, glm::vec4(0.0F)), {}};
     EXPECT_EQ(count_hits(expect(c, {8}, cases::Profile::vulkan)).once, 64U);

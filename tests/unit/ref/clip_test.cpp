@@ -178,7 +178,7 @@ TEST(Clip, ErrorBoundsBinary32) {
 }
 
 // Weights, positions and edges are those of the rationals, and bounds theirs, rounded up.
-TEST(Clip, AgreesWithRationals) {
+TEST(ExhaustiveClip, AgreesWithRationals) {
     RandomCases random(13);
     int cut = 0, bounds = 0;
     const auto is_bound = [&](const mpq_class& bound, const mpq_class& exact) {

@@ -222,14 +222,14 @@ void check_remembered(uint32_t triangles, bool is_varied, std::mt19937& random) 
     }
 }
 
-TEST(ColorMemory, RemembersWhatTheUnitWrites) {
+TEST(ExhaustiveColorMemory, RemembersWhatTheUnitWrites) {
     std::mt19937 random(4);
     for (int n = 0; n < 4; ++n) {
         check_remembered(6, false, random);
     }
 }
 
-TEST(ColorMemory, ColoursBeyondItsCapacityAreComputed) {
+TEST(ExhaustiveColorMemory, ColoursBeyondItsCapacityAreComputed) {
     std::mt19937 random(5);
     check_remembered(ColorReference::kRemembered / 4, true, random);  // in each of four draws
 }

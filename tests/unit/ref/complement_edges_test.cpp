@@ -150,7 +150,7 @@ TEST(ComplementEdges, VerticesThatAreNoNumbersHaveNoPartner) {
     EXPECT_EQ(expect(c, Limits{}, Profile::direct3d).samples.size(), 1U);
 }
 
-TEST(ComplementEdges, LatticesAreHitOnce) {
+TEST(ExhaustiveComplementEdges, LatticesAreHitOnce) {
     std::mt19937 random(1);
     uint64_t joined = 0;
     for (int n = 0; n < 30; ++n) {

@@ -70,7 +70,7 @@ TEST(Component, BinarySixtyFourSaysWhatRationalsSay) {
     });
 }
 
-TEST(Component, TheCodeOfItsValueIsTheCode) {
+TEST(ExhaustiveComponent, TheCodeOfItsValueIsTheCode) {
     for_each_component([](const Component& component, const cases::ComponentFormat& format) {
         const uint32_t sign = format.kind == ComponentKind::half ? 0x8000U : 0x80000000U;
         size_t wrong = 0;

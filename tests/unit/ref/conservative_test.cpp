@@ -201,7 +201,7 @@ Setting random_setting(RandomCases& random) {
     return s;
 }
 
-TEST(Conservative, FastAndExactAgree) {
+TEST(ExhaustiveConservative, FastAndExactAgree) {
     uint64_t samples = 0;
     uint64_t decided = 0;
     uint64_t open = 0;

@@ -53,7 +53,7 @@ std::vector<CountBounds> without_hits(const Expectation& e, const cases::Case& c
     return count_bounds(e, c.draws.size(), {});
 }
 
-TEST(Counted, ExpectationsAgreeWithTheOracle) {
+TEST(ExhaustiveCounted, ExpectationsAgreeWithTheOracle) {
     uint64_t least = 0, open = 0, hidden = 0;
     for (uint64_t seed = 1; seed <= 120; ++seed) {
         const cases::Case c = random_counted_case(seed);

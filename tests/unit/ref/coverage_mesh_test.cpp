@@ -141,7 +141,7 @@ cases::Case inner_mesh(RandomCases& random, const Setting& s) {
     return c;
 }
 
-TEST(CoverageMesh, EverySnappingIsAllowed) {
+TEST(ExhaustiveCoverageMesh, EverySnappingIsAllowed) {
     uint64_t fixed = 0;  // samples on shared edges that only the exactly-one rule decides
     for (uint64_t seed = 1; seed <= 250; ++seed) {
         RandomCases random(seed);
@@ -360,7 +360,7 @@ TEST(CoverageMesh, EdgesThatClippingMakesAreFree) {
 
 // A device that clips in binary32, from the inner end of each edge, snaps to nearest and draws the
 // polygon with the top-left rule: all it shows is allowed at every profile.
-TEST(CoverageMesh, ClippingDeviceIsAllowed) {
+TEST(ExhaustiveCoverageMesh, ClippingDeviceIsAllowed) {
     uint64_t decided = 0;
     uint64_t clipped = 0;
     for (uint64_t seed = 1; seed <= 200; ++seed) {

@@ -96,7 +96,7 @@ bool escapes(const HitBounds& strict, const HitBounds& loose) {
     return false;
 }
 
-TEST(CoverageNesting, StricterProfilesForbidNoLess) {
+TEST(ExhaustiveCoverageNesting, StricterProfilesForbidNoLess) {
     RandomCases random(11);
     uint64_t compared = 0;
     uint64_t decided_later = 0;

@@ -23,7 +23,7 @@ void expect_equal(const cases::Case& c, const Setting& s, uint64_t seed) {
         << s.limits.subpixel_bits;
 }
 
-TEST(CoverageOracle, RandomTriangles) {
+TEST(ExhaustiveCoverageOracle, RandomTriangles) {
     uint64_t samples = 0;
     uint64_t decided = 0;
     uint64_t open = 0;
@@ -44,7 +44,7 @@ TEST(CoverageOracle, RandomTriangles) {
     EXPECT_GT(open, 1000U);
 }
 
-TEST(CoverageOracle, RandomMeshes) {
+TEST(ExhaustiveCoverageOracle, RandomMeshes) {
     uint64_t open = 0;
     for (uint64_t seed = 1; seed <= 150; ++seed) {
         RandomCases random(seed);
@@ -60,7 +60,7 @@ TEST(CoverageOracle, RandomMeshes) {
 }
 
 // Meshes and triangles with bad numbers in some of their vertices.
-TEST(CoverageOracle, BadNumbers) {
+TEST(ExhaustiveCoverageOracle, BadNumbers) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     constexpr float kMax = std::numeric_limits<float>::max();
     const float bad[] = {std::numeric_limits<float>::quiet_NaN(),
@@ -136,7 +136,7 @@ TEST(BadNumbers, RangeDependsOnTheProfile) {
     EXPECT_TRUE(is_representable({0x1p123F, 0, 0, 1}, cases::Profile::direct3d));
 }
 
-TEST(CoverageOracle, ClassifyAgreesWithScan) {
+TEST(ExhaustiveCoverageOracle, ClassifyAgreesWithScan) {
     uint64_t covered = 0;
     for (uint64_t seed = 1; seed <= 200; ++seed) {
         RandomCases random(seed);
@@ -159,7 +159,7 @@ TEST(CoverageOracle, ClassifyAgreesWithScan) {
     EXPECT_GT(covered, 1000U);
 }
 
-TEST(CoverageOracle, HullAndWinding) {
+TEST(ExhaustiveCoverageOracle, HullAndWinding) {
     RandomCases random(7);
     const auto number = [&] { return random.integer(-6, 6); };
     int inside = 0;

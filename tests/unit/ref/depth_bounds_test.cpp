@@ -54,7 +54,7 @@ cases::Case random_bounds_case(uint64_t seed) {
     return c;
 }
 
-TEST(DepthBounds, ExpectationsAgreeWithTheOracle) {
+TEST(ExhaustiveDepthBounds, ExpectationsAgreeWithTheOracle) {
     uint64_t must = 0, open = 0, fails = 0;
     for (uint64_t seed = 1; seed <= 120; ++seed) {
         const cases::Case c = random_bounds_case(seed);

@@ -87,7 +87,7 @@ class RandomDepth {
     std::mt19937_64 engine_;
 };
 
-TEST(DepthOracle, ExpectationsAgree) {
+TEST(ExhaustiveDepthOracle, ExpectationsAgree) {
     uint64_t must = 0, open = 0, failed = 0;
     for (uint64_t seed = 1; seed <= 150; ++seed) {
         RandomDepth random(seed);
@@ -117,7 +117,7 @@ TEST(DepthOracle, ExpectationsAgree) {
 }
 
 // Whatever a looser profile is sure of, a stricter one is sure of too.
-TEST(DepthOracle, ProfilesNest) {
+TEST(ExhaustiveDepthOracle, ProfilesNest) {
     for (uint64_t seed = 1; seed <= 150; ++seed) {
         RandomDepth random(seed + 1000);
         const cases::Case c = random.next();
@@ -134,7 +134,7 @@ TEST(DepthOracle, ProfilesNest) {
     }
 }
 
-TEST(DepthOracle, VerdictsAgree) {
+TEST(ExhaustiveDepthOracle, VerdictsAgree) {
     uint64_t accepted = 0, rejected = 0;
     for (uint64_t seed = 1; seed <= 60; ++seed) {
         RandomDepth random(seed);

@@ -46,7 +46,7 @@ cases::Case random_case(uint64_t seed, bool early) {
     return c;
 }
 
-TEST(Discard, ExpectationsAgreeWithTheOracle) {
+TEST(ExhaustiveDiscard, ExpectationsAgreeWithTheOracle) {
     uint64_t must = 0, open = 0, hidden = 0;
     for (uint64_t seed = 1; seed <= 120; ++seed) {
         const cases::Case c = random_case(seed, true);

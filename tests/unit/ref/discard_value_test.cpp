@@ -59,7 +59,7 @@ cases::Case random_case(uint64_t seed) {
     return c;
 }
 
-TEST(DiscardValue, ExpectationsAgreeWithTheOracle) {
+TEST(ExhaustiveDiscardValue, ExpectationsAgreeWithTheOracle) {
     uint64_t must = 0, open = 0, hidden = 0;
     for (uint64_t seed = 1; seed <= 60; ++seed) {
         const cases::Case c = random_case(seed);

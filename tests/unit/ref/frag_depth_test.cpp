@@ -70,7 +70,7 @@ cases::Case random_frag_depth_case(uint64_t seed) {
     return c;
 }
 
-TEST(FragDepth, ExpectationsAgreeWithTheOracle) {
+TEST(ExhaustiveFragDepth, ExpectationsAgreeWithTheOracle) {
     uint64_t must = 0, open = 0, others = 0;
     for (uint64_t seed = 1; seed <= 150; ++seed) {
         const cases::Case c = random_frag_depth_case(seed);

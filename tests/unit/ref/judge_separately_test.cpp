@@ -107,7 +107,7 @@ struct Random {
     }
 };
 
-TEST(ValueAlone, FailsWhatTheWholeSetFails) {
+TEST(ExhaustiveValueAlone, FailsWhatTheWholeSetFails) {
     std::mt19937_64 rng(23);
     uint32_t none = 0, some = 0, told = 0, open = 0;
     for (int n = 0; n < 15; ++n) {
@@ -233,7 +233,7 @@ TEST(ValueAlone, SaysTheSameWithoutRatios) {
 
 // The exact set, rounded, against the exact set: what its Balls tell is right, and they tell nearly
 // all, one point for several inputs included (profile practice), which other Balls leave open.
-TEST(ValueAlone, ARoundedSetSaysWhatTheExactOneSays) {
+TEST(ExhaustiveValueAlone, ARoundedSetSaysWhatTheExactOneSays) {
     std::mt19937_64 rng(31);
     uint32_t told = 0, open = 0, wrong = 0, more = 0;
     for (int n = 0; n < 60; ++n) {
@@ -264,7 +264,7 @@ TEST(ValueAlone, ARoundedSetSaysWhatTheExactOneSays) {
 }
 
 // Evaluations judged together against each of them alone, where nothing can be shared.
-TEST(ValueAlone, EvaluationsShareWhatIsTheSame) {
+TEST(ExhaustiveValueAlone, EvaluationsShareWhatIsTheSame) {
     std::mt19937_64 rng(29);
     uint32_t compared = 0, wrong = 0, several = 0;
     for (int n = 0; n < 240; ++n) {
@@ -309,7 +309,7 @@ TEST(ValueAlone, EvaluationsShareWhatIsTheSame) {
 
 // What the bounds of all set-ups reject or accept, rationals reject or accept, too; and they leave
 // little open of what is far off.
-TEST(ValueAlone, BoundsOfAllSetUpsProveWhatTheyDecide) {
+TEST(ExhaustiveValueAlone, BoundsOfAllSetUpsProveWhatTheyDecide) {
     std::mt19937_64 rng(31);
     uint32_t far = 0, far_rejected = 0, rejected = 0, accepted = 0;
     for (int n = 0; n < 180; ++n) {

@@ -141,7 +141,7 @@ TEST(Layers, OpenSamplesStayOpen) {
 
 // Random triangles over shared vertices, in random layers, with and without depth test: each layer
 // is what it would be alone, and both implementations agree.
-TEST(Layers, EachIsAsAloneAndExactAgrees) {
+TEST(ExhaustiveLayers, EachIsAsAloneAndExactAgrees) {
     std::mt19937_64 random(4711);
     const auto below = [&](uint64_t n) { return random() % n; };
     uint64_t open = 0;

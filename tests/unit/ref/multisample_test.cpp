@@ -34,7 +34,7 @@ TEST(PixelCoverage, IsThatOfTheTriangleAlone) {
     EXPECT_TRUE(coverage.of(0, 4, 3).is_one_fragment);
 }
 
-TEST(PixelCoverage, FastIsExact) {
+TEST(ExhaustivePixelCoverage, FastIsExact) {
     std::mt19937_64 random(7);
     const auto coordinate = [&] {
         return static_cast<double>(random() % 4096) / 256 - 4 + 0.37 * (random() % 2 ? 1 : 0);

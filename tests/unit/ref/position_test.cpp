@@ -183,7 +183,7 @@ TEST(Position, ProfilesAreNestedAndHoldTheNearestPoint) {
 }
 
 // The binary64 filter never says anything else than the rationals, and says something mostly.
-TEST(Position, FilterAgreesWithRationals) {
+TEST(ExhaustivePosition, FilterAgreesWithRationals) {
     RandomCases random(6);
     int told = 0;
     int snapped = 0;

@@ -472,7 +472,7 @@ class LeafReasons {
     size_t depths_ = 0;  // so many were checked
 };
 
-TEST(Reasons, DecideWhatTheyAreToldFor) {
+TEST(ExhaustiveReasons, DecideWhatTheyAreToldFor) {
     // The others are of values (value_reason_test.cpp) and of findings (diff/attribution.cpp), and
     // the limits here are those of a device that draws what has no area.
     const auto is_asked = [](ReasonKind kind) {

@@ -138,7 +138,7 @@ class RandomQuestions : public value_test::Random {
     uint32_t mask() { return one_in(2) ? 0xffU : one_in(4) ? below(1U << 12U) : value(); }
 };
 
-TEST(Stencil, OperationsAgreeWithTheOracle) {
+TEST(ExhaustiveStencil, OperationsAgreeWithTheOracle) {
     RandomQuestions random(7);
     for (uint32_t k = 0; k < 20000; ++k) {
         const cases::StencilState state = random.state();
@@ -152,7 +152,7 @@ TEST(Stencil, OperationsAgreeWithTheOracle) {
     }
 }
 
-TEST(Stencil, QuestionsAgreeWithTheOracle) {
+TEST(ExhaustiveStencil, QuestionsAgreeWithTheOracle) {
     uint64_t open = 0, free = 0;
     for (uint64_t seed = 1; seed <= 4000; ++seed) {
         RandomQuestions random(seed);
@@ -217,7 +217,7 @@ cases::Case random_case(uint64_t seed) {
     return c;
 }
 
-TEST(Stencil, ExpectationsAgreeWithTheOracle) {
+TEST(ExhaustiveStencil, ExpectationsAgreeWithTheOracle) {
     uint64_t must = 0, open = 0, sets = 0;
     for (uint64_t seed = 1; seed <= 120; ++seed) {
         const cases::Case c = random_case(seed);

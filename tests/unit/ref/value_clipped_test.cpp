@@ -153,10 +153,10 @@ void expect_pieces_pass(uint64_t seed, bool behind) {
     EXPECT_GT(wrong_rejected * 100, static_cast<uint64_t>(count) * 90);
 }
 
-TEST(ValueClipped, PiecesInBinary32Pass) {
+TEST(ExhaustiveValueClipped, PiecesInBinary32Pass) {
     expect_pieces_pass(21, false);
 }
-TEST(ValueClipped, PiecesOfTrianglesBehindTheEyePass) {
+TEST(ExhaustiveValueClipped, PiecesOfTrianglesBehindTheEyePass) {
     expect_pieces_pass(22, true);
 }
 
@@ -164,7 +164,7 @@ TEST(ValueClipped, PiecesOfTrianglesBehindTheEyePass) {
 // sample has to be hit, and what is cut from it near w = 0 may be anything between its values
 // there. Snapped, the three positions have an area, but a device that cuts the triangle does not
 // use them. At profile vulkan 1/w need not be a number there.
-TEST(ValueClipped, ThroughTheEyeIsBoundByTheHullAlone) {
+TEST(ExhaustiveValueClipped, ThroughTheEyeIsBoundByTheHullAlone) {
     const glm::vec4 v0(-0x1.6f66p+0F, 0x1.6f08p+0F, -0.5F, -1);
     const glm::vec4 v1(-0x1.f25acp+1F, -0x1.8161p+0F, 1.625F, 3.25F);
     const glm::vec4 v2(0x1.ad14ep+2F, -0x1.c69p-1F, -0.875F, -1.75F);

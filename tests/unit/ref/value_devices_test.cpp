@@ -52,7 +52,7 @@ Tally run(Device device, Fault fault, uint64_t seed, int count, int w_exponent) 
     return tally;
 }
 
-TEST(ValueDevices, OriginAnchoredPlanesPass) {
+TEST(ExhaustiveValueDevices, OriginAnchoredPlanesPass) {
     const Tally t = run(Device::origin_plane, Fault::none, 1, 20000, 12);
     RecordProperty("worst_ratio", std::to_string(t.worst));
     std::printf("origin plane: %llu fragments, K %.3f\n",
@@ -61,21 +61,21 @@ TEST(ValueDevices, OriginAnchoredPlanesPass) {
     EXPECT_GT(t.fragments, 20000U);
 }
 
-TEST(ValueDevices, VertexRelativeSnappedPlanesPass) {
+TEST(ExhaustiveValueDevices, VertexRelativeSnappedPlanesPass) {
     const Tally t = run(Device::relative_snapped, Fault::none, 2, 20000, 12);
     std::printf("relative snapped: %llu fragments, K %.3f\n",
                 static_cast<unsigned long long>(t.fragments), t.worst);
     EXPECT_EQ(t.rejected, 0U) << t.first;
 }
 
-TEST(ValueDevices, BruteBarycentricsPass) {
+TEST(ExhaustiveValueDevices, BruteBarycentricsPass) {
     const Tally t = run(Device::brute_barycentric, Fault::none, 3, 20000, 12);
     std::printf("brute barycentric: %llu fragments, K %.3f\n",
                 static_cast<unsigned long long>(t.fragments), t.worst);
     EXPECT_EQ(t.rejected, 0U) << t.first;
 }
 
-TEST(ValueDevices, DifferenceFormPasses) {
+TEST(ExhaustiveValueDevices, DifferenceFormPasses) {
     const Tally t = run(Device::difference_form, Fault::none, 4, 20000, 12);
     std::printf("difference form: %llu fragments, K %.3f\n",
                 static_cast<unsigned long long>(t.fragments), t.worst);
@@ -83,18 +83,18 @@ TEST(ValueDevices, DifferenceFormPasses) {
 }
 
 // A fault must be seen in nearly every triangle where it changes anything worth mentioning.
-TEST(ValueDevices, AffineInsteadOfPerspectiveIsRejected) {
+TEST(ExhaustiveValueDevices, AffineInsteadOfPerspectiveIsRejected) {
     const Tally t = run(Device::origin_plane, Fault::affine, 5, 1000, 4);
     // Half of the triangles have equal w, where affine is right.
     EXPECT_GT(t.rejected * 100, t.fragments * 45);
 }
 
-TEST(ValueDevices, HalfPixelShiftIsRejected) {
+TEST(ExhaustiveValueDevices, HalfPixelShiftIsRejected) {
     const Tally t = run(Device::origin_plane, Fault::half_pixel, 6, 600, 4);
     EXPECT_GT(t.rejected * 100, t.fragments * 98);
 }
 
-TEST(ValueDevices, TwelveBitReciprocalIsRejected) {
+TEST(ExhaustiveValueDevices, TwelveBitReciprocalIsRejected) {
     std::mt19937_64 rng(7);
     uint64_t rejected = 0, fragments = 0;
     for (int n = 0; n < 500; ++n) {
@@ -110,7 +110,7 @@ TEST(ValueDevices, TwelveBitReciprocalIsRejected) {
 }
 
 // One basis has to explain all values: half of them from unsnapped, half from snapped positions.
-TEST(ValueDevices, MixedBasesAreRejected) {
+TEST(ExhaustiveValueDevices, MixedBasesAreRejected) {
     std::mt19937_64 rng(8);
     uint64_t rejected = 0, fragments = 0;
     for (int n = 0; n < 300; ++n) {
@@ -130,7 +130,7 @@ TEST(ValueDevices, MixedBasesAreRejected) {
 }
 
 // Each change below turns a fragment that passes into one that fails.
-TEST(ValueDevices, SwappedValuesAreRejected) {
+TEST(ExhaustiveValueDevices, SwappedValuesAreRejected) {
     std::mt19937_64 rng(9);
     for (int n = 0; n < 500; ++n) {
         const Sampled s = value_test::random_case(rng, 64, Shape::large, 4);
@@ -164,7 +164,7 @@ TEST(ValueDevices, SwappedValuesAreRejected) {
 }
 
 // A wrong depth is found in every profile that promises a plane, and the oracle says the same.
-TEST(ValueDevices, LevelsAreMonotone) {
+TEST(ExhaustiveValueDevices, LevelsAreMonotone) {
     std::mt19937_64 rng(10);
     for (int n = 0; n < 15; ++n) {
         const Sampled s = value_test::random_case(rng, 256, Shape::large, 3);

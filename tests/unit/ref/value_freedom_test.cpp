@@ -42,7 +42,7 @@ cases::Case beyond_the_far_plane() {
              clip_of(10.5141262, 10.4759869, 1, 1, 64)});
 }
 
-TEST(ValueFreedom, DepthMayBeClampedToTheViewport) {
+TEST(ExhaustiveValueFreedom, DepthMayBeClampedToTheViewport) {
     const cases::SampleId id{10, 10, 0};
     cases::Case c = beyond_the_far_plane();
     ref::FragmentValues v = exact_values(c, id);
@@ -80,7 +80,7 @@ TEST(ValueFreedom, DepthMayBeClampedToTheViewport) {
     EXPECT_FALSE(is_ok(c, Profile::direct3d, id, v));
 }
 
-TEST(ValueFreedom, DepthBeyondTheViewportIsUndefinedAtVulkan) {
+TEST(ExhaustiveValueFreedom, DepthBeyondTheViewportIsUndefinedAtVulkan) {
     const cases::SampleId id{10, 10, 0};
     const cases::Case c = beyond_the_far_plane();
     ref::FragmentValues v = exact_values(c, id);
@@ -103,7 +103,7 @@ TEST(ValueFreedom, DepthBeyondTheViewportIsUndefinedAtVulkan) {
 }
 
 // z_f is 1/4 + 0.6/2 = 0.55, so e = -1 and r = 2^-24: the bias of 2^24 r is 1 in either direction.
-TEST(ValueFreedom, BiasedDepthMayBeClampedToZeroAndOne) {
+TEST(ExhaustiveValueFreedom, BiasedDepthMayBeClampedToZeroAndOne) {
     const cases::SampleId id{10, 10, 0};
     cases::Case c = make_case(
         64, {clip_of(4, 4, 0.6, 1, 64), clip_of(60, 4, 0.6, 1, 64), clip_of(4, 60, 0.6, 1, 64)});
@@ -141,7 +141,7 @@ TEST(ValueFreedom, BiasedDepthMayBeClampedToZeroAndOne) {
 }
 
 // 8 operations of 1e-5 on coordinates of 2000 are more than 1/w itself.
-TEST(ValueFreedom, DenominatorsThatMayBeZeroLeaveTheHull) {
+TEST(ExhaustiveValueFreedom, DenominatorsThatMayBeZeroLeaveTheHull) {
     cases::Case small =
         make_case(2048, {clip_of(2000, 2000, 0.5, 1, 2048), clip_of(2001, 2000, 0.5, 1, 2048),
                          clip_of(2000, 2001, 0.5, 1, 2048)});
@@ -182,7 +182,7 @@ ref::FragmentValues spoilt(float x, float y, float with) {
     return v;
 }
 
-TEST(ValueFreedom, NothingIsPromisedOfZeroOrDenormalW) {
+TEST(ExhaustiveValueFreedom, NothingIsPromisedOfZeroOrDenormalW) {
     const glm::vec4 left(-1, -1, 0.5F, 1), right(1, -1, 0.5F, 1);
     for (const float w : {0.0F, 0x1p-130F, -0x1p-130F, -0.0F}) {
         cases::Case c = make_case(64, {glm::vec4(0, 0, 0, w), left, right});
@@ -198,7 +198,7 @@ TEST(ValueFreedom, NothingIsPromisedOfZeroOrDenormalW) {
     }
 }
 
-TEST(ValueFreedom, NothingIsPromisedOfQuotientsBeyondBinary32) {
+TEST(ExhaustiveValueFreedom, NothingIsPromisedOfQuotientsBeyondBinary32) {
     const auto judged = [](float f, float got, Profile profile) {
         cases::Case c =
             make_case(64, {clip_of(4, 4, 0.5, 0x1p-20, 64), clip_of(60, 4, 0.5, 0x1p-20, 64),
@@ -225,7 +225,7 @@ TEST(ValueFreedom, NothingIsPromisedOfQuotientsBeyondBinary32) {
 
 // The level of a finding is the loosest profile at which the fragment as a whole is wrong. Devices
 // that take every value from another basis, with an error or without.
-TEST(ValueFreedom, LevelIsThatOfTheWholeFragment) {
+TEST(ExhaustiveValueFreedom, LevelIsThatOfTheWholeFragment) {
     std::mt19937_64 rng(31);
     std::array<int, 3> count{};
     for (int n = 0; n < 3000; ++n) {
@@ -271,7 +271,7 @@ TEST(ValueFreedom, LevelIsThatOfTheWholeFragment) {
 // at x = 2 + 27/23 and x = 2 + 171/23, which no binary32 number is. What a device makes of these
 // cut points is a triangle with the area of their roundings, and of their snapping, 812.5 and
 // 2415.3 of 1/256, one of another area that has the middle vertex on its border.
-TEST(ValueFreedom, CutTriangleWithoutAreaClaimsAFiniteValueOnly) {
+TEST(ExhaustiveValueFreedom, CutTriangleWithoutAreaClaimsAFiniteValueOnly) {
     cases::Case c = make_case(16, {clip_of(2, -3, 0.5, 1, 16), clip_of(6.5, 8.5, 0.5, 1, 16),
                                    clip_of(11, 20, 0.5, 1, 16)});
     add_attribute(c, Interpolation::smooth, 1,
@@ -295,7 +295,7 @@ TEST(ValueFreedom, CutTriangleWithoutAreaClaimsAFiniteValueOnly) {
 
 // The diagonal again, between the points of the grid: rounded up in x and down in y, as profile
 // practice lets a device do, a vertex leaves it.
-TEST(ValueFreedom, SnappingThatMakesAnAreaClaimsAFiniteValueOnly) {
+TEST(ExhaustiveValueFreedom, SnappingThatMakesAnAreaClaimsAFiniteValueOnly) {
     cases::Case c =
         make_case(8, {clip_of(2.001, 2.001, 0.5, 1, 8), clip_of(4.001, 4.001, 0.5, 1, 8),
                       clip_of(7.003, 7.003, 0.5, 1, 8)});

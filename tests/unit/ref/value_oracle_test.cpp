@@ -36,7 +36,7 @@ bool same(const ref::FragmentVerdict& a, const ref::FragmentVerdict& b) {
 }
 
 // Values at and around the threshold of each quantity in turn: both ways agree on every fragment.
-TEST(ValueOracle, FilterAgreesAroundTheThreshold) {
+TEST(ExhaustiveValueOracle, FilterAgreesAroundTheThreshold) {
     std::mt19937_64 rng(11);
     uint64_t values = 0, fragments = 0, accepted = 0, rejected = 0;
     for (int n = 0; n < test_support::rounds(120); ++n) {
@@ -150,7 +150,7 @@ struct Formula {
     }
 };
 
-TEST(ValueOracle, DecisionMatchesTheFormulaWrittenTwice) {
+TEST(ExhaustiveValueOracle, DecisionMatchesTheFormulaWrittenTwice) {
     std::mt19937_64 rng(12);
     uint64_t decided = 0, accepted = 0;
     const uint32_t size = 256;
@@ -237,7 +237,7 @@ TEST(ValueOracle, DecisionMatchesTheFormulaWrittenTwice) {
 }
 
 // A Ball always holds the exact result.
-TEST(ValueOracle, BallHoldsTheExactResult) {
+TEST(ExhaustiveValueOracle, BallHoldsTheExactResult) {
     using ref::value::Ball;
     std::mt19937_64 rng(13);
     const auto holds = [](const Ball& b, const mpq_class& q) {

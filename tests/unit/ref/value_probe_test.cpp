@@ -330,7 +330,7 @@ TEST(ValueProbe, BarycentricOrderByTopologyAndProvokingVertex) {
 }
 
 // Random triangles, probes and deviations up to a few budgets: both ways agree on every fragment.
-TEST(ValueProbe, FilterAgreesWithTheOracle) {
+TEST(ExhaustiveValueProbe, FilterAgreesWithTheOracle) {
     std::mt19937_64 rng(21);
     constexpr Probe kProbes[] = {Probe::at_sample,  Probe::at_offset,   Probe::dx,
                                  Probe::dy,         Probe::dx_fine,     Probe::dy_fine,

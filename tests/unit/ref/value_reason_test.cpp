@@ -187,7 +187,7 @@ class LeafValues {
 };
 
 // A vertex whose weight has another one's place.
-TEST(Reasons, NameTheBarycentricOfAnotherVertex) {
+TEST(ExhaustiveReasons, NameTheBarycentricOfAnotherVertex) {
     const cases::Suite suite = cases::load_suite(test_support::source_dir() + "/cases/suite");
     size_t seen = 0;
     for (const cases::Case& c : suite.cases) {
@@ -223,7 +223,7 @@ TEST(Reasons, NameTheBarycentricOfAnotherVertex) {
     EXPECT_GT(seen, 0U);
 }
 
-TEST(Reasons, OfValuesDecide) {
+TEST(ExhaustiveReasons, OfValuesDecide) {
     std::map<ReasonKind, size_t> told, taken;
     const cases::Suite suite = cases::load_suite(test_support::source_dir() + "/cases/suite");
     const auto share = test_support::share_of(8, suite.cases.size());

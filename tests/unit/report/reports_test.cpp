@@ -464,7 +464,7 @@ TEST(html, its_data_is_json_with_every_case) {
     EXPECT_EQ(json.at("cases").at(3).at("id"), cases::printable(run.cases[3].id));
 }
 
-TEST(html, thousands_of_failures_stay_small) {
+TEST(ExhaustiveHtml, thousands_of_failures_stay_small) {
     report::Run run = test::sample_run();
     const CaseRecord fail = run.cases[3];
     run.cases.assign(2000, fail);
@@ -475,7 +475,7 @@ TEST(html, thousands_of_failures_stay_small) {
     EXPECT_LT(to_html(run).size(), size_t{8} << 20);
 }
 
-TEST(html, every_picture_stands_in_one_part) {
+TEST(ExhaustiveHtml, every_picture_stands_in_one_part) {
     report::Run run = test::sample_run();
     const CaseRecord fail = run.cases[3];
     run.cases.assign(300, fail);
