@@ -20,6 +20,9 @@ constexpr VkDeviceSize kKeptBytes = VkDeviceSize{512} << 20;
 // so that few are asked for again behind these: a run of the suite takes as long with 4,096. One of
 // lavapipe takes some 600 KB, and a run through all doors makes tens of thousands.
 constexpr size_t kKeptPipelines = 512;
+// Pictures through doors in one submission. A case that a driver draws in seconds, since software
+// has numbers beyond all viewports to go through, would give no sign of life for minutes.
+constexpr size_t kDoorsOfSubmission = 8;
 
 // What is kept must not be why the next allocation fails, on a device of little memory.
 VkDeviceSize kept_bytes(const Capabilities& c) {
@@ -343,6 +346,7 @@ std::vector<Rendered> BatchRenderer::render(std::span<const cases::Case> batch, 
     std::vector<Rendered> results(batch.size());
     std::vector<CasePlan> plans;
     VkDeviceSize bytes = 0;
+    size_t doors = 0;
     step("pipeline");
     for (size_t slot = 0; slot < batch.size(); ++slot) {
         Rendered& result = results[slot];
@@ -362,13 +366,16 @@ std::vector<Rendered> BatchRenderer::render(std::span<const cases::Case> batch, 
         const auto flush = [&] {
             run_chunk(plans, read_back, results, step, store);
             bytes = 0;
+            doors = 0;
             step("pipeline");
         };
-        if ((is_alone || bytes + size > kChunkBytes) && !plans.empty()) {
+        const bool is_full = bytes + size > kChunkBytes || doors == kDoorsOfSubmission;
+        if ((is_alone || is_full) && !plans.empty()) {
             flush();
         }
         if (plan(item, result)) {
             bytes += size;
+            doors += batch[slot].variation.door != cases::Door::none ? size_t{1} : 0;
             plans.push_back(std::move(item));
         }
         if (is_alone) {
