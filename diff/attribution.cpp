@@ -164,6 +164,16 @@ void Attribution::attribute_hits(Finding& finding, uint32_t front, uint32_t back
     alike_.insert_or_assign(rough, finding);
 }
 
+void Attribution::attribute_hits_in_all(Finding& finding, uint32_t hits, cases::Profile level) {
+    const size_t index = index_of(finding);
+    const ref::HitBounds& any = at(cases::Profile::vulkan, index).samples[index].hits;
+    const uint32_t front = std::min(hits, any.front_max);
+    level_hits(finding, front, hits - front);
+    // What is wrong at a looser profile than that is another thing than the number.
+    const bool is_number = finding.level == level;
+    attribute_hits(finding, is_number ? front : hits, is_number ? hits - front : 0);
+}
+
 void Attribution::explain_hits(Finding& finding, const ref::HitBounds& asked, uint32_t total,
                                const LastHit& last) {
     const Causes causes(explainer(finding.level), case_, sample_of(finding), finding.level);

@@ -41,6 +41,9 @@ class Attribution {
     // Fills rule, level, expected, got and why of a finding whose kind and sample are set, for a
     // sample where the device counted `front` and `back` hits.
     void attribute_hits(Finding& finding, uint32_t front, uint32_t back, const LastHit& last = {});
+    // The same where only the number of hits is known, and that the sample is wrong at `level`: as
+    // many as may be are of front faces.
+    void attribute_hits_in_all(Finding& finding, uint32_t hits, cases::Profile level);
 
     // Fills the level alone, which is cheap enough for every wrong sample of a broken device.
     void level_hits(Finding& finding, uint32_t front, uint32_t back);

@@ -79,6 +79,9 @@ Finding ColorComparison::finding_of(size_t index, cases::SampleId id,
                                     const std::optional<ref::ColorWitness>& witness) {
     Finding finding;
     set_sample(finding, case_.target, id);
+    const cases::Profile level = loosest_wrong([&](ref::ColorReference& at) {
+        return !at.explains(index, id, capture_.color[index], witness);
+    });
     switch (verdict.kind) {
         case Kind::missing:
         case Kind::extra:
@@ -86,7 +89,7 @@ Finding ColorComparison::finding_of(size_t index, cases::SampleId id,
             finding.kind = verdict.kind == Kind::missing ? FindingKind::missing
                            : verdict.kind == Kind::extra ? FindingKind::extra
                                                          : FindingKind::double_hit;
-            attribution_.attribute_hits(finding, verdict.hits, 0);
+            attribution_.attribute_hits_in_all(finding, verdict.hits, level);
             break;
         case Kind::order:
             finding.kind = FindingKind::order;
@@ -101,9 +104,7 @@ Finding ColorComparison::finding_of(size_t index, cases::SampleId id,
     finding.quantity = "color";
     finding.expected = verdict.expected;
     finding.got = unit_.text_of(capture_.color[index]);
-    finding.level = loosest_wrong([&](ref::ColorReference& at) {
-        return !at.explains(index, id, capture_.color[index], witness);
-    });
+    finding.level = level;
     return finding;
 }
 

@@ -22,7 +22,7 @@ constexpr VkDeviceSize kKeptBytes = VkDeviceSize{512} << 20;
 constexpr size_t kKeptPipelines = 512;
 // Pictures through doors in one submission. A case that a driver draws in seconds, since software
 // has numbers beyond all viewports to go through, would give no sign of life for minutes.
-constexpr size_t kDoorsOfSubmission = 8;
+constexpr size_t kDoorsOfSubmission = 4;
 
 // What is kept must not be why the next allocation fails, on a device of little memory.
 VkDeviceSize kept_bytes(const Capabilities& c) {

@@ -303,6 +303,7 @@ class Needs {
         }
         add(t.color && d.color.blend, "blend");
         add(t.color && d.color.blend && takes_second(*d.color.blend), "dual-source-blend");
+        add(t.color && d.color.alpha_to_coverage, "alpha-to-coverage");
         add(t.color && d.color.alpha_to_one, "alpha-to-one");
         add(t.color && d.color.logic, "logic-operation");
         add(t.color && d.color.write_mask != 0xf, "color-write-mask");

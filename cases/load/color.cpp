@@ -210,7 +210,7 @@ ColorOutput read_color_output(LeafContext& context, const TomlValue& value, cons
     }
     context.known_keys(value, "color",
                        {"value", "attribute", "blend", "constants", "second", "logic",
-                        "alpha_to_one", "write_mask"});
+                        "alpha_to_one", "alpha_to_coverage", "write_mask"});
     const TomlValue* constant = value.find("value");
     const TomlValue* attribute = value.find("attribute");
     if ((constant != nullptr) == (attribute != nullptr)) {
@@ -253,6 +253,14 @@ ColorOutput read_color_output(LeafContext& context, const TomlValue& value, cons
                           "attachments = \"color\" or \"color+depth\" in [target]");
         }
     }
+    if (const TomlValue* coverage = value.find("alpha_to_coverage")) {
+        out.alpha_to_coverage = context.boolean(*coverage, "alpha_to_coverage").value_or(false);
+        if (out.alpha_to_coverage && target.has_instruments) {
+            context.error(coverage->where,
+                          "alpha to coverage takes the alpha of what tells of fragments; write "
+                          "attachments = \"color\" or \"color+depth\" in [target]");
+        }
+    }
     if (const TomlValue* mask = value.find("write_mask")) {
         out.write_mask = read_write_mask(context, *mask);
     }
@@ -271,6 +279,11 @@ void check_shared(LeafContext& context, const TomlValue& value,
             context.error(value.where,
                           "alpha to one changes the colour at location 0 alone; write one colour "
                           "target");
+        }
+        if (one.alpha_to_coverage) {
+            context.error(value.where,
+                          "alpha to coverage takes the alpha of the colour at location 0 alone; "
+                          "write one colour target");
         }
         if (one.blend && takes_second(*one.blend)) {
             context.error(value.where,

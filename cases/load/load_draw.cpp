@@ -276,6 +276,11 @@ class DrawLoader {
         const TomlValue* value = table_.find("color");
         if (value != nullptr && target_.color) {
             read_color_outputs(context_, *value, target_, draw_);
+            if (draw_.color.alpha_to_coverage && draw_.early_tests) {
+                context_.error(value->where,
+                               "early tests come before alpha takes samples away, which is not "
+                               "judged here; leave out early_tests or alpha_to_coverage");
+            }
         } else if (value != nullptr) {
             context_.error(value->where, "the target has no colour; write [target.color]");
         } else if (target_.color) {

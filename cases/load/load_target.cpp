@@ -237,6 +237,9 @@ const char* obstacle(const Draw& draw, const Target& target) {
     if (draw.multisample.shader_mask) {
         return "shader_mask";
     }
+    if (draw.color.alpha_to_coverage) {
+        return "alpha_to_coverage";
+    }
     if (draw.query == Query::fragment_invocations) {
         return "a query of fragment invocations";
     }

@@ -100,6 +100,9 @@ struct ColorOutput {
     // The shader's first alpha counts as 1, before anything is blended. Integer formats are written
     // as without it.
     bool alpha_to_one = false;
+    // The shader's first alpha, before that, takes samples away from the fragment. With an integer
+    // format it takes none.
+    bool alpha_to_coverage = false;
     static void fields(auto&& visit, auto&... c) {
         visit("value", c.value...);
         visit("attribute", c.attribute...);
@@ -107,6 +110,7 @@ struct ColorOutput {
         visit("write_mask", c.write_mask...);
         visit("logic", c.logic...);
         visit("alpha_to_one", c.alpha_to_one...);
+        visit("alpha_to_coverage", c.alpha_to_coverage...);
     }
     friend bool operator==(const ColorOutput&, const ColorOutput&) = default;
 };

@@ -174,6 +174,14 @@ constexpr std::array kRules = {
          "be written: coverage is their AND.",
          "fragops-samplemask", "17.17", "cases/model/sample.cpp"},
     Rule{
+        rule::sample_alpha_to_coverage, Profile::vulkan,
+        "Alpha to coverage takes samples away, and adds none",
+        "A mask that the first output's alpha determines is ANDed to the coverage; by which "
+        "algorithm is left open. Outputs of integers keep their coverage. With several samples and "
+        "no mask of the shader's an alpha of 0 or less keeps none, and one of 1 or more all "
+        "(profile direct3d).",
+        "fragops-covg", "17.18", "cases/model/sample.cpp"},
+    Rule{
         rule::sample_alpha_to_one, Profile::vulkan, "Alpha to one replaces the shader's alpha by 1",
         "Before blending and logical operations the alpha of the output with location 0 and index "
         "0 "

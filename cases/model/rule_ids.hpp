@@ -38,6 +38,7 @@ inline constexpr char number_undefined[] = "number.undefined";
 inline constexpr char scissor_half_open[] = "scissor.half-open";
 inline constexpr char sample_locations[] = "sample.locations";
 inline constexpr char sample_mask[] = "sample.mask";
+inline constexpr char sample_alpha_to_coverage[] = "sample.alpha-to-coverage";
 inline constexpr char sample_alpha_to_one[] = "sample.alpha-to-one";
 inline constexpr char sample_mask_in[] = "sample.mask-in";
 inline constexpr char sample_id[] = "sample.id";

@@ -88,6 +88,20 @@ bool is_in_mask(const Multisample& state, uint32_t s) {
     return (((state.sample_mask & state.shader_mask.value_or(0xffffffffU)) >> s) & 1U) != 0;
 }
 
+AlphaCoverage alpha_coverage(const Draw& draw, const Target& target, Profile profile) {
+    const ColorOutput& color = draw.color;
+    if (!target.color || !color.alpha_to_coverage || is_integer(target.color->format)) {
+        return AlphaCoverage::all;
+    }
+    const bool is_told = profile == Profile::direct3d && color.attribute < 0 &&
+                         target.samples > 1 && !draw.multisample.shader_mask;
+    const float alpha = color.value.w;
+    if (is_told && !(alpha > 0)) {
+        return AlphaCoverage::none;
+    }
+    return is_told && alpha >= 1 ? AlphaCoverage::all : AlphaCoverage::any;
+}
+
 std::string pixel_text(const Target& target, const SampleId& id) {
     const std::string layer = target.layers > 1 ? fmt::format("layer {}, ", id.layer) : "";
     return fmt::format("{}pixel ({}, {})", layer, id.x, id.y);

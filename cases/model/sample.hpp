@@ -16,6 +16,7 @@
 
 #include "cases/base/error.hpp"
 #include "cases/model/case.hpp"
+#include "cases/model/profile.hpp"
 
 namespace cases {
 
@@ -196,6 +197,14 @@ inline bool asks_shading_rate(const Draw& draw) {
            std::ranges::any_of(draw.attributes,
                                [](const Attribute& a) { return a.source == Source::shading_rate; });
 }
+
+// What alpha to coverage leaves of a fragment's coverage: all of it, none, or any part. Source:
+// Vulkan specification, "Multisample Coverage": a mask of which each bit is determined by alpha is
+// ANDed, by no specific algorithm; skipped if the output is of integers. Direct3D 11.3, 17.18: no
+// sample where alpha is 0 or less or NaN, all where it is 1 or more; off where the shader writes a
+// mask. What one sample a pixel comes to, no text says.
+enum class AlphaCoverage : uint8_t { all, none, any };
+AlphaCoverage alpha_coverage(const Draw& draw, const Target& target, Profile profile);
 
 // Whether a fragment is as if it had never been.
 inline bool takes_away_pixel(const Draw& draw, uint32_t x, uint32_t y) {

@@ -259,6 +259,9 @@ std::string color_output_text(const Draw& draw, const ColorOutput& color) {
     if (color.alpha_to_one) {
         table.add("alpha_to_one", "true");
     }
+    if (color.alpha_to_coverage) {
+        table.add("alpha_to_coverage", "true");
+    }
     if (color.write_mask != ColorOutput().write_mask) {
         std::string letters;
         for (size_t k = 0; k < 4; ++k) {

@@ -87,6 +87,7 @@ std::string_view missing_of(const cases::Draw& d) {
         {d.depth.bounds.has_value(), "a depth bounds test"},
         {d.color.logic.has_value(), "a logical operation"},
         {d.color.alpha_to_one, "alpha to one"},
+        {d.color.alpha_to_coverage, "alpha to coverage"},
         {d.color.blend && cases::takes_second(*d.color.blend), "dual-source blending"},
         {!d.other_colors.empty(), "several colour targets"},
         {d.depth.bias && d.depth.bias->is_controlled(), "a bias by VK_EXT_depth_bias_control"},

@@ -141,7 +141,9 @@ std::optional<Cause> Causes::of_last_hit(
     const TriangleExplanation& t = *first;
     if (t.decision.coverage == Coverage::must_not) {
         // A looser profile lets it cover the sample: that is a question of positions.
-        const bool is_told = level_ == cases::Profile::vulkan && t.why() != ReasonKind::other_layer;
+        const bool is_told =
+            (level_ == cases::Profile::vulkan && t.why() != ReasonKind::other_layer) ||
+            t.why() == ReasonKind::no_alpha;
         return is_told ? std::optional<Cause>(of(t)) : std::nullopt;
     }
     if (fails_bounds(t)) {
@@ -232,8 +234,8 @@ Cause Causes::of_extra() const {
     }
     if (level_ == cases::Profile::direct3d) {
         const TriangleExplanation* const t = first_that([](const auto& e) {
-            return e.why() == ReasonKind::top_left_out || e.why() == ReasonKind::no_area ||
-                   is_kept_by_area(e);
+            return e.why() == ReasonKind::no_alpha || e.why() == ReasonKind::top_left_out ||
+                   e.why() == ReasonKind::no_area || is_kept_by_area(e);
         });
         return t ? of(*t) : of(ReasonKind::nearest_positions);
     }
@@ -255,7 +257,9 @@ Cause Causes::of_count(uint32_t total, bool is_missing) const {
     may += pieces;
     const TriangleExplanation* const covering = first_with(Coverage::must);
     if (level_ == cases::Profile::direct3d) {
-        const TriangleExplanation* t = first_tie(is_missing);
+        const ReasonKind alpha = is_missing ? ReasonKind::kept_by_alpha : ReasonKind::no_alpha;
+        const TriangleExplanation* t = first_that([&](const auto& e) { return e.why() == alpha; });
+        t = t ? t : first_tie(is_missing);
         t = t || is_missing ? t : first_that(is_kept_by_area);
         t = t ? t : covering;
         return t ? of(*t) : !sets.empty() ? of(sets[0].set) : of(ReasonKind::nearest_positions);

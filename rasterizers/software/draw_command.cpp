@@ -113,6 +113,7 @@ DrawCommand::DrawCommand(const cases::Case& c, uint32_t number, const Device& de
     : draw_(effective(c, number, device)),
       number_(number),
       first_discard_(c.draws[0].discard),
+      first_alpha_to_coverage_(c.draws[0].color.alpha_to_coverage),
       first_bounds_(c.draws[0].depth.bounds),
       first_depth_(c.draws[0].frag_depth),
       device_(device),

@@ -87,10 +87,14 @@ class DrawCommand {
     void shade_coarse(const Primitive& primitive, const WindowVertex& first, bool front);
     size_t index_in(uint32_t layer, int64_t i, int64_t j, uint32_t s) const;
     void write_color(size_t at, uint32_t primitive);
+    // Whether alpha to coverage leaves sample s out.
+    bool is_left_out_by_alpha(const TrianglePlanes& planes, const WindowVertex& first,
+                              const Invocation& invocation, int64_t i, int64_t j, uint32_t s) const;
 
     const cases::Draw draw_;
     uint32_t number_;
-    cases::Discard first_discard_;                    // of the first draw,
+    cases::Discard first_discard_;  // of the first draw,
+    bool first_alpha_to_coverage_;
     std::optional<cases::DepthBounds> first_bounds_;  // as these
     std::optional<cases::FragDepth> first_depth_;
     std::vector<float> other_depth_;  // what faults of the depth bounds take for the stored one

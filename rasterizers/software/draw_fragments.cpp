@@ -239,6 +239,38 @@ bool DrawCommand::is_negative(const TrianglePlanes& planes, const WindowVertex& 
     return fault == Fault::discard_value_or_zero ? tested <= 0 : tested < 0;
 }
 
+bool DrawCommand::is_left_out_by_alpha(const TrianglePlanes& planes, const WindowVertex& first,
+                                       const Invocation& invocation, int64_t i, int64_t j,
+                                       uint32_t s) const {
+    const Fault fault = device_.fault;
+    const cases::ColorOutput& output = draw_.color;
+    const bool is_on = fault == Fault::alpha_to_coverage_of_first_draw ? first_alpha_to_coverage_
+                                                                       : output.alpha_to_coverage;
+    if (!is_on || !out_.target.color || fault == Fault::alpha_to_coverage_ignored ||
+        (cases::is_integer(out_.target.color->format) &&
+         fault != Fault::alpha_to_coverage_of_integers)) {
+        return false;
+    }
+    const float alpha = fault == Fault::alpha_to_coverage_of_one && output.alpha_to_one ? 1.0F
+                        : output.attribute < 0
+                            ? output.value.w
+                            : attribute_value(planes, first, invocation,
+                                              static_cast<size_t>(output.attribute), i, j)
+                                  .w;
+    const auto count = static_cast<float>(samples_.size());
+    // Of four neighbours each has another threshold.
+    const float threshold = device_.alpha_mask == AlphaMask::dithered
+                                ? 0.125F + 0.25F * static_cast<float>((i & 1) * 2 + (j & 1))
+                                : 0.5F;
+    float kept = alpha > 0 ? std::floor(std::min(alpha, 1.0F) * count + threshold) : 0.0F;
+    if (fault == Fault::alpha_to_coverage_rounded_up) {
+        kept = std::max(kept, 1.0F);
+    } else if (fault == Fault::alpha_to_coverage_never_full) {
+        kept = std::min(kept, count - 1);
+    }
+    return static_cast<float>(s) >= kept;
+}
+
 // Whether the fragment shader discards the fragment.
 bool DrawCommand::is_discarded(const TrianglePlanes& planes, const WindowVertex& first,
                                const Invocation& invocation, int64_t i, int64_t j, uint32_t s,
@@ -355,6 +387,10 @@ void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const Tri
             : draw_.early_tests;
     if (discarded && !is_early) {
         end(Ending::discarded);
+        return;
+    }
+    if (is_left_out_by_alpha(planes, first, invocation, i, j, s)) {
+        end(Ending::masked);
         return;
     }
     const size_t at = index_in(layer, i, j, s);

@@ -19,6 +19,7 @@
 
 #include "cases/model/case.hpp"
 #include "cases/model/profile.hpp"
+#include "cases/model/sample.hpp"
 #include "cases/model/triangle.hpp"
 #include "ref/coverage/coverage.hpp"
 #include "ref/coverage/pixel_area.hpp"
@@ -138,12 +139,18 @@ struct Window {
     FixedRange zone_x, zone_y, core_x, core_y;
     bool is_viewport_ignored = false;    // undefined positions: only scissor and framebuffer hold
     uint32_t sample_mask = 0xffffffffU;  // bit s: sample s passes the sample masks
+    cases::AlphaCoverage alpha = cases::AlphaCoverage::all;  // what alpha to coverage leaves
 
-    bool may_write(uint32_t sample) const { return ((sample_mask >> sample) & 1U) != 0; }
+    bool may_write(uint32_t sample) const {
+        return ((sample_mask >> sample) & 1U) != 0 && alpha != cases::AlphaCoverage::none;
+    }
+    // Whether alpha to coverage may take away what is covered.
+    bool is_open() const { return alpha == cases::AlphaCoverage::any; }
     bool is_in_scissor(const FixedPoint& p) const;
     bool is_in_zone(const FixedPoint& p) const;
     bool may_touch(const FixedPoint& p) const { return is_in_scissor(p) && is_in_zone(p); }
-    bool must_touch(const FixedPoint& p) const;
+    bool is_in_core(const FixedPoint& p) const;
+    bool must_touch(const FixedPoint& p) const { return !is_open() && is_in_core(p); }
 };
 
 struct TriangleSetup {

@@ -55,7 +55,7 @@ bool Window::is_in_zone(const FixedPoint& p) const {
     return is_viewport_ignored || (zone_x.contains(p.x) && zone_y.contains(p.y));
 }
 
-bool Window::must_touch(const FixedPoint& p) const {
+bool Window::is_in_core(const FixedPoint& p) const {
     return may_touch(p) && core_x.contains(p.x) && core_y.contains(p.y);
 }
 
@@ -70,6 +70,7 @@ Window window_of(const cases::Case& c, const cases::Draw& draw, cases::Profile p
     axis_window(draw.viewport.y, draw.viewport.height, profile, w.zone_y, w.core_y);
     const cases::Multisample& m = draw.multisample;
     w.sample_mask = m.sample_mask & m.shader_mask.value_or(0xffffffffU);
+    w.alpha = cases::alpha_coverage(draw, c.target, profile);
     return w;
 }
 

@@ -231,6 +231,7 @@ bool shows_otherwise(Original& original, uint32_t draw) {
     plain.draws[draw].color.blend.reset();
     plain.draws[draw].color.logic.reset();
     plain.draws[draw].color.alpha_to_one = false;
+    plain.draws[draw].color.alpha_to_coverage = false;
     plain.draws[draw].color.write_mask = 0xf;
     for (cases::Case* other : {&discarded, &plain}) {
         Difference difference(original, std::move(*other), Differ::hits, {});

@@ -36,7 +36,7 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
                 std::vector<Hit> hits;
                 for (uint32_t t = 0; t < out.triangles.size(); ++t) {
                     const cases::Draw& draw = c.draws[out.triangles[t].draw];
-                    if (draw.layer != layer || !is_in_mask(draw.multisample, s) ||
+                    if (draw.layer != layer || !setups[t].window.may_write(s) ||
                         takes_away_pixel(draw, i, j)) {
                         continue;
                     }

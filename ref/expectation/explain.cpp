@@ -159,6 +159,14 @@ Decision Explainer::decide(uint32_t t, const FixedPoint& p, cases::SampleId samp
     if (!is_in_mask(draw.multisample, sample.sample)) {
         refuse(out, ReasonKind::masked);
     }
+    if (cases::alpha_coverage(draw, scene_.c.target, scene_.profile) ==
+        cases::AlphaCoverage::none) {
+        refuse(out, ReasonKind::no_alpha);
+    }
+    if (draw.color.alpha_to_coverage && out.coverage == Coverage::must &&
+        out.reasons.front().kind == ReasonKind::inside) {
+        out.reasons.front().kind = ReasonKind::kept_by_alpha;
+    }
     if (takes_away_pixel(draw, sample.x, sample.y) || is_taken_away_by_face(t)) {
         refuse(out, ReasonKind::fragment_discarded);
     }

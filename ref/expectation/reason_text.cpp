@@ -153,7 +153,10 @@ std::string sentence_of(Reason reason, const TriangleExplanation& t, const cases
         fmt::arg("inside", inside_text(t)), fmt::arg("layer", draw.layer),
         fmt::arg("mask",
                  draw.multisample.sample_mask & draw.multisample.shader_mask.value_or(0xffffffffU)),
-        fmt::arg("sample", sample.sample),
+        fmt::arg("sample", sample.sample), fmt::arg("alpha", draw.color.value.w),
+        fmt::arg("kept", c.target.color && cases::is_integer(c.target.color->format)
+                             ? std::string("of integers")
+                             : fmt::format("of an alpha of {}", draw.color.value.w)),
         fmt::arg("scissor", fmt::format("x {} to {}, y {} to {}", r.x, int64_t{r.x} + r.width, r.y,
                                         int64_t{r.y} + r.height)),
         fmt::arg("viewport", fmt::format("x {} to {}, y {} to {}", left, right, top, bottom)),

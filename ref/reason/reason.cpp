@@ -32,6 +32,9 @@ constexpr std::array kRows = {
         "{inside}, and no cull distance is negative at all vertices", rule::snap_nearest},
     Row{passes_clip_distance, rule::clip_distance, "{inside}, and no clip distance is negative",
         rule::snap_nearest},
+    Row{kept_by_alpha, rule::sample_alpha_to_coverage,
+        "inside the triangle, and alpha to coverage keeps all samples of a fragment whose output "
+        "is {kept}"},
     Row{inside, rule::cover_inside, "{inside}", rule::snap_nearest},
     Row{touches_pixel, rule::conservative_overestimate,
         "the triangle has an area in common with the pixel, of which every sample is covered",
@@ -51,6 +54,8 @@ constexpr std::array kRows = {
         "no draw goes to this layer"},
     Row{masked, rule::sample_mask,
         "the sample mask {mask:#x} of the draw leaves sample {sample} out"},
+    Row{no_alpha, rule::sample_alpha_to_coverage,
+        "alpha to coverage leaves no sample of a fragment whose alpha is {alpha}"},
     Row{scissor,
         rule::scissor_half_open,
         "the sample lies outside the scissor rectangle, {scissor}",
@@ -105,6 +110,9 @@ constexpr std::array kRows = {
     Row{open_facing, rule::face_area_sign,
         "which way the triangle faces depends on where its vertices are snapped ({boxes}), and one "
         "of its faces is culled or discarded"},
+    Row{open_alpha, rule::sample_alpha_to_coverage,
+        "inside the triangle, but alpha to coverage may leave the sample out, by an algorithm of "
+        "the device's own"},
     Row{viewport_border, rule::clip_viewport,
         "the sample lies within a pixel of a border of the viewport that is no whole number, "
         "{viewport}"},

@@ -21,6 +21,7 @@ enum class ReasonKind : uint8_t {
     top_left_in,           // it lies on an edge that owns it; the edge's label
     passes_cull_distance,  // it lies inside, and no cull distance is negative at all vertices
     passes_clip_distance,  // it lies inside, and no clip distance is negative
+    kept_by_alpha,         // the same, and alpha to coverage keeps all samples of the fragment
     inside,                // it lies inside wherever the vertices may lie
     touches_pixel,    // of a conservative draw: it has an area in common with the sample's pixel
     extra_reached,    // the extra size of the draw makes it do so
@@ -29,6 +30,7 @@ enum class ReasonKind : uint8_t {
     // A triangle must not cover the sample.
     other_layer,         // the draw goes to another layer
     masked,              // a sample mask of the draw leaves the sample out
+    no_alpha,            // alpha to coverage leaves nothing of the fragment
     scissor,             // it lies outside the scissor rectangle or the target
     viewport,            // it lies outside the viewport
     discarded,           // the draw has rasterizer discard
@@ -54,6 +56,7 @@ enum class ReasonKind : uint8_t {
     near_distance,    // a clip distance is 0 within its error; its number
     near_plane,       // its depth is at a depth plane within its error; a ClipPlane
     open_facing,      // the triangle is culled or not, as its vertices snap
+    open_alpha,       // alpha to coverage may leave the sample out
     viewport_border,  // it lies within a pixel of a viewport's fractional border
     on_edge,          // it lies on an edge, and no rule of the profile decides; the edge's label
     may_reach,        // of a conservative draw: enlarged, it may reach the pixel

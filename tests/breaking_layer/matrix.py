@@ -24,6 +24,7 @@ FOCUS = [  # families that are about the faults whose names match
     ("dual-source", ["dual-source/**", "combination/**"]),
     ("sample-location", ["multisample/**", "depth-bias/**", "resolve/**"]),
     ("alpha-to-one", ["alpha-to-one/**", "combination/**"]),
+    ("alpha-to-coverage", ["alpha-to-coverage/**", "combination/**"]),
     ("sample|centroid", ["multisample/**", "interpolate-at/**", "derivative/**"]),
     ("query", ["query/**", "combination/**", "large/query*"]),
     ("statistics", ["statistics/**", "combination/**"]),

@@ -123,6 +123,12 @@ constexpr std::array kMultisampleFaults = {
         "Alpha makes coverage.",
         {.pipeline =
              [](PipelineCopy& p) { return change(p.multisample.alphaToCoverageEnable, VK_TRUE); }}},
+    Fault{"sample-alpha-to-coverage-off",
+          "Alpha to coverage does nothing.",
+          {.pipeline =
+               [](PipelineCopy& p) {
+                   return change(p.multisample.alphaToCoverageEnable, VK_FALSE);
+               }}},
     Fault{"sample-alpha-to-one-off", "Alpha to one does nothing.", {.pipeline = keep_alpha}},
     Fault{"sample-alpha-to-one-multisampled",
           "Alpha to one does nothing with one sample a pixel.",

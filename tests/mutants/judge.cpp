@@ -99,6 +99,8 @@ std::vector<LegalDevice> legal_devices() {
             d.overestimation = software::Overestimation::half_pixel;
             d.mitres_corners = true;
         });
+    add("dithers_alpha", "alpha to coverage keeps more or fewer samples by the pixel",
+        Profile::direct3d, [](Device& d) { d.alpha_mask = software::AlphaMask::dithered; });
     add("counts_most", "pipeline statistics count all that they may", Profile::direct3d,
         [](Device& d) { d.counts_most = true; });
     add("odd_quads", "quads of derivatives begin at odd pixels", Profile::direct3d,

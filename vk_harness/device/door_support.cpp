@@ -133,6 +133,7 @@ DoorSupport query_door_support(VkPhysicalDevice physical, HasExtension has_exten
                           three.extendedDynamicState3ColorWriteMask == VK_TRUE &&
                           three.extendedDynamicState3LogicOpEnable == VK_TRUE &&
                           three.extendedDynamicState3AlphaToOneEnable == VK_TRUE &&
+                          three.extendedDynamicState3AlphaToCoverageEnable == VK_TRUE &&
                           three.extendedDynamicState3SampleMask == VK_TRUE;
     // maxVertexAttribDivisor is at least 65535.
     out.divisor = optional.divisor.vertexAttributeInstanceRateDivisor == VK_TRUE;
@@ -177,6 +178,7 @@ void enable_door_features(const DoorSupport& support, VkPhysicalDeviceFeatures2&
         three.extendedDynamicState3ColorWriteMask = VK_TRUE;
         three.extendedDynamicState3LogicOpEnable = VK_TRUE;
         three.extendedDynamicState3AlphaToOneEnable = VK_TRUE;
+        three.extendedDynamicState3AlphaToCoverageEnable = VK_TRUE;
         three.extendedDynamicState3SampleMask = VK_TRUE;
         chain(features, three);
         extensions.push_back(VK_EXT_EXTENDED_DYNAMIC_STATE_3_EXTENSION_NAME);

@@ -21,6 +21,7 @@ OutputState output_state(const PipelineKey& key) {
     }
     out.has_logic = color.info.logicOpEnable;
     out.logic = color.info.logicOpEnable == VK_TRUE ? color.info.logicOp : VK_LOGIC_OP_COPY;
+    out.alpha_to_coverage = multisample.info.alphaToCoverageEnable;
     out.alpha_to_one = multisample.info.alphaToOneEnable;
     out.samples = multisample.info.rasterizationSamples;
     out.sample_mask = multisample.sample_mask;
@@ -37,6 +38,7 @@ PipelineKey without_outputs(PipelineKey key) {
     }
     key.logic.reset();
     key.alpha_to_one = false;
+    key.alpha_to_coverage = false;
     key.sample_mask = 0xffffffffU;
     key.masked = 0;
     key.outputs_are_dynamic = true;
@@ -53,6 +55,7 @@ void set_outputs(const Device& device, VkCommandBuffer commands, const OutputSta
     }
     vk.vkCmdSetLogicOpEnableEXT(commands, state.has_logic);
     vk.vkCmdSetLogicOpEXT(commands, state.logic);
+    vk.vkCmdSetAlphaToCoverageEnableEXT(commands, state.alpha_to_coverage);
     vk.vkCmdSetAlphaToOneEnableEXT(commands, state.alpha_to_one);
     vk.vkCmdSetSampleMaskEXT(commands, state.samples, &state.sample_mask);
 }

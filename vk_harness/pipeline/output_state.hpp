@@ -19,6 +19,7 @@ struct OutputState {
     std::vector<VkColorComponentFlags> write_masks;
     VkBool32 has_logic = VK_FALSE;
     VkLogicOp logic = VK_LOGIC_OP_COPY;
+    VkBool32 alpha_to_coverage = VK_FALSE;
     VkBool32 alpha_to_one = VK_FALSE;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
     VkSampleMask sample_mask = 0;

@@ -189,6 +189,7 @@ PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw,
         }
         key.logic = draw.color.logic;
         key.alpha_to_one = draw.color.alpha_to_one;
+        key.alpha_to_coverage = draw.color.alpha_to_coverage;
     }
     if (c.variation.door == cases::Door::state_unused) {
         switch_on_unused(key);

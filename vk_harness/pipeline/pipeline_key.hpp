@@ -93,6 +93,7 @@ struct PipelineKey {
     std::vector<ColorKey> colors = {};  // by location, the first behind those of the instruments
     std::optional<cases::LogicOp> logic = {};
     bool alpha_to_one = false;
+    bool alpha_to_coverage = false;
     // Tests are on of which there is no attachment; so are those of bounds.
     bool unused_tests = false, unused_bounds = false;
     // Shaders have outputs that nobody reads; of the fragment shader at this location, if any.

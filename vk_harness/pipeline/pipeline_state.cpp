@@ -143,6 +143,7 @@ void multisample_state(const PipelineKey& key, MultisampleState& state) {
     state.info.pSampleMask = &state.sample_mask;
     state.info.sampleShadingEnable = key.min_shading_bits ? VK_TRUE : VK_FALSE;
     state.info.minSampleShading = std::bit_cast<float>(key.min_shading_bits.value_or(0U));
+    state.info.alphaToCoverageEnable = key.alpha_to_coverage ? VK_TRUE : VK_FALSE;
     state.info.alphaToOneEnable = key.alpha_to_one ? VK_TRUE : VK_FALSE;
     state.places = sample_places(key.sample_locations);
     state.locations.sType = VK_STRUCTURE_TYPE_PIPELINE_SAMPLE_LOCATIONS_STATE_CREATE_INFO_EXT;
@@ -324,7 +325,7 @@ std::vector<VkDynamicState> dynamic_states(const PipelineKey& key) {
             {VK_DYNAMIC_STATE_COLOR_BLEND_ENABLE_EXT, VK_DYNAMIC_STATE_COLOR_BLEND_EQUATION_EXT,
              VK_DYNAMIC_STATE_COLOR_WRITE_MASK_EXT, VK_DYNAMIC_STATE_LOGIC_OP_ENABLE_EXT,
              VK_DYNAMIC_STATE_LOGIC_OP_EXT, VK_DYNAMIC_STATE_ALPHA_TO_ONE_ENABLE_EXT,
-             VK_DYNAMIC_STATE_SAMPLE_MASK_EXT});
+             VK_DYNAMIC_STATE_ALPHA_TO_COVERAGE_ENABLE_EXT, VK_DYNAMIC_STATE_SAMPLE_MASK_EXT});
     }
     if (key.way.dynamic_stride) {
         out.push_back(VK_DYNAMIC_STATE_VERTEX_INPUT_BINDING_STRIDE);

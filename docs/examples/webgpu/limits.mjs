@@ -43,6 +43,7 @@ const NEVER = {
   'interpolate-at': 'WebGPU has no interpolation elsewhere',
   'query-lod': 'WebGPU has no textureQueryLod',
   'dual-source-blend': 'this program writes one source of colour',
+  'alpha-to-coverage': 'this program does not turn it on',
   'alpha-to-one': 'WebGPU has no alpha to one',
   'logic-operation': 'WebGPU has no logical operations',
 };

@@ -19,7 +19,7 @@ namespace {
                                   viewport_bits, keeps_viewport_grid, first_strip_order, enlarges,
                                   counts_borders, mitres_corners, covers_by_piece,
                                   rasterizes_degenerates, unorm, narrow_through_eight, blend,
-                                  multiply, half_toward_zero, resolve_truncates,
+                                  multiply, alpha_mask, half_toward_zero, resolve_truncates,
                                   srgb_resolved_encoded, blit_edge, blit_steps, counts_most, fault,
                                   place_x, place_y] = device;
 }
@@ -86,6 +86,7 @@ const std::vector<Choice>& all_choices() {
         flag<&Device::narrow_through_eight>("narrow-through-eight"),
         {"blend", {"fixed", "binary32", "cut"}, set_word<&Device::blend>},
         {"multiply", {"divide", "shifts"}, set_word<&Device::multiply>},
+        {"alpha-mask", {"ordered", "dithered"}, set_word<&Device::alpha_mask>},
         flag<&Device::half_toward_zero>("half-toward-zero"),
         flag<&Device::resolve_truncates>("resolve-truncates"),
         flag<&Device::srgb_resolved_encoded>("srgb-resolved-encoded"),

@@ -45,6 +45,10 @@ enum class BlendMath : uint8_t { fixed, binary32, cut };
 // A product of 8-bit numbers over 255: (x y + 127) / 255, or t = x y + 128, (t + (t >> 8)) >> 8.
 enum class FixedMultiply : uint8_t { divide, shifts };
 
+// Which samples alpha to coverage keeps: as many of the first ones as are nearest to alpha times
+// their number, or more or fewer by the pixel.
+enum class AlphaMask : uint8_t { ordered, dithered };
+
 // Where a linear filter that reaches beyond the blitted region is clamped.
 enum class BlitEdge : uint8_t { image, region };
 
@@ -90,6 +94,7 @@ struct Device {
     bool narrow_through_eight = false;  // UNORM of fewer bits is the high bits of an 8-bit code
     BlendMath blend = BlendMath::fixed;
     FixedMultiply multiply = FixedMultiply::shifts;
+    AlphaMask alpha_mask = AlphaMask::ordered;
     bool half_toward_zero = false;       // binary16 is rounded towards zero
     bool resolve_truncates = false;      // averages of codes are rounded down
     bool srgb_resolved_encoded = false;  // averages of sRGB are taken of the codes

@@ -346,7 +346,10 @@ void name_setup_reasons(const TriangleSetup& setup, const FixedPoint& p, Decisio
         if (setup.may_be_culled) {
             add_reason(reasons, {ReasonKind::open_facing});
         }
-        if (!w.must_touch(p)) {
+        if (w.is_open()) {
+            add_reason(reasons, {ReasonKind::open_alpha});
+        }
+        if (!w.is_in_core(p)) {
             add_reason(reasons, {ReasonKind::viewport_border});
         }
     }

@@ -220,7 +220,7 @@ void scan_by_sets(const TriangleSetup& setup, uint32_t triangle, const cases::Ta
     bool is_wide = false;
     if (setup.kind == TriangleSetup::Kind::outlines) {
         sets = coverage_sets(setup);
-        sets.has_must = sets.has_must && !setup.may_be_culled;
+        sets.has_must = sets.has_must && !setup.may_be_culled && !setup.window.is_open();
         is_wide = !is_narrow(setup);
     } else {
         constexpr int64_t kFar = int64_t{1} << kPositionBits;

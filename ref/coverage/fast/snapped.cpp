@@ -129,7 +129,7 @@ void scan_snapped(const TriangleSetup& setup, uint32_t triangle, const cases::Ta
     const Outline& o = setup.unclipped;
     std::array<Corners, kMaxCandidates> corners;
     size_t count = 0;
-    bool has_must = !setup.may_be_culled;
+    bool has_must = !setup.may_be_culled && !setup.window.is_open();
     const auto for_each = [step = setup.grid_step](const Box& b, const auto& body) {
         for (int64_t y = b.y0; y <= b.y1; y += step) {
             for (int64_t x = b.x0; x <= b.x1; x += step) {

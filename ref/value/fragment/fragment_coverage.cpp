@@ -103,8 +103,9 @@ FragmentCoverage::FragmentCoverage(const cases::Case& c, const Limits& limits,
 const TriangleSetup& FragmentCoverage::setup(uint32_t t) {
     if (!setups_[t]) {
         const cases::Draw& draw = case_.draws[triangles_[t].draw];
-        setups_[t] = set_up(case_, triangles_[t], limits_, profile_, boxes_,
-                            window_of(case_, draw, profile_));
+        Window window = window_of(case_, draw, profile_);
+        window.alpha = cases::AlphaCoverage::all;  // it comes after the shader
+        setups_[t] = set_up(case_, triangles_[t], limits_, profile_, boxes_, window);
     }
     return *setups_[t];
 }

@@ -186,8 +186,8 @@ std::vector<Change> distance_changes() {
 }
 
 std::vector<Change> color_changes() {
-    [[maybe_unused]] const auto& [value, index, blend, write_mask, logic, alpha_to_one] =
-        cases::ColorOutput{};
+    [[maybe_unused]] const auto& [value, index, blend, write_mask, logic, alpha_to_one,
+                                  alpha_to_coverage] = cases::ColorOutput{};
     [[maybe_unused]] const auto& [color, alpha, constants, second] = cases::Blend{};
     [[maybe_unused]] const auto& [source, destination, op] = cases::BlendEquation{};
     using Factor = cases::BlendFactor;
@@ -205,6 +205,7 @@ std::vector<Change> color_changes() {
         {"blend.alpha.op", [](Case& c) { draw(c).color.blend->alpha.op = cases::BlendOp::max; }},
         {"blend.second", [](Case& c) { draw(c).color.blend->second.w = 1; }},
         {"alpha_to_one", [](Case& c) { draw(c).color.alpha_to_one = true; }},
+        {"alpha_to_coverage", [](Case& c) { draw(c).color.alpha_to_coverage = true; }},
         {"blend.constants", [](Case& c) { draw(c).color.blend->constants.w = 1; }},
         {"write_mask", [](Case& c) { draw(c).color.write_mask = 7; }},
         {"logic", [](Case& c) { draw(c).color.logic = cases::LogicOp::nand; }},

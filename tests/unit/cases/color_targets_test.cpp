@@ -163,6 +163,9 @@ TEST(ColorTargets, WhatADeviceHasOnceIsTheSameForAll) {
     load_targets(targets_file(targets, outputs(", logic = \"xor\"", ", logic = \"xor\"")));
     targets_fail(targets_file(targets, outputs(", alpha_to_one = true", ", alpha_to_one = true")),
                  "alpha to one changes the colour at location 0 alone; write one colour target");
+    targets_fail(targets_file(targets, outputs("", ", alpha_to_coverage = true")),
+                 "alpha to coverage takes the alpha of the colour at location 0 alone; write one "
+                 "colour target");
     targets_fail(
         targets_file(targets,
                      outputs("", ", blend = { source = \"src1-color\" }, second = [0,0,0,0]")),

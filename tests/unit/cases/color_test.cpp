@@ -88,6 +88,26 @@ TEST(Color, AlphaToOneIsRead) {
               std::string::npos);
 }
 
+TEST(Color, AlphaToCoverageIsRead) {
+    const std::string on = "color = { value = [0, 0, 0, 0], alpha_to_coverage = ";
+    const std::string target = "size = [8, 8]\nattachments = \"color\"";
+    const auto loaded = load_text(file(kUnorm, on + "true }", target), "f", "id");
+    ASSERT_TRUE(loaded) << to_string(loaded.error().front());
+    EXPECT_TRUE(loaded->front().draws[0].color.alpha_to_coverage);
+    EXPECT_EQ(error_of(file(kUnorm, on + "false }")), "no error");
+    EXPECT_NE(error_of(file(kUnorm, on + "true }"))
+                  .find("alpha to coverage takes the alpha of what tells of fragments; write "
+                        "attachments = \"color\" or \"color+depth\" in [target]"),
+              std::string::npos);
+    EXPECT_NE(error_of(file(kUnorm, on + "true }\nearly_tests = true", target))
+                  .find("early tests come before alpha takes samples away, which is not judged "
+                        "here; leave out early_tests or alpha_to_coverage"),
+              std::string::npos);
+    EXPECT_NE(error_of(file(kUnorm, on + "true }\nfragment_size = [2, 2]", target))
+                  .find("fragment_size does not go with alpha_to_coverage"),
+              std::string::npos);
+}
+
 TEST(Color, MistakesAreNamed) {
     EXPECT_EQ(error_of(file("clear = [0,0,0,0]", kValue)),
               "f:6:1: error: [target.color] has no format; write \"rgba8-unorm\", "

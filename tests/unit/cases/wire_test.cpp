@@ -64,6 +64,7 @@ Case sample() {
                              {0.1F, 0.2F, 0.3F, 0.4F},
                              {0.5F, 0.6F, 0.7F, 0.8F}};
     draw.color.alpha_to_one = true;
+    draw.color.alpha_to_coverage = true;
     draw.color.write_mask = 0x5;
     draw.layer = 2;
     draw.viewport_index = 1;

@@ -113,11 +113,11 @@ TriangleSetup set_up(const Scene& s, bool is_told) {
 Coverage answer_of_place(const Scene& s, cases::SampleId at) {
     const cases::Draw& draw = s.c.draws[0];
     const FixedPoint p = sample_position(at.x, at.y, at.sample, s.c.target);
-    if (draw.layer != at.layer || !cases::is_in_mask(draw.multisample, at.sample) ||
+    const TriangleSetup setup = set_up(s, false);
+    if (draw.layer != at.layer || !setup.window.may_write(at.sample) ||
         cases::takes_away_pixel(draw, at.x, at.y)) {
         return Coverage::must_not;
     }
-    const TriangleSetup setup = set_up(s, false);
     if (s.has_boxes) {
         return exact::decide(setup, p, false).coverage;
     }
@@ -231,6 +231,7 @@ void take_away(Scene& s, Reason reason, int orientation) {
         case ReasonKind::passes_clip_distance:
             set_distances(draw.distances.clip, kNothing, -1);
             return;
+        case ReasonKind::kept_by_alpha:
         case ReasonKind::inside:
         case ReasonKind::touches_pixel:
         case ReasonKind::extra_reached:
@@ -244,6 +245,10 @@ void take_away(Scene& s, Reason reason, int orientation) {
         case ReasonKind::masked:
             draw.multisample.sample_mask = 0xffffffffU;
             draw.multisample.shader_mask.reset();
+            return;
+        case ReasonKind::no_alpha:
+        case ReasonKind::open_alpha:
+            draw.color.alpha_to_coverage = false;
             return;
         case ReasonKind::scissor:
             draw.scissor = {0, 0, s.c.target.width, s.c.target.height};
@@ -414,8 +419,7 @@ class LeafReasons {
         const TriangleSetup setup = ref::set_up(case_, t.triangle, Limits{}, profile_, boxes,
                                                 window_of(case_, draw, profile_));
         const bool is_discarded_late = t.fate && t.fate->is_discarded && !t.fate->passes;
-        const bool is_drawn = draw.layer == at.layer &&
-                              cases::is_in_mask(draw.multisample, at.sample) &&
+        const bool is_drawn = draw.layer == at.layer && setup.window.may_write(at.sample) &&
                               !cases::takes_away_pixel(draw, at.x, at.y) && !is_discarded_late;
         const FixedPoint p = sample_position(at.x, at.y, at.sample, case_.target);
         Coverage fast = is_drawn ? fast::classify(setup, p) : Coverage::must_not;
