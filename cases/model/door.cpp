@@ -494,8 +494,9 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
      "", "no list with restart, no bias whose unit is chosen", can_be_static},
     {Door::state_output, "state-output", kState, kRight, rule::door_state,
      "What becomes of a fragment's outputs is dynamic: blending and its equations, write masks, "
-     "logical operations, the sample mask and alpha to one; by its pipeline nothing is written.",
-     "the states of blending, logical operations, sample masks and alpha to one of "
+     "logical operations, the sample mask, alpha to coverage and to one; by its pipeline nothing "
+     "is written.",
+     "the states of blending, logical operations, sample masks and alpha to coverage and to one of "
      "VK_EXT_extended_dynamic_state3, and extendedDynamicState2LogicOp",
      kAny, is_any},
     {Door::state_unused, "state-unused", kState, kRight, rule::door_state,
