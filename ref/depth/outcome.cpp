@@ -193,6 +193,12 @@ struct DepthTest::Impl {
 
     const cases::Draw& draw_of(uint32_t t) const { return c.draws[triangles[t].draw]; }
 
+    // Whether fragments of a triangle may not be there though it covers their samples.
+    bool may_vanish(uint32_t t) const {
+        return takes_away_by_value(draw_of(t)) ||
+               cases::alpha_coverage(draw_of(t), c.target, profile) == cases::AlphaCoverage::any;
+    }
+
     // Of triangle `next`, drawn after `first`.
     Relation relation(uint32_t first, uint32_t next) {
         if (first == next) {
@@ -379,11 +385,12 @@ DepthResolution DepthTest::resolve(const FixedPoint& p,
             continue;
         }
         // A triangle that was drawn before, passed and wrote its depth covers the sample as well:
-        // what was stored before that is gone. Not so where a value may have taken it away.
+        // what was stored before that is gone. Not so where a value may have taken it away, or
+        // alpha to coverage.
         int since = kClear;
         for (size_t k = 0; k < m; ++k) {
-            if (!takes_away_by_value(impl_->draw_of(candidates[k].triangle)) &&
-                !candidates[k].is_absent && out.outcomes[k] == DepthOutcome::passes &&
+            if (!impl_->may_vanish(candidates[k].triangle) && !candidates[k].is_absent &&
+                out.outcomes[k] == DepthOutcome::passes &&
                 impl_->draw_of(candidates[k].triangle).depth.write &&
                 impl_->relation(candidates[k].triangle, now.triangle).is_same) {
                 since = static_cast<int>(k);

@@ -6,6 +6,7 @@
 
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "cases/model/rule_ids.hpp"
 #include "coverage_fixture.hpp"
@@ -133,6 +134,33 @@ TEST(AlphaCoverage, OpensSharedEdges) {
         for (size_t k = 0; k < e.samples.size(); ++k) {
             ASSERT_EQ(e.samples[k].hits.total_min, 0U) << k;
         }
+    }
+}
+
+// The same triangle again is there, whether alpha took the first away or not; and the first may be
+// there where alpha takes the second away.
+TEST(AlphaCoverage, SaysNothingOfTheSameTriangleAgain) {
+    for (const size_t variant : {0U, 1U, 2U, 3U}) {
+        const size_t open = variant % 2;
+        cases::Case c = with_alpha(0.5F);
+        c.target.has_depth = true;
+        c.target.has_stencil = variant > 1;
+        c.draws.push_back(c.draws[0]);
+        c.draws[1 - open].color.alpha_to_coverage = false;
+        for (cases::Draw& draw : c.draws) {
+            draw.depth.compare = cases::CompareOp::not_equal;
+            draw.stencil.front.pass = draw.stencil.back.pass =
+                cases::StencilOp::increment_and_clamp;
+        }
+        const Expectation e = expect(c, Limits{}, Profile::direct3d);
+        EXPECT_TRUE(same_expectations(e, exact::expect(c, Limits{}, Profile::direct3d)));
+        const SampleExpectation& s = e.samples[0];
+        // Depths are equal, so that the second fails where the first is there.
+        const auto writers = e.writers_of(s);
+        EXPECT_EQ(std::vector<uint32_t>(writers.begin(), writers.end()),
+                  open == 0 ? (std::vector<uint32_t>{0, 1}) : (std::vector<uint32_t>{0}))
+            << variant;
+        EXPECT_TRUE(s.hits.total_max == 1 || !c.target.has_stencil) << variant;
     }
 }
 
