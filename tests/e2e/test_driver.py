@@ -10,8 +10,8 @@ import subprocess
 import sys
 import unittest
 
-from shares import is_in_share
 from support import CASE, PROGRAM, SOURCE, ProgramTest
+from shares import is_in_share  # support knows where
 
 
 class Driver(ProgramTest):
