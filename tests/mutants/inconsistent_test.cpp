@@ -26,18 +26,22 @@ using cases::Profile;
 
 constexpr size_t kMostSamples = 1U << 14U;  // larger leaves are left out
 
-// Leaves with relations, of a share by EDGECASE_RELATION_SHARE=I/N; those of doors all, since few
-// leaves hold each of their rules.
+// Leaves with relations, of a share by EDGECASE_RELATION_SHARE=I/N; besides, since few leaves hold
+// each of their rules, those of doors all, and of repeated and tiled draws the first of each file.
 const std::vector<cases::Case>& related() {
     static const std::vector<cases::Case> cases = [] {
         std::vector<cases::Case> out;
         const cases::Suite suite = cases::load_suite(test_support::source_dir() + "/cases/suite");
         const auto share =
             test_support::share_of(16, suite.cases.size(), "EDGECASE_RELATION_SHARE");
+        std::set<std::string> files;
         for (const cases::Case& c : suite.cases) {
+            const std::string family = family_of(c);
+            const bool is_first = files.insert(c.id.substr(0, c.id.find(':'))).second;
             const size_t samples = size_t{c.target.width} * c.target.rows() * c.target.samples;
             if (!c.relations.empty() && samples <= kMostSamples &&
-                (family_of(c) == "door" || share.has(c.id))) {
+                (family == "door" || share.has(c.id) ||
+                 (is_first && (family == "repeat" || family == "tiled")))) {
                 out.push_back(c);
             }
         }

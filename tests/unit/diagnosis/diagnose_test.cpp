@@ -301,13 +301,15 @@ TEST(Hypotheses, NoTwoAreOneThing) {
     // stencil references beyond the mask, in increments that wrap, in depth bounds of the first
     // draw, in masked draws without a logical operation, in alpha to one with several samples, in
     // masks of the first draw where a later one has none, in triangles that a negated cull distance
-    // culls, in viewports that begin elsewhere than scissors do.
+    // culls, in viewports that begin elsewhere than scissors do, in pixels that an extra size adds
+    // beyond a bounding box.
     const std::set<std::pair<std::string, std::string>> other = {
         {"alpha_to_one_ignored", "alpha_to_one_multisampled"},
         {"floor_snapping", "snaps-toward-zero"},
         {"bounds_ignored", "bounds_of_first_draw"},
         {"cull-distance-lost", "cull-distance-negated"},
         {"cull-distance-negated", "cull_distance_ignored"},
+        {"extra_size_ignored", "extra_size_of_box"},
         {"fragment_grid_at_scissor", "fragment_grid_at_viewport"},
         {"layer_ignored", "layer_of_viewport"},
         {"logic_mask_ignored", "write_mask_ignored"},

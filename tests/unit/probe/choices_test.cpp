@@ -215,6 +215,7 @@ const std::map<std::string_view, const char*>& hidden() {
         {"counts-most", "it shows in pipeline statistics alone, which no experiment asks for"},
         {"coarse-inputs-at-sample",
          "it shows in fragments of several pixels alone, of which no experiment draws any"},
+        {"alpha-mask", "it shows through alpha to coverage alone, which no experiment draws with"},
     };
     return kHidden;
 }
