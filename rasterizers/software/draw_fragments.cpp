@@ -268,7 +268,16 @@ bool DrawCommand::is_left_out_by_alpha(const TrianglePlanes& planes, const Windo
     } else if (fault == Fault::alpha_to_coverage_never_full) {
         kept = std::min(kept, count - 1);
     }
-    return static_cast<float>(s) >= kept;
+    switch (device_.alpha_mask) {
+        case AlphaMask::none:
+            return true;
+        case AlphaMask::all:
+            return false;
+        case AlphaMask::last:
+            return static_cast<float>(s) < count - kept;
+        default:
+            return static_cast<float>(s) >= kept;
+    }
 }
 
 // Whether the fragment shader discards the fragment.
@@ -389,7 +398,8 @@ void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const Tri
         end(Ending::discarded);
         return;
     }
-    if (is_left_out_by_alpha(planes, first, invocation, i, j, s)) {
+    const bool is_left_out = is_left_out_by_alpha(planes, first, invocation, i, j, s);
+    if (is_left_out && fault != Fault::alpha_to_coverage_stores_depth) {
         end(Ending::masked);
         return;
     }
@@ -436,11 +446,12 @@ void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const Tri
         fault == Fault::depth_write_before_test) {
         out_.depth[at] = z;
     }
-    end(!is_left    ? Ending::stencil_failed
-        : !passes   ? Ending::depth_failed
-        : discarded ? Ending::hidden
-                    : Ending::shown);
-    if (!passes || !is_left || discarded) {
+    const bool hidden = discarded || is_left_out;
+    end(!is_left  ? Ending::stencil_failed
+        : !passes ? Ending::depth_failed
+        : hidden  ? Ending::hidden
+                  : Ending::shown);
+    if (!passes || !is_left || hidden) {
         return;
     }
     out_.hits[at] += front ? glm::vec4(1, 0, 0, 1) : glm::vec4(0, 1, 0, 1);

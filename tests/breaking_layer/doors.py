@@ -13,10 +13,10 @@ import broken
 
 FILE = pathlib.Path(__file__).parent / "doors.json"
 # Lists and strips, with and without indices and restart, constant attributes, several triangles and draws, scissors,
-# faces, depth tests and bias, queries. None of them has a
-# relation of its own.
+# faces, depth tests and bias, queries, alpha to coverage. None of them has a relation of its own.
 SAMPLE = ["attributes/constant:value=1", "topology/restart-*", "coverage/bow-tie:*", "mesh/across-tiles", "topology/strip*",
-          "order/draws", "scissor/changes", "depth-test/nearest-wins:*", "depth-bias/decal:*", "facing/*", "query/draws:*"]
+          "order/draws", "scissor/changes", "depth-test/nearest-wins:*", "depth-bias/decal:*", "facing/*", "query/draws:*",
+          "alpha-to-coverage/ends:format=rgba8-unorm,*"]
 WORDS = ["--retries", "0", "--no-expect", "--html", "/dev/null", "--capture", "none", "--no-diagnosis"]
 # What lavapipe does wrong itself tells nothing of a fault (docs/findings).
 WRONG_DOORS = ["multi-draw-empty", "indirect-after-count"]

@@ -48,6 +48,7 @@ namespace breaking {
     X(CmdSetColorBlendEnableEXT) \
     X(CmdSetColorWriteMaskEXT) \
     X(CmdSetSampleMaskEXT) \
+    X(CmdSetAlphaToCoverageEnableEXT) \
     X(CmdSetStencilOp) \
     X(CmdSetStencilCompareMask) \
     X(CmdSetStencilWriteMask) \

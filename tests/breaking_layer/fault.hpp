@@ -207,6 +207,7 @@ struct Hooks {
     bool (*blend_enables)(std::span<VkBool32>) = nullptr;
     bool (*write_masks)(std::span<VkColorComponentFlags>) = nullptr;
     bool (*sample_mask)(VkSampleMask&) = nullptr;
+    bool (*alpha_to_coverage)(VkBool32&) = nullptr;
     bool (*stencil_ops)(StencilOps&) = nullptr;
     bool (*stencil_compare_mask)(StencilValue&) = nullptr;
     bool (*stencil_write_mask)(StencilValue&) = nullptr;

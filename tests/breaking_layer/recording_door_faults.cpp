@@ -116,6 +116,9 @@ constexpr std::array kRecordingDoorFaults = {
     Fault{"door-dynamic-sample-mask-empty",
           "A dynamic sample mask takes away every sample.",
           {.sample_mask = [](VkSampleMask& mask) { return change(mask, VkSampleMask{0}); }}},
+    Fault{"door-dynamic-alpha-to-coverage-off",
+          "Dynamic alpha to coverage is off.",
+          {.alpha_to_coverage = [](VkBool32& enable) { return change(enable, VK_FALSE); }}},
     Fault{"door-stencil-test-of-nothing-fails",
           "Where a stencil test is on and has no stencil, nothing is written.",
           {.pipeline =

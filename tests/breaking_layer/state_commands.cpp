@@ -150,6 +150,13 @@ VKAPI_ATTR void VKAPI_CALL set_sample_mask(VkCommandBuffer commands, VkSampleCou
                 [=] { driver_of_handle(commands).CmdSetSampleMaskEXT(commands, samples, &own); });
 }
 
+VKAPI_ATTR void VKAPI_CALL set_alpha_to_coverage(VkCommandBuffer commands, VkBool32 enable) {
+    alter(hooks().alpha_to_coverage, enable);
+    set_dynamic(commands, {"alpha to coverage", 0}, [=] {
+        driver_of_handle(commands).CmdSetAlphaToCoverageEnableEXT(commands, enable);
+    });
+}
+
 VKAPI_ATTR void VKAPI_CALL set_stencil_op(VkCommandBuffer commands, VkStencilFaceFlags faces,
                                           VkStencilOp fail, VkStencilOp pass,
                                           VkStencilOp depth_fail, VkCompareOp compare) {
@@ -332,6 +339,7 @@ const OwnCommand kStateCommands[] = {
     BREAKING_OWN(CmdSetColorBlendEnableEXT, set_blend_enables),
     BREAKING_OWN(CmdSetColorWriteMaskEXT, set_write_masks),
     BREAKING_OWN(CmdSetSampleMaskEXT, set_sample_mask),
+    BREAKING_OWN(CmdSetAlphaToCoverageEnableEXT, set_alpha_to_coverage),
     BREAKING_OWN(CmdSetStencilOp, set_stencil_op),
     BREAKING_OWN(CmdSetStencilCompareMask, set_stencil_compare_mask),
     BREAKING_OWN(CmdSetStencilWriteMask, set_stencil_write_mask),

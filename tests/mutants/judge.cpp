@@ -101,6 +101,12 @@ std::vector<LegalDevice> legal_devices() {
         });
     add("dithers_alpha", "alpha to coverage keeps more or fewer samples by the pixel",
         Profile::direct3d, [](Device& d) { d.alpha_mask = software::AlphaMask::dithered; });
+    add("alpha_keeps_the_last", "alpha to coverage keeps the last samples", Profile::direct3d,
+        [](Device& d) { d.alpha_mask = software::AlphaMask::last; });
+    add("alpha_keeps_none", "alpha to coverage keeps no sample, whatever alpha is",
+        Profile::practice, [](Device& d) { d.alpha_mask = software::AlphaMask::none; });
+    add("alpha_keeps_all", "alpha to coverage keeps every sample, whatever alpha is",
+        Profile::practice, [](Device& d) { d.alpha_mask = software::AlphaMask::all; });
     add("counts_most", "pipeline statistics count all that they may", Profile::direct3d,
         [](Device& d) { d.counts_most = true; });
     add("odd_quads", "quads of derivatives begin at odd pixels", Profile::direct3d,

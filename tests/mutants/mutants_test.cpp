@@ -140,9 +140,9 @@ INSTANTIATE_TEST_SUITE_P(Devices, Legal, testing::ValuesIn(legal_devices()),
 // A choice that only looser profiles allow is one that direct3d's cases see: the device really
 // makes it, and the profiles really differ.
 TEST(Suite, WhatOnlyLooserProfilesAllowIsSeenAtDirect3d) {
-    const std::set<std::string> families = {"ties",  "snap",         "facing",
-                                            "thin",  "topology",     "multisample",
-                                            "store", "conservative", "fragment-size"};
+    const std::set<std::string> families = {
+        "ties",        "snap",  "facing",       "thin",          "topology",
+        "multisample", "store", "conservative", "fragment-size", "alpha-to-coverage"};
     for (const LegalDevice& legal : legal_devices()) {
         if (legal.profile == cases::Profile::direct3d || legal.name.starts_with("plain")) {
             continue;

@@ -46,8 +46,9 @@ enum class BlendMath : uint8_t { fixed, binary32, cut };
 enum class FixedMultiply : uint8_t { divide, shifts };
 
 // Which samples alpha to coverage keeps: as many of the first ones as are nearest to alpha times
-// their number, or more or fewer by the pixel.
-enum class AlphaMask : uint8_t { ordered, dithered };
+// their number, or more or fewer by the pixel, or as many of the last ones; or none or all,
+// whatever alpha is, which Direct3D does not allow.
+enum class AlphaMask : uint8_t { ordered, dithered, last, none, all };
 
 // Where a linear filter that reaches beyond the blitted region is clamped.
 enum class BlitEdge : uint8_t { image, region };

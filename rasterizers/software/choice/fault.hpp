@@ -260,6 +260,7 @@ enum class Fault : uint16_t {
     alpha_to_coverage_of_one,
     alpha_to_coverage_of_integers,
     alpha_to_coverage_of_first_draw,
+    alpha_to_coverage_stores_depth,
     alpha_to_one_ignored,
     alpha_to_one_stored,
     alpha_to_one_unblended,

@@ -73,6 +73,8 @@ constexpr FaultInfo kTargetsFaults[] = {
      "Alpha to coverage takes samples away from integers, too.", "sample.alpha-to-coverage"},
     {Fault::alpha_to_coverage_of_first_draw, "alpha_to_coverage_of_first_draw",
      "Alpha to coverage stays as the first draw set it.", "sample.alpha-to-coverage"},
+    {Fault::alpha_to_coverage_stores_depth, "alpha_to_coverage_stores_depth",
+     "Samples that alpha takes away are written to depth and stencil.", "sample.alpha-to-coverage"},
     {Fault::alpha_to_one_ignored, "alpha_to_one_ignored", "Alpha to one does nothing.",
      "sample.alpha-to-one"},
     {Fault::alpha_to_one_stored, "alpha_to_one_stored",
