@@ -126,8 +126,26 @@ void Attribution::attribute_writer(Finding& finding,
 
 void Attribution::attribute_hits(Finding& finding, uint32_t front, uint32_t back,
                                  const LastHit& last) {
-    const size_t index = index_of(finding);
     level_hits(finding, front, back);
+    attribute_at_level(finding, front, back, last);
+}
+
+void Attribution::attribute_color(Finding& finding, uint32_t hits, cases::Profile level,
+                                  const std::optional<uint32_t>& triangle) {
+    const size_t index = index_of(finding);
+    finding.level = level;
+    const uint32_t most = at(cases::Profile::vulkan, index).samples[index].hits.front_max;
+    const uint32_t front = std::min(hits, most);
+    const bool is_number = !at(level, index).samples[index].hits.allows(front, hits - front);
+    attribute_at_level(finding, front, hits - front, {}, is_number ? std::nullopt : triangle);
+    if (!is_number && !triangle) {
+        tell(finding, ref::ReasonKind::color_none);
+    }
+}
+
+void Attribution::attribute_at_level(Finding& finding, uint32_t front, uint32_t back,
+                                     const LastHit& last, const std::optional<uint32_t>& triangle) {
+    const size_t index = index_of(finding);
     const ref::HitBounds asked = at(finding.level, index).samples[index].hits;
     const bool by_face = faces_matter(asked, front, back);
     finding.expected = to_text(asked);
@@ -158,20 +176,26 @@ void Attribution::attribute_hits(Finding& finding, uint32_t front, uint32_t back
         finding.why = "as at " + cases::pixel_text(case_.target, sample_of(*earlier));
         return;
     }
-    explain_hits(finding, asked, front + back, is_blamed ? last : LastHit{});
+    if (triangle) {
+        explain_triangle(finding, *triangle);
+    } else {
+        explain_hits(finding, asked, front + back, is_blamed ? last : LastHit{});
+    }
     ++explained_;
     like_.insert_or_assign(key, finding);
     alike_.insert_or_assign(rough, finding);
 }
 
-void Attribution::attribute_hits_in_all(Finding& finding, uint32_t hits, cases::Profile level) {
-    const size_t index = index_of(finding);
-    const ref::HitBounds& any = at(cases::Profile::vulkan, index).samples[index].hits;
-    const uint32_t front = std::min(hits, any.front_max);
-    level_hits(finding, front, hits - front);
-    // What is wrong at a looser profile than that is another thing than the number.
-    const bool is_number = finding.level == level;
-    attribute_hits(finding, is_number ? front : hits, is_number ? hits - front : 0);
+void Attribution::explain_triangle(Finding& finding, uint32_t triangle) {
+    const Causes causes(explainer(finding.level), case_, sample_of(finding), finding.level);
+    const std::optional<Cause> cause = finding.kind == FindingKind::missing
+                                           ? causes.of_lost(triangle)
+                                           : causes.of_another(triangle);
+    if (cause) {
+        tell(finding, *cause);
+    } else {
+        tell(finding, ref::ReasonKind::color_none);
+    }
 }
 
 void Attribution::explain_hits(Finding& finding, const ref::HitBounds& asked, uint32_t total,

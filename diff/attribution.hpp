@@ -41,9 +41,11 @@ class Attribution {
     // Fills rule, level, expected, got and why of a finding whose kind and sample are set, for a
     // sample where the device counted `front` and `back` hits.
     void attribute_hits(Finding& finding, uint32_t front, uint32_t back, const LastHit& last = {});
-    // The same where only the number of hits is known, and that the sample is wrong at `level`: as
-    // many as may be are of front faces.
-    void attribute_hits_in_all(Finding& finding, uint32_t hits, cases::Profile level);
+    // The same of a sample whose colour is wrong at `level` at the loosest, and tells of so many
+    // fragments, whichever faces they are of; `triangle`: of which it lacks one, or has one more.
+    // Where so many are allowed, that one is what is wrong. An empty rule where nothing says why.
+    void attribute_color(Finding& finding, uint32_t hits, cases::Profile level,
+                         const std::optional<uint32_t>& triangle);
 
     // Fills the level alone, which is cheap enough for every wrong sample of a broken device.
     void level_hits(Finding& finding, uint32_t front, uint32_t back);
@@ -64,6 +66,11 @@ class Attribution {
   private:
     size_t index_of(const Finding& finding) const;
     ref::Explainer& explainer(cases::Profile level);
+    // attribute_hits() of a finding whose level is set; `triangle`: what is wrong is the one of
+    // attribute_color(), not how many there are.
+    void attribute_at_level(Finding& finding, uint32_t front, uint32_t back, const LastHit& last,
+                            const std::optional<uint32_t>& triangle = {});
+    void explain_triangle(Finding& finding, uint32_t triangle);
     // Fills rule and why from the story of the sample.
     void explain_hits(Finding& finding, const ref::HitBounds& asked, uint32_t total,
                       const LastHit& last);

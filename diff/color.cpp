@@ -89,7 +89,10 @@ Finding ColorComparison::finding_of(size_t index, cases::SampleId id,
             finding.kind = verdict.kind == Kind::missing ? FindingKind::missing
                            : verdict.kind == Kind::extra ? FindingKind::extra
                                                          : FindingKind::double_hit;
-            attribution_.attribute_hits_in_all(finding, verdict.hits, level);
+            attribution_.attribute_color(finding, verdict.hits, level, verdict.triangle);
+            if (finding.rule.empty()) {
+                finding.rule = verdict.rule;
+            }
             break;
         case Kind::order:
             finding.kind = FindingKind::order;

@@ -246,6 +246,12 @@ std::optional<Rejection> check_color(const Capabilities& c, const cases::Case& t
     if (is_one && test.target.has_instruments) {
         return invalid("alpha to one changes the attachments that tell of fragments");
     }
+    const bool takes_samples =
+        std::any_of(test.draws.begin(), test.draws.end(),
+                    [](const auto& draw) { return draw.color.alpha_to_coverage; });
+    if (takes_samples && test.target.has_instruments) {
+        return invalid("alpha to coverage takes the alpha of what tells of fragments");
+    }
     for (uint32_t location = 0; location < test.target.color_count(); ++location) {
         if (auto rejection = check_color_format(c, test, location)) {
             return rejection;

@@ -90,7 +90,8 @@ bool is_in_mask(const Multisample& state, uint32_t s) {
 
 AlphaCoverage alpha_coverage(const Draw& draw, const Target& target, Profile profile) {
     const ColorOutput& color = draw.color;
-    if (!target.color || !color.alpha_to_coverage || is_integer(target.color->format)) {
+    const bool is_of_integers = target.color && is_integer(target.color->format);
+    if (!color.alpha_to_coverage || is_of_integers) {
         return AlphaCoverage::all;
     }
     const bool is_told = profile == Profile::direct3d && color.attribute < 0 &&

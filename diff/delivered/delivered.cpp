@@ -43,6 +43,9 @@ cases::Case with_instruments(const cases::Case& c) {
     out.target.depth_resolve = cases::Resolve::none;
     for (cases::Draw& draw : out.draws) {
         draw.query = cases::Query::none;  // planes alone are delivered
+        // What is left of its coverage does not depend on what is compared.
+        draw.color.alpha_to_coverage =
+            draw.color.alpha_to_coverage && c.target.color && !is_integer(c.target.color->format);
     }
     return out;
 }

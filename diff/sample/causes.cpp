@@ -220,7 +220,29 @@ bool is_kept_by_area(const TriangleExplanation& t) {
     return t.why() == ReasonKind::beyond_size || t.why() == ReasonKind::unfilled_pixel ||
            t.why() == ReasonKind::degenerate_culled;
 }
+
+// A triangle that covers the sample, but for alpha to coverage.
+bool is_without_alpha(const TriangleExplanation& t) {
+    return t.is_suppressed() && t.why() == ReasonKind::no_alpha;
+}
 }  // namespace
+
+std::optional<Cause> Causes::of_lost(uint32_t triangle) const {
+    const TriangleExplanation* const t = first_that([&](const auto& e) {
+        return e.index == triangle && e.decision.coverage == Coverage::must;
+    });
+    return t ? std::optional<Cause>(of(*t)) : std::nullopt;
+}
+
+std::optional<Cause> Causes::of_another(uint32_t triangle) const {
+    const TriangleExplanation* const like =
+        first_that([&](const auto& e) { return e.index == triangle; });
+    const TriangleExplanation* const t = first_that([&](const auto& e) {
+        return like != nullptr && e.triangle.draw == like->triangle.draw &&
+               e.decision.coverage == Coverage::must_not;
+    });
+    return t ? std::optional<Cause>(of(*t)) : std::nullopt;
+}
 
 Cause Causes::of_extra() const {
     if (reasons_.of_all) {
@@ -234,7 +256,7 @@ Cause Causes::of_extra() const {
     }
     if (level_ == cases::Profile::direct3d) {
         const TriangleExplanation* const t = first_that([](const auto& e) {
-            return e.why() == ReasonKind::no_alpha || e.why() == ReasonKind::top_left_out ||
+            return is_without_alpha(e) || e.why() == ReasonKind::top_left_out ||
                    e.why() == ReasonKind::no_area || is_kept_by_area(e);
         });
         return t ? of(*t) : of(ReasonKind::nearest_positions);
@@ -257,8 +279,9 @@ Cause Causes::of_count(uint32_t total, bool is_missing) const {
     may += pieces;
     const TriangleExplanation* const covering = first_with(Coverage::must);
     if (level_ == cases::Profile::direct3d) {
-        const ReasonKind alpha = is_missing ? ReasonKind::kept_by_alpha : ReasonKind::no_alpha;
-        const TriangleExplanation* t = first_that([&](const auto& e) { return e.why() == alpha; });
+        const TriangleExplanation* t = first_that([&](const auto& e) {
+            return is_missing ? e.why() == ReasonKind::kept_by_alpha : is_without_alpha(e);
+        });
         t = t ? t : first_tie(is_missing);
         t = t || is_missing ? t : first_that(is_kept_by_area);
         t = t ? t : covering;

@@ -351,6 +351,7 @@ ColorVerdict ColorReference::judge(size_t index, cases::SampleId id,
         if (tells(less)) {
             verdict.kind = ColorVerdict::Kind::missing;
             verdict.hits = static_cast<uint32_t>(less.size());
+            verdict.triangle = most[k];
             return verdict;
         }
     }
@@ -368,6 +369,7 @@ ColorVerdict ColorReference::judge(size_t index, cases::SampleId id,
         if (tells(more)) {
             verdict.kind = ColorVerdict::Kind::twice;
             verdict.hits = static_cast<uint32_t>(more.size());
+            verdict.triangle = most[k];
             return verdict;
         }
     }

@@ -45,6 +45,8 @@ struct ColorVerdict {
     std::string rule;      // of value: "blend.equation", "store.unorm", ...
     std::string expected;  // the colours that are allowed
     uint32_t hits = 0;     // of missing, extra, twice: how many fragments the colour tells of
+    // Of missing and twice: the triangle of which a fragment is missing or is there once more.
+    std::optional<uint32_t> triangle;
 };
 
 // One fragment, or the clear before the first, in a sentence.

@@ -468,8 +468,9 @@ DepthOutcome DepthTest::bounds(std::optional<uint32_t> stored, uint32_t fragment
     return impl_->bounds(stored ? static_cast<int>(*stored) : kClear, fragment, p);
 }
 
-bool DepthTest::is_same(uint32_t first, uint32_t next) {
-    return impl_->relation(first, next).is_same;
+bool DepthTest::is_together(uint32_t first, uint32_t next) {
+    return !impl_->may_vanish(first) && !impl_->may_vanish(next) &&
+           impl_->relation(first, next).is_same;
 }
 
 std::string DepthTest::range_text(uint32_t triangle, const FixedPoint& p) {

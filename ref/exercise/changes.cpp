@@ -416,18 +416,21 @@ bool exchange_alpha(Case& c) {
         return false;
     }
     const bool is_of_integers = cases::is_integer(c.target.color->format);
-    const bool has_changed = change_draws(c, [&](Draw& draw) {
-        if (!draw.color.alpha_to_coverage || draw.color.attribute >= 0) {
+    return change_draws(c, [&](Draw& draw) {
+        if (!draw.color.alpha_to_coverage) {
+            return false;
+        }
+        // Integers as an alpha of 0: nothing is drawn.
+        if (is_of_integers) {
+            return set(draw.rasterizer_discard, true);
+        }
+        if (draw.color.attribute >= 0) {
             return false;
         }
         float& alpha = draw.color.value.w;
-        alpha = is_of_integers || alpha >= 1 ? 0.0F : 1.0F;
+        alpha = alpha >= 1 ? 0.0F : 1.0F;
         return true;
     });
-    if (is_of_integers) {
-        c.target.color->format = cases::ColorFormat::rgba8_unorm;
-    }
-    return has_changed;
 }
 
 bool keep_alpha(Case& c) {

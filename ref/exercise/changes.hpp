@@ -103,8 +103,7 @@ bool turn_provoking(cases::Case& c) {
 // Colours.
 bool blend_nothing(cases::Case& c);
 bool exchange_factors(cases::Case& c);
-// Constant alphas at the other end, 0 for 1, where they take samples away; those of integers, too,
-// by another format.
+// Constant alphas that take samples away are at their other end, 0 for 1; integers take all away.
 bool exchange_alpha(cases::Case& c);
 // Nothing is alpha to one.
 bool keep_alpha(cases::Case& c);

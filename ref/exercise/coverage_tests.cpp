@@ -71,8 +71,11 @@ bool is_settled(const View& view, std::string_view rule) {
 // The same by where its vertices snap, also where the sample is then on an edge.
 bool is_settled_by_snapping(const View& view, std::string_view) {
     return std::ranges::any_of(view.sample.hits, [&](const Hit& hit) {
-        const std::span<const Box> boxes = view.setups[hit.triangle].unclipped.vertices();
-        return hit.coverage == Coverage::either && view.shows(hit.triangle) &&
+        const TriangleSetup& setup = view.setups[hit.triangle];
+        const std::span<const Box> boxes = setup.unclipped.vertices();
+        // Not what alpha to coverage leaves open.
+        return hit.coverage == Coverage::either && !setup.window.is_open() &&
+               view.shows(hit.triangle) &&
                std::ranges::any_of(
                    boxes, [](const Box& box) { return box.x0 != box.x1 || box.y0 != box.y1; }) &&
                view.facts.decide(hit.triangle, view.sample).coverage != Coverage::either;

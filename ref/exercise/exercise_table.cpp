@@ -201,7 +201,8 @@ constexpr ExerciseRow kRows[] = {
      {by(blend_nothing, Differ::colors), by(exchange_factors, Differ::colors),
       by(blend_twice, Differ::colors)}},
     {rule::sample_alpha_to_coverage,
-     "that would be covered or not with alpha at its other end, 0 or 1, or without integers",
+     "whose coverage would be another with an alpha of 0 for 1, or of 1 for 0, or if integers were "
+     "an alpha of 0",
      {by(exchange_alpha)}},
     {rule::sample_alpha_to_one,
      "whose colour would be another with the alpha that the shader wrote",

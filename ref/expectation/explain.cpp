@@ -159,8 +159,7 @@ Decision Explainer::decide(uint32_t t, const FixedPoint& p, cases::SampleId samp
     if (!is_in_mask(draw.multisample, sample.sample)) {
         refuse(out, ReasonKind::masked);
     }
-    if (cases::alpha_coverage(draw, scene_.c.target, scene_.profile) ==
-        cases::AlphaCoverage::none) {
+    if (scene_.setups[t].window.alpha == cases::AlphaCoverage::none) {
         refuse(out, ReasonKind::no_alpha);
     }
     if (draw.color.alpha_to_coverage && out.coverage == Coverage::must &&

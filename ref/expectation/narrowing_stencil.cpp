@@ -91,14 +91,10 @@ stencil::Question Narrowing::stencil_question(const FixedPoint& p, std::span<con
             fragment.is_discarded_front = is_discarded || discards_face(draw.discard, true);
             fragment.is_discarded_back = is_discarded || discards_face(draw.discard, false);
         }
-        // One that may be taken away by a value is not there whenever the same one was before, nor
-        // is one that alpha to coverage may take away, of either; and further pieces of a triangle
-        // are the device's choice.
-        const bool has_twins = depth_ != nullptr && !takes_away_by_value(draw) &&
-                               !setups_[t].window.is_open() && !is_further(hits, m);
+        // Further pieces of a triangle are the device's choice.
+        const bool has_twins = depth_ != nullptr && !is_further(hits, m);
         for (size_t k = 0; has_twins && k < m && fragment.twin < 0; ++k) {
-            if (!setups_[hits[k].triangle].window.is_open() &&
-                depth_->is_same(hits[k].triangle, t)) {
+            if (depth_->is_together(hits[k].triangle, t)) {
                 fragment.twin = static_cast<int>(k);
             }
         }

@@ -111,8 +111,7 @@ constexpr std::array kRows = {
         "which way the triangle faces depends on where its vertices are snapped ({boxes}), and one "
         "of its faces is culled or discarded"},
     Row{open_alpha, rule::sample_alpha_to_coverage,
-        "inside the triangle, but alpha to coverage may leave the sample out, by an algorithm of "
-        "the device's own"},
+        "alpha to coverage may leave the sample out, by an algorithm of the device's own"},
     Row{viewport_border, rule::clip_viewport,
         "the sample lies within a pixel of a border of the viewport that is no whole number, "
         "{viewport}"},

@@ -123,12 +123,21 @@ std::vector<RenderedCase> render_with_derived(
     std::vector<std::vector<cases::Derivation>> derivations;
     Round beside;
     Round later;
-    for (size_t k = 0; k < batch.size(); ++k) {
-        derivations.push_back(cases::derivations(batch[k]));
-        for (size_t d = 0; d < derivations[k].size(); ++d) {
-            Round& round = derivations[k][d].variation.later ? later : beside;
-            round.cases.push_back(cases::derive(batch[k], derivations[k][d]));
-            round.origins.push_back({k, d});
+    for (const cases::Case& c : batch) {
+        derivations.push_back(cases::derivations(c));
+    }
+    // Doors come last: not many of them are in one submission, and others are to be in that of the
+    // cases themselves.
+    for (const bool are_doors : {false, true}) {
+        for (size_t k = 0; k < batch.size(); ++k) {
+            for (size_t d = 0; d < derivations[k].size(); ++d) {
+                const cases::Derivation& derivation = derivations[k][d];
+                if ((derivation.kind == cases::RelationKind::door) == are_doors) {
+                    Round& round = derivation.variation.later ? later : beside;
+                    round.cases.push_back(cases::derive(batch[k], derivation));
+                    round.origins.push_back({k, d});
+                }
+            }
         }
     }
 

@@ -33,7 +33,6 @@ void set_inputs(const Device& device, VkCommandBuffer commands, const PipelineKe
 void set_samples(const Device& device, VkCommandBuffer commands, const PipelineKey& key) {
     const VolkDeviceTable& vk = device.vk();
     vk.vkCmdSetRasterizationSamplesEXT(commands, static_cast<VkSampleCountFlagBits>(key.samples));
-    vk.vkCmdSetAlphaToCoverageEnableEXT(commands, key.alpha_to_coverage ? VK_TRUE : VK_FALSE);
     if (device.capabilities().location_counts == 0) {
         return;
     }

@@ -11,6 +11,7 @@
 #include "cases/model/rule_ids.hpp"
 #include "coverage_fixture.hpp"
 #include "ref/expectation/explain.hpp"
+#include "ref/stencil/values.hpp"
 #include "tests/unit/ref/same_expectations.hpp"
 
 namespace ref::test {
@@ -109,8 +110,7 @@ TEST(AlphaCoverage, IsToldWithItsRule) {
               "inside the triangle, and alpha to coverage keeps all samples of a fragment whose "
               "output is of an alpha of 1");
     EXPECT_EQ(told(with_alpha(1), Profile::vulkan),
-              "inside the triangle, but alpha to coverage may leave the sample out, by an "
-              "algorithm of the device's own");
+              "alpha to coverage may leave the sample out, by an algorithm of the device's own");
     cases::Case c = with_alpha(7);
     c.target.color->format = cases::ColorFormat::rgba8_uint;
     EXPECT_EQ(told(c, Profile::vulkan),
@@ -149,8 +149,10 @@ TEST(AlphaCoverage, SaysNothingOfTheSameTriangleAgain) {
         c.draws[1 - open].color.alpha_to_coverage = false;
         for (cases::Draw& draw : c.draws) {
             draw.depth.compare = cases::CompareOp::not_equal;
-            draw.stencil.front.pass = draw.stencil.back.pass =
-                cases::StencilOp::increment_and_clamp;
+            for (cases::StencilFace* face : {&draw.stencil.front, &draw.stencil.back}) {
+                face->pass = cases::StencilOp::increment_and_clamp;
+                face->depth_fail = cases::StencilOp::invert;
+            }
         }
         const Expectation e = expect(c, Limits{}, Profile::direct3d);
         EXPECT_TRUE(same_expectations(e, exact::expect(c, Limits{}, Profile::direct3d)));
@@ -161,6 +163,12 @@ TEST(AlphaCoverage, SaysNothingOfTheSameTriangleAgain) {
                   open == 0 ? (std::vector<uint32_t>{0, 1}) : (std::vector<uint32_t>{0}))
             << variant;
         EXPECT_TRUE(s.hits.total_max == 1 || !c.target.has_stencil) << variant;
+        if (c.target.has_stencil) {
+            // One is counted; a second one that is there fails by its depth and inverts that.
+            EXPECT_EQ(stencil::values_of(e.stencils_of(s), s.is_stencil_free, 0, std::nullopt),
+                      stencil::Values().set(1).set(0xfe))
+                << variant;
+        }
     }
 }
 
