@@ -20,8 +20,12 @@ constexpr VkDeviceSize kKeptBytes = VkDeviceSize{512} << 20;
 // so that few are asked for again behind these: a run of the suite takes as long with 4,096. One of
 // lavapipe takes some 600 KB, and a run through all doors makes tens of thousands.
 constexpr size_t kKeptPipelines = 512;
-// Pictures through doors in one submission. A case that a driver draws in seconds, since software
-// has numbers beyond all viewports to go through, would give no sign of life for minutes.
+// Pictures through doors in one submission. A worker gives a sign of life before a submission and
+// after it, and none while it waits for the device; after 30 s without any (--timeout) it counts as
+// hung. A case goes through up to some sixty doors, and there are cases that take a driver seconds
+// each time (docs/findings/swiftshader-bad-numbers.md has one of 4.4 s): in one submission they
+// would take minutes. Four pictures through doors and the plain one stay within the 30 s if each
+// takes less than 6 s.
 constexpr size_t kDoorsOfSubmission = 4;
 
 // What is kept must not be why the next allocation fails, on a device of little memory.

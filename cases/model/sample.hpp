@@ -202,7 +202,8 @@ inline bool asks_shading_rate(const Draw& draw) {
 // Vulkan specification, "Multisample Coverage": a mask of which each bit is determined by alpha is
 // ANDed, by no specific algorithm; skipped if the output is of integers. Direct3D 11.3, 17.18: no
 // sample where alpha is 0 or less or NaN, all where it is 1 or more; off where the shader writes a
-// mask. What one sample a pixel comes to, no text says.
+// mask. What one sample a pixel comes to is left open: Vulkan's text says of it what it says of
+// several, and of Direct3D's nothing is taken for it.
 enum class AlphaCoverage : uint8_t { all, none, any };
 AlphaCoverage alpha_coverage(const Draw& draw, const Target& target, Profile profile);
 

@@ -129,13 +129,13 @@ class OutlineList {
     size_t count_ = 0;
 };
 
-// The samples that a draw may touch at all: pixels inside scissor and framebuffer, and the
-// viewport.
+// The window of a draw (docs/design.md, "Words").
 struct Window {
-    int64_t pixel_x0 = 0, pixel_x1 = 0;  // half-open
+    int64_t pixel_x0 = 0, pixel_x1 = 0;  // framebuffer and scissor; half-open
     int64_t pixel_y0 = 0, pixel_y1 = 0;
-    // Nothing is drawn outside `zone`; nothing has to be drawn outside `core`. They differ along a
-    // fractional viewport only, by the pixel on either side that rules.md leaves open there.
+    // The viewport: nothing is drawn outside `zone`; nothing has to be drawn outside `core`. They
+    // differ along a fractional viewport only, by the pixel on either side that rules.md leaves
+    // open there.
     FixedRange zone_x, zone_y, core_x, core_y;
     bool is_viewport_ignored = false;    // undefined positions: only scissor and framebuffer hold
     uint32_t sample_mask = 0xffffffffU;  // bit s: sample s passes the sample masks

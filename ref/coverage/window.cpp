@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The samples that a draw may touch at all.
+// The window of a draw (docs/design.md, "Words").
 #include <algorithm>
 
 #include "ref/coverage/setup.hpp"
