@@ -54,7 +54,8 @@ class Driver(ProgramTest):
 
     def test_a_known_failure_hides_no_other(self):
         """In each case that is known to fail on this driver (a third of them by commit) a second fault is planted, and
-        seen: within the counts of the suite's files that hold for several drivers somewhere, with the bits of this driver wherever it is."""
+        seen: within the counts of the suite's files that hold for several drivers somewhere, with the bits of this
+        driver wherever it is."""
         self.suite = SOURCE / "cases" / "suite"
         usual = ("-q", "--no-diagnosis", "--html", self.folder / "page.html")
         named = {found[1] for file in (SOURCE / "cases" / "expectations").glob("llvmpipe*.txt")
