@@ -169,12 +169,14 @@ class Updater {
                        ? std::optional(Wanted{record.id, line.status, line.cause})
                        : std::nullopt;
         }
-        Wanted wanted{record.id, actual, {}};
-        if (actual == line.status) {
+        const bool is_as_known =
+            actual == line.status || (line.status == Status::flake && actual == Status::fail);
+        Wanted wanted{record.id, is_as_known ? line.status : actual, {}};
+        if (is_as_known) {
             wanted.cause = line.cause;
         }
         const bool with_bits = words_.bits || !wanted.cause.bits.empty();
-        if (words_.bits && actual == line.status && wanted.cause.bits.empty()) {
+        if (words_.bits && is_as_known && wanted.cause.bits.empty()) {
             wanted.cause.bits = cause_of(record, true).bits;
         }
         if (wanted.cause.is_empty() || !what_is_new(wanted.cause, record).empty()) {

@@ -88,6 +88,12 @@ class Statuses(ExpectationTest):
     def test_flake_is_no_expected_fail_when_asked_twice(self):
         self.outcome("flake", "flake", "xfail", 0)
 
+    def test_a_known_flake_may_fail_the_same_way_twice(self):
+        self.outcome("flake", "flip-pixel", "xfail", 0)
+        self.expectations("fam/c3 flake bug#1 extra:cover.outside@vulkan<=9  # Known.\n")
+        self.run_suite(fault="flip-pixel@fam/c3", check=1)
+        self.assertEqual(self.statuses()["fam/c3"], "fail")
+
     def test_a_flaky_known_failure_is_a_flake(self):
         # What is expected is drawn again, too: a failure that comes and goes is no expected one.
         self.outcome("fail", "flake", "flake", 1)

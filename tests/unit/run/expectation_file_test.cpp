@@ -104,7 +104,8 @@ TEST(Expectations, StatusesOfEveryPair) {
     EXPECT_EQ(judge(Status::timeout, Status::device_lost), Status::timeout);
     EXPECT_EQ(judge(Status::pass, Status::flake), Status::pass);
     EXPECT_EQ(judge(Status::flake, Status::flake), Status::xfail);
-    EXPECT_EQ(judge(Status::fail, Status::flake), Status::fail);
+    EXPECT_EQ(judge(Status::fail, Status::flake), Status::xfail);
+    EXPECT_EQ(judge(Status::crash, Status::flake), Status::crash);
 }
 
 TEST(Expectations, DatesAreDaysOfTheCalendar) {
