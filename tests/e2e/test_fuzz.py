@@ -91,13 +91,13 @@ class Hunts(FuzzTest):
             self.assertEqual(set(self.statuses(self.folder / "run").values()), {"fail"})
             self.assertEqual(len(self.statuses(self.folder / "run")), len(found))
         # What is known is no news. (A few causes may be: the first hunt reduced a part of what failed.)
-        done = self.fuzz("--seed=6", "--cases=832", "--known", self.folder / "hunt", out=self.folder / "again")
+        done = self.fuzz("--seed=6", "--cases=384", "--known", self.folder / "hunt", out=self.folder / "again")
         known = {(c["symptom"], *c["essentials"]) for c in ledger["causes"]}
         again = self.ledger("again")["causes"]
         fresh = [c for c in again if not c["is_known"]]
         self.assertLess(len(fresh), len(found) / 2, done.stdout)
         self.assertFalse(known & {(c["symptom"], *c["essentials"]) for c in fresh}, done.stdout)
-        self.assertGreater(sum(c["count"] for c in again if c["is_known"]), 25)
+        self.assertGreater(sum(c["count"] for c in again if c["is_known"]), 10)
         # Two hunts that know a third one bring its causes once.
         self.fuzz("--cases=128", "--known", self.folder / "hunt", "--known", self.folder / "again", out=self.folder / "third")
         files = [c["file"] for c in self.ledger("third")["causes"] if c["is_known"]]
@@ -134,11 +134,11 @@ class Hunts(FuzzTest):
         self.assertNotEqual(self.found("a"), self.found("c"))
 
     def test_shards_share_out_the_cases(self):
-        self.fuzz("--cases=384")
+        self.fuzz("--cases=192")
         whole = self.ledger()
         parts = []
         for part in "123":
-            self.fuzz("--cases=384", f"--shard={part}/3", out=self.folder / part)
+            self.fuzz("--cases=192", f"--shard={part}/3", out=self.folder / part)
             parts.append(self.ledger(part))
         for key in ("judged_cases", "unsupported_cases", "empty_cases"):
             self.assertEqual(sum(part[key] for part in parts), whole[key], key)

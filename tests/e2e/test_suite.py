@@ -101,7 +101,7 @@ class Suite(ProgramTest):
     def test_the_reference_passes_its_own_judge(self):
         # It draws by rationals, minutes for all of these.
         for words in (("--quick",), ("multisample/**", "clip/**"), ("multisample/**", "clip/**", "--profile", "vulkan")):
-            self.edgecase("run", "-o", self.out, "--renderer", "reference", *words, "--shard", self.share(12), "--timeout", "100", check=0)
+            self.edgecase("run", "-o", self.out, "--renderer", "reference", *words, "--shard", self.share(24), "--timeout", "100", check=0)
             results = self.results()
             left_out = {case["id"]: case["reason"] for case in results["cases"] if case["status"] == "unsupported"}
             self.assertEqual(results["totals"]["pass"] + len(left_out), results["totals"]["cases"])

@@ -30,6 +30,7 @@
 #include "folders.hpp"
 #include "rasterizers/strength/strength.hpp"
 #include "run/judge.hpp"
+#include "share.hpp"
 
 namespace {
 
@@ -112,7 +113,11 @@ const Hypothesis& named(const std::string& name) {
 
 class Named : public testing::TestWithParam<const char*> {};
 
+// Every other error by a commit, others as the suite grows.
 TEST_P(Named, IsToldFirst) {
+    if (!test_support::share_of(2, small_suite().size()).has(GetParam())) {
+        GTEST_SKIP() << "another share (EDGECASE_SUITE_SHARE)";
+    }
     const std::vector<report::Diagnosis> list = diagnose(run_of(named(GetParam())));
     ASSERT_FALSE(list.empty());
     EXPECT_THAT(list.front().names, testing::Contains(GetParam()));

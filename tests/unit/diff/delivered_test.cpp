@@ -8,7 +8,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "cases/load/loader.hpp"
+#include "cases/model/rule_ids.hpp"
 #include "perfect_capture.hpp"
 #include "rasterizers/captures.hpp"
 #include "rasterizers/strength/strength.hpp"
@@ -241,6 +244,29 @@ TEST(Delivered, APictureOfTheColourAloneHasNoHits) {
     const auto e = ref::expect(f.c, ref::Limits{8}, Profile::direct3d);
     const diff::Verdict v = diff::compare_delivered(f.c, e, cut);
     EXPECT_TRUE(v.ok()) << v.error;
+}
+
+// Coverage that a renderer delivers beside a colour is levelled as the case says, by which alpha
+// may take a sample away at vulkan and at practice.
+TEST(Delivered, ASampleThatAlphaMayTakeIsMissingAtDirect3DAlone) {
+    Fixture f;
+    f.c.target.samples = 4;
+    f.c.target.color = {cases::ColorFormat::rgba8_unorm, {0, 0, 0, 0}};
+    f.c.draws[0].color.value = {1, 1, 1, 1};
+    f.c.draws[0].color.alpha_to_coverage = true;
+    f.e = ref::expect(f.c, ref::Limits{8}, Profile::direct3d);
+    f.right = perfect_capture(f.c, f.e);
+    f.c.target.has_instruments = false;
+    f.e = ref::expect(f.c, ref::Limits{8}, Profile::direct3d);
+    capture::Delivered delivered = take(f.right, kCoverage);
+    EXPECT_TRUE(diff::compare_delivered(f.c, f.e, delivered).ok());
+    const auto seen = std::find(delivered.front.begin(), delivered.front.end(), 1U);
+    ASSERT_NE(seen, delivered.front.end());
+    *seen = 0;
+    const diff::Verdict v = diff::compare_delivered(f.c, f.e, delivered);
+    ASSERT_EQ(v.findings.size(), 1U);
+    EXPECT_EQ(v.findings[0].rule, cases::rule::sample_alpha_to_coverage);
+    EXPECT_EQ(v.findings[0].level, Profile::direct3d);
 }
 
 TEST(Delivered, DepthThatIsNotWrittenTellsNothing) {

@@ -339,7 +339,8 @@ constexpr const char* kKinds[] = {
     "without z and w",
     "without z and w of vertex ",
 };
-constexpr size_t kParts = 3;  // of a file's properties; a share has one of a file
+// Of a file's properties; a share has one of every other file.
+constexpr size_t kParts = 3;
 
 // Over the plain files of the suite, each with a part of its properties needed, and answers without
 // a reason, which make the search take what no sensible one takes.
@@ -347,7 +348,7 @@ TEST(Reduce, EndsAtAMinimumByStepsOfAllKinds) {
     std::map<std::string, size_t> kinds;
     const std::vector<SuiteDocument> files = plain_documents();
     EXPECT_GT(files.size(), 150U);
-    const test_support::Share share = test_support::share_of(kParts, files.size());
+    const test_support::Share share = test_support::share_of(2 * kParts, files.size());
     const auto reduce_part = [&](size_t k, size_t from) {
         const std::set<std::string> needed = some_of(properties_of(load(files[k].text)), from);
         const Shows shows = shows_with([&](const Case& candidate) {

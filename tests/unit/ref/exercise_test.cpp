@@ -140,6 +140,26 @@ TEST(Exercise, AMaskOfAllSamplesDecidesNothing) {
     EXPECT_EQ(samples_of("sample.mask", "samples = 4\n", "shader_mask = 7\n"), 64U);
 }
 
+// Taken for an alpha, a fourth of 0 would draw nothing: that shows at the 6 samples of the
+// triangle, unless another one is drawn over it.
+TEST(Exercise, IntegersThatAlphaWouldTakeAwayShowWhereTheyAreSeen) {
+    const auto found = [](const std::string& behind) {
+        return exercise_of_text(
+                   "[target]\nsize = [8, 8]\nattachments = \"color\"\n"
+                   "[target.color]\nformat = \"rgba8-uint\"\n"
+                   "[[draw]]\nvertices = [[0,0], [4,0], [0,4]]\n"
+                   "color = { value = [1, 2, 3, 0], alpha_to_coverage = true }\n" +
+                       behind,
+                   {"sample.alpha-to-coverage"})
+            .rules.at(0)
+            .samples;
+    };
+    EXPECT_EQ(found(""), 6U);
+    EXPECT_EQ(
+        found("[[draw]]\nvertices = [[0,0], [16,0], [0,16]]\ncolor = { value = [9, 9, 9, 9] }\n"),
+        0U);
+}
+
 TEST(Exercise, ADistanceThatCutsNothingDecidesNothing) {
     EXPECT_EQ(samples_of("clip.distance", "", "[[draw.clip_distance]]\nconstant = 1\n"), 0U);
     EXPECT_EQ(samples_of("clip.distance", "", "[[draw.clip_distance]]\nplane = \"4-x\"\n"), 6U);

@@ -226,7 +226,7 @@ TEST(ExhaustiveReasons, NameTheBarycentricOfAnotherVertex) {
 TEST(ExhaustiveReasons, OfValuesDecide) {
     std::map<ReasonKind, size_t> told, taken;
     const cases::Suite suite = cases::load_suite(test_support::source_dir() + "/cases/suite");
-    const auto share = test_support::share_of(8, suite.cases.size());
+    const auto share = test_support::share_of(12, suite.cases.size());
     const auto is_shown = [&](ReasonKind kind) {
         return kind == ReasonKind::value_other_weight ||  // the test above
                (told[kind] > 0 && (kind == ReasonKind::value_exact || taken[kind] > 0));

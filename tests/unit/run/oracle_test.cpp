@@ -43,7 +43,7 @@ const Leaves& leaves() {
     static const Leaves kLeaves = [] {
         Leaves out;
         const auto suite = cases::load_suite(test_support::source_dir() + "/cases/suite");
-        const auto share = test_support::share_of(64, suite.cases.size());
+        const auto share = test_support::share_of(96, suite.cases.size());
         for (const cases::Case& c : suite.cases) {
             if (c.blit || !share.has(c.id)) {
                 continue;
