@@ -134,11 +134,11 @@ class Hunts(FuzzTest):
         self.assertNotEqual(self.found("a"), self.found("c"))
 
     def test_shards_share_out_the_cases(self):
-        self.fuzz("--cases=192")
+        self.fuzz("--cases=384")
         whole = self.ledger()
         parts = []
         for part in "123":
-            self.fuzz("--cases=192", f"--shard={part}/3", out=self.folder / part)
+            self.fuzz("--cases=384", f"--shard={part}/3", out=self.folder / part)
             parts.append(self.ledger(part))
         for key in ("judged_cases", "unsupported_cases", "empty_cases"):
             self.assertEqual(sum(part[key] for part in parts), whole[key], key)
