@@ -135,16 +135,40 @@ void Attribution::attribute_color(Finding& finding, uint32_t hits, cases::Profil
     const size_t index = index_of(finding);
     finding.level = level;
     const uint32_t most = at(cases::Profile::vulkan, index).samples[index].hits.front_max;
-    const uint32_t front = std::min(hits, most);
-    const bool is_number = !at(level, index).samples[index].hits.allows(front, hits - front);
-    attribute_at_level(finding, front, hits - front, {}, is_number ? std::nullopt : triangle);
-    if (!is_number && !triangle) {
+    const ref::HitBounds asked = at(level, index).samples[index].hits;
+    if (hits < asked.total_min || hits > asked.total_max) {
+        const uint32_t front = std::min(hits, most);
+        attribute_at_level(finding, front, hits - front, {});
+    } else if (triangle) {
+        attribute_triangle(finding, *triangle);
+    } else {
         tell(finding, ref::ReasonKind::color_none);
     }
 }
 
+void Attribution::attribute_triangle(Finding& finding, uint32_t triangle) {
+    const std::tuple like(finding.kind, finding.level, expectation_.triangles[triangle].draw);
+    const auto earlier = like_triangle_.find(like);
+    if (explained_ >= explains_ && earlier != like_triangle_.end()) {
+        finding.rule = earlier->second.rule;
+        finding.why = "as at " + cases::pixel_text(case_.target, sample_of(earlier->second));
+        return;
+    }
+    const Causes causes(explainer(finding.level), case_, sample_of(finding), finding.level);
+    const std::optional<Cause> cause = finding.kind == FindingKind::missing
+                                           ? causes.of_lost(triangle)
+                                           : causes.of_another(triangle);
+    if (cause) {
+        tell(finding, *cause);
+    } else {
+        tell(finding, ref::ReasonKind::color_none);
+    }
+    ++explained_;
+    like_triangle_.insert_or_assign(like, finding);
+}
+
 void Attribution::attribute_at_level(Finding& finding, uint32_t front, uint32_t back,
-                                     const LastHit& last, const std::optional<uint32_t>& triangle) {
+                                     const LastHit& last) {
     const size_t index = index_of(finding);
     const ref::HitBounds asked = at(finding.level, index).samples[index].hits;
     const bool by_face = faces_matter(asked, front, back);
@@ -176,26 +200,10 @@ void Attribution::attribute_at_level(Finding& finding, uint32_t front, uint32_t 
         finding.why = "as at " + cases::pixel_text(case_.target, sample_of(*earlier));
         return;
     }
-    if (triangle) {
-        explain_triangle(finding, *triangle);
-    } else {
-        explain_hits(finding, asked, front + back, is_blamed ? last : LastHit{});
-    }
+    explain_hits(finding, asked, front + back, is_blamed ? last : LastHit{});
     ++explained_;
     like_.insert_or_assign(key, finding);
     alike_.insert_or_assign(rough, finding);
-}
-
-void Attribution::explain_triangle(Finding& finding, uint32_t triangle) {
-    const Causes causes(explainer(finding.level), case_, sample_of(finding), finding.level);
-    const std::optional<Cause> cause = finding.kind == FindingKind::missing
-                                           ? causes.of_lost(triangle)
-                                           : causes.of_another(triangle);
-    if (cause) {
-        tell(finding, *cause);
-    } else {
-        tell(finding, ref::ReasonKind::color_none);
-    }
 }
 
 void Attribution::explain_hits(Finding& finding, const ref::HitBounds& asked, uint32_t total,

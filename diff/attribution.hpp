@@ -66,11 +66,10 @@ class Attribution {
   private:
     size_t index_of(const Finding& finding) const;
     ref::Explainer& explainer(cases::Profile level);
-    // attribute_hits() of a finding whose level is set; `triangle`: what is wrong is the one of
-    // attribute_color(), not how many there are.
-    void attribute_at_level(Finding& finding, uint32_t front, uint32_t back, const LastHit& last,
-                            const std::optional<uint32_t>& triangle = {});
-    void explain_triangle(Finding& finding, uint32_t triangle);
+    // attribute_hits() of a finding whose level is set.
+    void attribute_at_level(Finding& finding, uint32_t front, uint32_t back, const LastHit& last);
+    // Rule and why of a fragment of this triangle that is missing, or of one more that looks so.
+    void attribute_triangle(Finding& finding, uint32_t triangle);
     // Fills rule and why from the story of the sample.
     void explain_hits(Finding& finding, const ref::HitBounds& asked, uint32_t total,
                       const LastHit& last);
@@ -93,6 +92,8 @@ class Attribution {
     std::map<std::string, Finding> like_;  // by kind, level, draw, expected and got
     std::map<std::tuple<FindingKind, cases::Profile, uint32_t>, Finding> alike_;
     std::map<cases::Profile, Finding> like_writer_;  // wrong writers, by level
+    // Of single triangles: by kind, level and the triangle's draw.
+    std::map<std::tuple<FindingKind, cases::Profile, uint32_t>, Finding> like_triangle_;
 };
 
 // Sets rule and why to those of a cause, or of a reason that needs no more words.

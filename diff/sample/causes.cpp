@@ -239,6 +239,7 @@ std::optional<Cause> Causes::of_another(uint32_t triangle) const {
         first_that([&](const auto& e) { return e.index == triangle; });
     const TriangleExplanation* const t = first_that([&](const auto& e) {
         return like != nullptr && e.triangle.draw == like->triangle.draw &&
+               case_.draws[e.triangle.draw].color.attribute < 0 &&
                e.decision.coverage == Coverage::must_not;
     });
     return t ? std::optional<Cause>(of(*t)) : std::nullopt;

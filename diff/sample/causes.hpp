@@ -39,8 +39,8 @@ class Causes {
     Cause of_count(uint32_t total, bool is_missing) const;
     // Of a fragment that is not there, and must be; nothing where the triangle may be absent.
     std::optional<Cause> of_lost(uint32_t triangle) const;
-    // Of a fragment too many that looks like one of this triangle: another one of the same draw
-    // that must not be there. Nothing if there is none.
+    // Of a fragment too many that looks like one of this triangle: another one of the same draw,
+    // whose colour is a constant, that must not be there. Nothing if there is none.
     std::optional<Cause> of_another(uint32_t triangle) const;
     // Of a hit too many of a triangle that must fail the depth test, or one too few of a triangle
     // that must pass it; the number alone does not tell which, so the last one that fits is named.

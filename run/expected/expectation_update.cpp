@@ -170,7 +170,8 @@ class Updater {
                        : std::nullopt;
         }
         const bool is_as_known =
-            actual == line.status || (line.status == Status::flake && actual == Status::fail);
+            actual == line.status || (line.status == Status::flake && actual == Status::fail &&
+                                      what_is_new(line.cause, record).empty());
         Wanted wanted{record.id, is_as_known ? line.status : actual, {}};
         if (is_as_known) {
             wanted.cause = line.cause;

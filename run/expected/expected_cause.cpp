@@ -351,7 +351,8 @@ std::string what_is_new(const ExpectedCause& cause, const report::CaseRecord& re
         }
     };
     const bool is_flake = record.status == report::Status::flake;
-    const bool has_died = !is_flake || !record.suspects.empty();
+    const bool has_died =
+        (!is_flake && record.status != report::Status::fail) || !record.suspects.empty();
     if (is_flake) {
         if (std::string news = what_of_flake_is_new(cause, record); !news.empty()) {
             say(std::move(news));

@@ -94,6 +94,16 @@ class Statuses(ExpectationTest):
         self.run_suite(fault="flip-pixel@fam/c3", check=1)
         self.assertEqual(self.statuses()["fam/c3"], "fail")
 
+    def test_an_update_keeps_a_known_flake_that_failed_as_known(self):
+        path = self.expectations(f"fam/c3 flake bug#1 {FLIPPED}  # Known.\n")
+        self.run_suite(fault="flip-pixel@fam/c3", check=0)
+        self.edgecase("expect", path, "--update", self.out, "--bug", "bug#2", check=0)
+        self.assertRegex(path.read_text(), rf"(?m)^fam/c3 +flake +bug#1 +{FLIPPED} ")
+        path = self.expectations("fam/c3 flake bug#1 signal=SIGSEGV  # Known.\n")
+        self.run_suite(fault="flip-pixel@fam/c3", check=1)
+        self.edgecase("expect", path, "--update", self.out, "--bug", "bug#2", check=0)
+        self.assertRegex(path.read_text(), r"(?m)^fam/c3 +fail +bug#")
+
     def test_a_flaky_known_failure_is_a_flake(self):
         # What is expected is drawn again, too: a failure that comes and goes is no expected one.
         self.outcome("fail", "flake", "flake", 1)

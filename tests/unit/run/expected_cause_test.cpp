@@ -161,6 +161,17 @@ TEST(ExpectedCause, AFlakeThatWasADeathIsKnownByItsDeathAlone) {
     EXPECT_NE(what_is_new(parsed({"signal=SIGSEGV"}), record), "");
 }
 
+// A line may know a death and findings; a failure is no death, and its findings are asked alone.
+TEST(ExpectedCause, AFailureIsNotAskedForADeath) {
+    const report::CaseRecord record = failed(2, 1);
+    const char* const findings = "extra:cover.outside@vulkan<=2";
+    EXPECT_EQ(what_is_new(parsed({"signal=SIGSEGV", findings, "value:interp.linear@practice<=1"}),
+                          record),
+              "");
+    EXPECT_NE(what_is_new(parsed({"signal=SIGSEGV", findings}), record), "");
+    EXPECT_NE(what_is_new(parsed({"signal=SIGSEGV"}), record), "");
+}
+
 TEST(ExpectedCause, GrowsToTheLargestCount) {
     ExpectedCause cause = cause_of(failed(9, 3));
     widen(cause, cause_of(failed(2, 5)));
