@@ -116,7 +116,7 @@ class Named : public testing::TestWithParam<const char*> {};
 // Every other error by a commit, others as the suite grows.
 TEST_P(Named, IsToldFirst) {
     if (!test_support::share_of(2, small_suite().size()).has(GetParam())) {
-        GTEST_SKIP() << "another share (EDGECASE_SUITE_SHARE)";
+        GTEST_SKIP() << "EDGECASE_SUITE_SHARE=1/1 tests all errors";
     }
     const std::vector<report::Diagnosis> list = diagnose(run_of(named(GetParam())));
     ASSERT_FALSE(list.empty());

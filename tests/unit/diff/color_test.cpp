@@ -99,6 +99,58 @@ TEST(Color, NothingIsTestedWithoutADepthAttachment) {
     EXPECT_EQ(ref::expect(c, ref::Limits{8}, Profile::vulkan).samples[both].hits.total_min, 2U);
 }
 
+// Where alpha to coverage leaves the number of fragments open, the colour tells which one is
+// missing, and each draw's are told by what holds of that draw, however many were told before.
+TEST(Color, OfEachDrawThatIsMissingItsOwnRuleIsTold) {
+    cases::Case c = pixel_case(32, 32, {{0, 0}, {64, 0}, {0, 64}});
+    c.draws.push_back(pixel_case(32, 32, {{0, 0}, {32, 0}, {0, 12}}).draws[0]);
+    // Its left edge goes through sample 0 of column 10, at 6/16 pixel.
+    c.draws.push_back(pixel_case(32, 32, {{10.375F, 20}, {32, 26}, {10.375F, 32}}).draws[0]);
+    c.target.samples = 4;
+    c.target.color = {ColorFormat::rgba8_unorm, {0, 0, 0, 0}};
+    c.target.has_instruments = false;
+    c.target.has_depth = false;
+    c.draws[0].color.value = {0.25F, 0, 0, 0.5F};
+    c.draws[1].color.value = {0, 0.25F, 0, 1};
+    c.draws[2].color.value = {0, 0, 0.25F, 0};
+    for (cases::Draw& draw : c.draws) {
+        draw.color.blend =
+            cases::Blend{{cases::BlendFactor::one, cases::BlendFactor::one, cases::BlendOp::add},
+                         {cases::BlendFactor::one, cases::BlendFactor::one, cases::BlendOp::add}};
+        draw.color.alpha_to_coverage = &draw != &c.draws[2];
+    }
+    // The device keeps all of the first draw and nothing of the second; the third loses its edge.
+    cases::Case device = c;
+    for (cases::Draw& draw : device.draws) {
+        draw.color.alpha_to_coverage = false;
+    }
+    for (const size_t left : {0U, 2U}) {
+        device.draws[2].positions[left].x =
+            pixel_case(32, 32, {{10.375F + 1 / 256.0F, 20}}).draws[0].positions[0].x;
+    }
+    device.draws.erase(device.draws.begin() + 1);
+    const ref::Expectation of_device = ref::expect(device, ref::Limits{8}, Profile::direct3d);
+    ref::ColorReference reference(device, of_device);
+    capture::Capture capture;
+    capture.target = c.target;
+    capture.color.resize(capture.sample_count());
+    for (size_t k = 0; k < capture.color.size(); ++k) {
+        capture.color[k] = reference.codes(k, cases::sample_at(c.target, k), std::nullopt);
+    }
+    const ref::Expectation expectation = ref::expect(c, ref::Limits{8}, Profile::direct3d);
+    const Verdict verdict = compare(c, expectation, capture);
+    size_t above = 0, on_edge = 0;
+    for (const Finding& f : verdict.findings) {
+        EXPECT_EQ(f.kind, FindingKind::missing);
+        EXPECT_EQ(f.level, Profile::direct3d);
+        above += f.y < 12 ? 1U : 0U;
+        on_edge += f.x == 10 && f.y >= 20 ? 1U : 0U;
+        EXPECT_EQ(f.rule, f.y < 12 ? "sample.alpha-to-coverage" : "tie.top-left") << f.y << f.why;
+    }
+    EXPECT_GE(above, 16U);
+    EXPECT_GE(on_edge, 8U);
+}
+
 TEST(Color, ABlackPictureFails) {
     Drawn drawn(additive());
     std::fill(drawn.capture.color.begin(), drawn.capture.color.end(), capture::ColorCodes{});

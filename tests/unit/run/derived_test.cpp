@@ -75,6 +75,40 @@ diff::Consistency judged(const std::string& door, Alter plain, Alter through_doo
     return drawn[0].consistency.at(0);
 }
 
+// Draws nothing, and remembers what it was asked for.
+class Asked : public Backend {
+  public:
+    const vk_harness::DeviceInfo& device() const override { return device_; }
+    std::string lacking(const cases::Case&) const override { return ""; }
+    std::vector<Rendered> render(const std::vector<cases::Case>& batch,
+                                 const std::function<void(std::string_view)>& /*step*/,
+                                 const vk_harness::PlaneStore& /*store*/) override {
+        for (const cases::Case& c : batch) {
+            doors.push_back(c.variation.door != cases::Door::none);
+        }
+        return std::vector<Rendered>(batch.size());
+    }
+    std::vector<bool> doors;  // whether each picture is one through a door
+
+  private:
+    vk_harness::DeviceInfo device_;
+};
+
+// A submission has few pictures through doors, and what is drawn twice the same is to be in one.
+TEST(Derived, DoorsComeBehindAllOtherPictures) {
+    const auto loaded = cases::load_text(
+        "format = 1\ndescription = \"d\"\nrules = [\"cover.inside\"]\n"
+        "relations = [{ doors = [\"index-16\", \"geometry\"] }, \"same-twice\"]\n"
+        "[target]\nsize = [8, 4]\n[[draw]]\nvertices = [[0,0],[8,0],[0,4]]\n",
+        "f", "id");
+    ASSERT_TRUE(loaded) << to_string(loaded.error().front());
+    Asked device;
+    render_with_derived(device, {loaded->front(), loaded->front()}, [](std::string_view) {}, {});
+    // The two cases, each again, their doors; then each once more in a later submission.
+    EXPECT_EQ(device.doors, (std::vector<bool>{false, false, false, false, true, true, true, true,
+                                               false, false}));
+}
+
 TEST(Derived, TheSameBitsAreNoDifference) {
     for (const char* door : {"index-16", "unoptimized", "geometry"}) {
         const diff::Consistency found = judged(door, {}, {});
