@@ -30,6 +30,8 @@ Words change_bounds(Document& document, Dice& dice);
 Words change_frag_depth(Document& document, Dice& dice);
 Words change_logic(Document& document, Dice& dice);
 Words change_query(Document& document, Dice& dice);
+Words change_alpha(Document& document, Dice& dice);
+Words change_fragment_size(Document& document, Dice& dice);
 Words change_stencil(Document& document, Dice& dice);
 Words change_blit(Document& document, Dice& dice);
 

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Changes of what becomes of fragments: depth bounds, depths that the shader writes, logical
-// operations, queries of occlusion and of pipeline statistics.
+// Changes of what becomes of fragments: their size, depth bounds, depths that the shader writes,
+// logical operations, what alpha does to coverage and to itself, queries of occlusion and of
+// pipeline statistics.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -72,6 +73,22 @@ bool drops(Document* table, std::string_view key, Dice& dice) {
     return table != nullptr && find(*table, key) != nullptr && dice.one_in(3) && erase(*table, key);
 }
 
+// What the draw writes, unless these are several colours.
+Document* one_color(Document& draw) {
+    Document* color = find(draw, "color");
+    return color != nullptr && color->is(Document::Kind::table) ? color : nullptr;
+}
+
+// Blending counts hits, which a logical operation switches off and alpha changes; queries are
+// judged by hits.
+void without_instruments(Document& document, Dice& dice) {
+    Document* target = find(document, "target");
+    if (target != nullptr && find(*target, "attachments") == nullptr) {
+        set(*target, "attachments", text(dice.one_in(2) ? "color" : "color+depth"));
+        for_each_draw(document, [](Document& one) { erase(one, "query"); });
+    }
+}
+
 }  // namespace
 
 Words change_bounds(Document& document, Dice& dice) {
@@ -133,26 +150,52 @@ Words change_frag_depth(Document& document, Dice& dice) {
     return words;
 }
 
+Words change_fragment_size(Document& document, Dice& dice) {
+    Words words;
+    Document* draw = any_draw(document, dice, words);
+    if (draw == nullptr) {
+        return {};
+    }
+    if (drops(draw, "fragment_size", dice)) {
+        return words + "without a fragment size";
+    }
+    const auto width = static_cast<double>(1U << dice.below(3));
+    const auto height = static_cast<double>(1U << dice.below(3));
+    set(*draw, "fragment_size", numbers({width, height}));
+    return fmt::format("{}fragments of {} x {} pixels", words, width, height);
+}
+
+Words change_alpha(Document& document, Dice& dice) {
+    static constexpr std::array<std::string_view, 2> kKeys = {"alpha_to_one", "alpha_to_coverage"};
+    Words words;
+    Document* draw = any_draw(document, dice, words);
+    Document* color = draw == nullptr ? nullptr : one_color(*draw);
+    if (color == nullptr) {
+        return {};
+    }
+    const std::string_view key = dice.of(kKeys);
+    if (drops(color, key, dice)) {
+        return fmt::format("{}without {}", words, key);
+    }
+    set(*color, std::string(key), boolean(true));
+    without_instruments(document, dice);
+    return fmt::format("{}{}", words, key);
+}
+
 Words change_logic(Document& document, Dice& dice) {
     Words words;
     Document* draw = any_draw(document, dice, words);
-    Document* target = find(document, "target");
-    Document* color = draw == nullptr ? nullptr : find(*draw, "color");
-    if (color == nullptr || !color->is(Document::Kind::table) || target == nullptr) {
+    Document* color = draw == nullptr ? nullptr : one_color(*draw);
+    if (color == nullptr) {
         return {};
     }
     if (drops(color, "logic", dice)) {
         return words + "without a logical operation";
     }
-    // Blending counts hits, and a logical operation switches it off; queries are judged by hits.
-    if (find(*target, "attachments") == nullptr) {
-        set(*target, "attachments", text(dice.one_in(2) ? "color" : "color+depth"));
-        for_each_draw(document, [](Document& one) { erase(one, "query"); });
-    }
     const auto& ops = cases::kWords<cases::LogicOp>;
     const std::string_view op = ops[dice.below(ops.size())];
-    // Found again: what was erased may have moved it.
-    set(*find(*draw, "color"), "logic", text(std::string(op)));
+    set(*color, "logic", text(std::string(op)));
+    without_instruments(document, dice);
     return fmt::format("{}the logical operation {}", words, op);
 }
 
@@ -169,7 +212,9 @@ Words change_query(Document& document, Dice& dice) {
     erase(*target, "attachments");
     for_each_draw(document, [](Document& one) {
         if (Document* color = find(one, "color")) {
-            erase(*color, "logic");
+            for (const char* key : {"logic", "alpha_to_one", "alpha_to_coverage", "second"}) {
+                erase(*color, key);
+            }
         }
     });
     const auto& kinds = cases::kWords<cases::Query>;

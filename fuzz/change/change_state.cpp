@@ -30,7 +30,7 @@ constexpr std::array<std::string_view, 8> kBlends = {
 constexpr std::array<std::string_view, 6> kMasks = {"rgba", "rgb", "r", "g", "ba", "a"};
 constexpr std::array<std::string_view, 2> kFlags = {"false", "true"};
 
-constexpr std::array<WordKey, 26> kWordKeys = {{
+constexpr std::array<WordKey, 27> kWordKeys = {{
     {"target", "depth", cases::kWords<cases::DepthFormat>},
     {"target", "resolve", cases::kWords<cases::Resolve>},
     {"target", "depth_resolve", cases::kWords<cases::Resolve>},
@@ -44,6 +44,7 @@ constexpr std::array<WordKey, 26> kWordKeys = {{
     {"draw", "provoking", cases::kWords<cases::ProvokingVertex>},
     {"draw", "depth_volume", cases::kVolumeWords},
     {"draw", "discard", cases::kWords<cases::Discard>},
+    {"draw", "discard_by", cases::kWords<cases::DiscardBy>},
     {"draw", "early_tests", kFlags},
     {"draw", "conservative", cases::kWords<cases::Conservative>},
     {"draw", "rasterizer_discard", kFlags},
@@ -366,7 +367,7 @@ Words change_state(Document& document, Dice& dice, const Document* other) {
     if (document.find("blit") != nullptr) {
         return change_blit(document, dice);
     }
-    const uint64_t kind = dice.below(26);
+    const uint64_t kind = dice.below(28);
     return kind < 8    ? change_word(document, dice)
            : kind < 12 ? change_count(document, dice)
            : kind < 13 ? change_bias(document, dice)
@@ -379,6 +380,8 @@ Words change_state(Document& document, Dice& dice, const Document* other) {
            : kind < 22 ? change_frag_depth(document, dice)
            : kind < 23 ? change_logic(document, dice)
            : kind < 24 ? change_query(document, dice)
+           : kind < 25 ? change_alpha(document, dice)
+           : kind < 26 ? change_fragment_size(document, dice)
                        : change_stencil(document, dice);
 }
 

@@ -73,17 +73,21 @@ std::string component(const Pose& pose, uint32_t k, Dice& dice) {
 
 // Those of one colour. Half of them are of the constants or saturated, which need each other's
 // numbers to show.
-std::string_view factor(Dice& dice) {
+std::string_view factor(bool has_second, Dice& dice) {
     const auto& words = cases::kWords<cases::BlendFactor>;
     constexpr auto kSecond = static_cast<uint64_t>(cases::BlendFactor::src1_color);
     constexpr auto kFirstRare = static_cast<uint64_t>(cases::BlendFactor::constant_color);
+    if (has_second && dice.one_in(2)) {
+        return words[kSecond + dice.below(words.size() - kSecond)];
+    }
     return words[dice.one_in(3) ? kFirstRare + dice.below(kSecond - kFirstRare)
                                 : dice.below(kSecond)];
 }
 
-std::string equation(Dice& dice) {
+std::string equation(bool has_second, Dice& dice) {
     const auto& ops = cases::kWords<cases::BlendOp>;
-    const std::string_view source = factor(dice), destination = factor(dice);
+    const std::string_view source = factor(has_second, dice);
+    const std::string_view destination = factor(has_second, dice);
     // The operations without factors say little of them.
     const std::string_view op = dice.one_in(2) ? "add" : ops[dice.below(ops.size())];
     return fmt::format("source = \"{}\", destination = \"{}\", op = \"{}\"", source, destination,
@@ -91,11 +95,16 @@ std::string equation(Dice& dice) {
 }
 
 std::string factors(const Pose& pose, Dice& turn, Dice& dice) {
-    std::string keys = equation(turn);
-    if (turn.one_in(2)) {
-        keys += fmt::format(", alpha = {{ {} }}", equation(turn));
-    }
-    return fmt::format(", blend = {{ {} }}, constants = {}", keys, color_of(pose, dice));
+    const bool has_second = !pose.is_default("second");
+    std::string keys;
+    do {
+        keys = equation(has_second, turn);
+        if (turn.one_in(2)) {
+            keys += fmt::format(", alpha = {{ {} }}", equation(has_second, turn));
+        }
+    } while (has_second && keys.find("src1") == std::string::npos);
+    keys = fmt::format(", blend = {{ {} }}, constants = {}", keys, color_of(pose, dice));
+    return has_second ? keys + fmt::format(", second = {}", color_of(pose, dice)) : keys;
 }
 
 // Of several draws the last one does what the pose says, and so that it has something to do it to,
@@ -117,6 +126,10 @@ std::string color_of(const Pose& pose, Dice& dice) {
     for (uint32_t k = 0; k < 4; ++k) {
         numbers.push_back(component(pose, k, dice));
     }
+    // An alpha that keeps no sample or all of them: of others nothing is known.
+    if (!pose.is_default("alpha-to-coverage") && dice.one_in(2)) {
+        numbers.back() = dice.one_in(2) ? "0" : "1";
+    }
     return fmt::format("[{}]", fmt::join(numbers, ", "));
 }
 
@@ -134,6 +147,12 @@ std::string color_keys_of(const Pose& pose, size_t number, size_t draws, std::st
     keys += is_plain ? "" : logic(pose, is_last, turn);
     if (!pose.is_default("write-mask") && has()) {
         keys += fmt::format(", write_mask = \"{}\"", pose.value("write-mask"));
+    }
+    if (!pose.is_default("alpha-to-one") && has()) {
+        keys += ", alpha_to_one = true";
+    }
+    if (!pose.is_default("alpha-to-coverage") && has()) {
+        keys += ", alpha_to_coverage = true";
     }
     return fmt::format("{{ {} }}", keys);
 }

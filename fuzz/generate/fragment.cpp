@@ -161,7 +161,7 @@ std::string query_of(const Pose& pose, size_t number, size_t draws, Dice& dice) 
     }
     const bool is_other = number + 1 < draws && dice.one_in(4);
     const bool is_precise = pose.is("query", "occlusion") == is_other;
-    if (!is_precise && dice.one_in(2)) {
+    if (pose.is("query", "statistics") || (!is_precise && dice.one_in(2))) {
         const auto& words = cases::kWords<cases::Query>;
         constexpr auto kFirst = static_cast<size_t>(cases::Query::input_vertices);
         return std::string(words.at(kFirst + dice.below(words.size() - kFirst)));
@@ -173,17 +173,20 @@ std::string discard_of(const Pose& pose, Dice& dice) {
     if (pose.is_default("discard")) {
         return {};
     }
+    const std::string by = pose.is_default("discard-by")
+                               ? ""
+                               : fmt::format("discard_by = \"{}\"\n", pose.value("discard-by"));
     const bool has_values = !pose.is_default("attributes") && pose.is_default("source") &&
                             pose.is_default("probe") && pose.is_default("shader-mask") &&
                             !pose.value("relation").ends_with("-attributes");
     if (!has_values || !dice.one_in(3)) {
-        return fmt::format("discard = \"{}\"\n", pose.value("discard"));
+        return fmt::format("discard = \"{}\"\n{}", pose.value("discard"), by);
     }
     // Behind the one that is a colour.
     const bool has_color = !pose.is_default("color-from") && !pose.is_default("color");
     const size_t count = pose.is("attributes", "one") ? 1 : pose.is("attributes", "two") ? 2 : 3;
-    return fmt::format("discard = \"negative\"\ndiscard_attribute = \"attribute{}\"\n",
-                       dice.below(count) + (has_color ? 1 : 0));
+    return fmt::format("discard = \"negative\"\ndiscard_attribute = \"attribute{}\"\n{}",
+                       dice.below(count) + (has_color ? 1 : 0), by);
 }
 
 }  // namespace fuzz

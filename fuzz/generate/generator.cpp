@@ -208,7 +208,7 @@ class CaseWriter {
         if (!pose_.is_default("early-tests")) {
             line("early_tests = true");
         }
-        if (const std::string query = query_of(pose_, number, draws_, state_); !query.empty()) {
+        if (const std::string query = query_of(pose_, number, draws_, turn_); !query.empty()) {
             line("query = \"{}\"", query);
         }
         write_viewport();
@@ -406,7 +406,10 @@ std::string case_text(uint64_t seed, const Pose& pose, uint64_t pose_number, uin
                    Dice(seed, kGeometryStream, number))
             .write();
     Dice beside(seed, kBesideStream, turn);
-    if (pose.is_default("blit") && beside.one_in(4)) {
+    // These are of one target alone.
+    const bool is_alone = !pose.is_default("second") || !pose.is_default("alpha-to-one") ||
+                          !pose.is_default("alpha-to-coverage");
+    if (pose.is_default("blit") && !is_alone && beside.one_in(4)) {
         text = beside_others(std::move(text), beside);
     }
     Dice doors(seed, kDoorStream, turn);

@@ -30,10 +30,12 @@ std::string interpolation_of(const Pose& pose, size_t attribute) {
 
 std::string values_of(size_t vertices, size_t components, bool has_sign, Dice& dice) {
     std::vector<std::string> values;
+    // Neither negative nor positive now and then, wherever it is taken.
+    const int64_t largest = has_sign && dice.one_in(8) ? 0 : 32;
     for (size_t v = 0; v < vertices; ++v) {
         std::vector<std::string> one;
         for (size_t c = 0; c < components; ++c) {
-            one.push_back(fmt::format("{}", dice.fraction(has_sign ? -32 : 0, 32, 32)));
+            one.push_back(fmt::format("{}", dice.fraction(has_sign ? -largest : 0, largest, 32)));
         }
         values.push_back(list_of(one));
     }
@@ -110,8 +112,10 @@ std::string attributes_of(const Pose& pose, size_t vertices, bool has_sign, Dice
             text += fmt::format("auxiliary = \"{}\"\n", pose.value("auxiliary"));
         }
         // One of them is a plain input, if there are several.
-        if (a == 0 && !pose.is_default("source")) {
-            text += fmt::format("source = \"{}\"\n", pose.value("source"));
+        if (const std::string_view source =
+                pose.value(pose.is_default("fragment-input") ? "source" : "fragment-input");
+            a == 0 && source != "vertex") {
+            text += fmt::format("source = \"{}\"\n", source);
             continue;
         }
         size_t components = 1 + state.below(4);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <initializer_list>
 
 #include "fuzz/generate/dice.hpp"
 
@@ -28,8 +29,14 @@ struct Need {
     size_t value;
 };
 // Not one value, but any; of colours one of numbers, not of integers.
-constexpr size_t kAny = 0;
-constexpr std::array<Need, 31> kNeeds = {{
+constexpr size_t kAny = 0, kColorsOfNumbers = 10;
+constexpr size_t kFactors = 8;  // of "blend"
+constexpr std::array<Need, 36> kNeeds = {{
+    {"second", "blend", kFactors},
+    {"second", "attachments", 1},
+    {"alpha-to-one", "attachments", 1},
+    {"alpha-to-one", "color", kAny},
+    {"discard-by", "discard", 1},
     {"logic", "attachments", 1},
     {"depth-layout", "frag-depth", 1},
     {"depth-bounds", "draws", 1},
@@ -68,7 +75,11 @@ struct Company {
     std::string_view feature;
     std::array<std::string_view, 4> others;
 };
-constexpr std::array<Company, 20> kCompany = {{
+constexpr std::array<Company, 24> kCompany = {{
+    {"second", {"draws", "draws", "samples", "color-from"}},
+    {"alpha-to-one", {"blend", "blend", "draws", "color-from"}},
+    {"discard", {"attributes", "auxiliary", "discard-by", "draws"}},
+    {"query", {"indices", "topology", "w", "clip-distances"}},
     {"query", {"draws", "compare", "discard", "early-tests"}},
     {"query", {"sample-mask", "stencil-compare", "frag-depth", "cull"}},
     {"frag-depth", {"draws", "compare", "depth-bounds", "bias"}},
@@ -112,95 +123,13 @@ constexpr std::array<Often, 10> kOften = {{
 // One pose in so many is a blit: it has next to no features, and would never be taken for its
 // pairs. All but its filter and the target's size is the geometries'.
 constexpr uint64_t kPosesOfBlit = 48, kFirstOfBlit = 8;
-// One pose in so many has conservative draws besides what it is, unless that does not go with them:
-// many devices lack them, and would lose every pose that had them for its pairs.
-constexpr uint64_t kPosesOfArea = 8, kFirstOfArea = 5;
-// And one in so many has fragments of several pixels, which few devices have, too.
-constexpr uint64_t kFirstOfFragments = 2;
-// These two are drawn apart, and stand last.
-constexpr size_t kAreaFeatures = 2;
+// One pose in so many has, besides what it is, what few devices have or what leaves much open, and
+// would otherwise be in every pose that had it for its pairs: conservative draws, fragments of
+// several pixels, alpha to coverage. The features of it stand last.
+constexpr uint64_t kPosesApart = 8, kFirstOfArea = 5, kFirstOfFragments = 2, kFirstOfAlpha = 7;
+constexpr size_t kFeaturesApart = 4;
 
 }  // namespace
-
-const std::vector<Feature>& features() {
-    static const std::vector<Feature> kAll = {
-        {"samples", {"1", "4", "2", "8"}},
-        {"blit", {"none", "nearest", "linear"}},
-        {"size", {"16", "odd", "wide", "high", "64", "tiny", "large"}},
-        {"layers", {"1", "2", "3"}},
-        {"depth", {"d32-float", "d16-unorm", "d24-unorm"}},
-        {"attachments", {"all", "color", "color+depth"}},
-        {"color",
-         {"none", "rgba8-unorm", "bgra8-unorm", "rgba8-srgb", "rgb10a2-unorm", "r5g6b5-unorm",
-          "rgba16-unorm", "rgba16-float", "rg16-float", "rgba32-float", "r32-float", "r32-uint",
-          "rgba8-uint"}},
-        {"blend",
-         {"none", "additive", "alpha", "premultiplied", "multiply", "reverse-subtract", "min",
-          "max", "factors"}},
-        {"color-from", {"value", "attribute"}},
-        {"write-mask", {"rgba", "rgb", "r", "gb", "ra"}},
-        {"logic",
-         {"none", "clear", "and", "and-reverse", "copy", "and-inverted", "no-op", "xor", "or",
-          "nor", "equivalent", "invert", "or-reverse", "copy-inverted", "or-inverted", "nand",
-          "set"}},
-        {"query", {"none", "occlusion", "occlusion-precise"}},
-        {"stencil", {"false", "true"}},
-        {"stencil-clear", {"0", "given"}},
-        {"stencil-compare",
-         {"always", "equal", "not-equal", "less", "less-or-equal", "greater", "greater-or-equal",
-          "never"}},
-        {"stencil-ops", {"count", "same", "faces"}},
-        {"stencil-masks", {"whole", "given"}},
-        {"resolve", {"none", "average", "sample-zero"}},
-        {"depth-resolve", {"none", "sample-zero", "min", "max", "average"}},
-        {"sample-locations", {"standard", "own"}},
-        {"draws", {"1", "2", "3"}},
-        {"topology", {"triangle-list", "triangle-strip", "triangle-fan"}},
-        {"indices", {"none", "given", "restart"}},
-        {"space", {"pixels", "clip"}},
-        {"cull", {"none", "back", "front"}},
-        {"front-face", {"counter-clockwise", "clockwise"}},
-        {"provoking", {"first", "last"}},
-        {"depth-volume", {"zero-to-one", "negative-one-to-one"}},
-        {"compare",
-         {"always", "less", "less-or-equal", "greater", "greater-or-equal", "equal", "not-equal",
-          "never"}},
-        {"depth-write", {"true", "false"}},
-        {"depth-bounds", {"none", "ends", "below", "above", "one-depth", "whole"}},
-        {"frag-depth", {"none", "value", "odd-columns", "odd-rows", "checker", "frag-coord"}},
-        {"depth-layout", {"any", "greater", "less", "unchanged"}},
-        {"bias", {"none", "constant", "slope", "both", "clamped"}},
-        {"depth-clamp", {"false", "true"}},
-        {"depth-clip", {"default", "true", "false"}},
-        {"sample-mask", {"all", "given"}},
-        {"shader-mask", {"all", "given"}},
-        {"sample-shading", {"off", "half", "full", "least"}},
-        {"discard", {"none", "odd-columns", "odd-rows", "checker", "front", "back"}},
-        {"early-tests", {"false", "true"}},
-        {"rasterizer-discard", {"none", "first-draw"}},
-        {"attributes", {"none", "one", "two", "three"}},
-        {"interpolation", {"smooth", "noperspective", "flat", "mixed"}},
-        {"auxiliary", {"none", "centroid", "sample"}},
-        {"source", {"vertex", "barycentric", "sample-mask-in", "sample-id", "sample-position"}},
-        {"probe",
-         {"value", "at-centroid", "at-sample", "at-offset", "dfdx", "dfdy", "fwidth", "dfdx-fine",
-          "dfdy-fine", "dfdx-coarse", "dfdy-coarse", "query-lod"}},
-        {"clip-distances", {"0", "1", "2"}},
-        {"cull-distances", {"0", "1", "2"}},
-        {"complement", {"false", "true"}},
-        {"viewport", {"target", "inner", "beyond", "flipped", "fractional", "depth"}},
-        {"scissor", {"target", "inner", "beyond", "thin"}},
-        {"viewport-index", {"0", "other"}},
-        {"relation",
-         {"none", "same-twice", "other-clears", "write-masks", "fewer-attributes",
-          "more-attributes", "scissor-tiles"}},
-        {"w", {"one", "equal", "unequal", "steep", "behind"}},
-        {"z", {"half", "plane", "beyond"}},
-        {"conservative", {"none", "overestimate", "underestimate", "extra"}},
-        {"fragment-size", {"1x1", "2x1", "2x2", "1x2", "4x2", "2x4", "4x4"}},
-    };
-    return kAll;
-}
 
 Pose::Pose() : values_(features().size(), 0) {}
 
@@ -243,6 +172,17 @@ size_t value_of(size_t feature, size_t first, Dice& dice) {
     return first + dice.below(row.values.size() - first);
 }
 
+// How many of the sizes of fragments have at most so many samples.
+size_t sizes_of_fragments(const Pose& pose, size_t most) {
+    const size_t samples = std::stoul(std::string(pose.value("samples")));
+    const std::vector<std::string_view>& sizes = features()[index_of("fragment-size")].values;
+    return static_cast<size_t>(
+        std::count_if(sizes.begin() + 1, sizes.end(), [&](std::string_view size) {
+            const auto side = [](char digit) { return static_cast<size_t>(digit - '0'); };
+            return side(size.front()) * side(size.back()) * samples <= most;
+        }));
+}
+
 Pose Poses::draw(size_t candidate) const {
     constexpr uint64_t kStream = 1;
     if (count_ % kPosesOfBlit == kFirstOfBlit) {
@@ -258,7 +198,7 @@ Pose Poses::draw(size_t candidate) const {
     // Few features at a time: what many switch off between them is never seen otherwise.
     const uint64_t count = 1 + dice.below(6);
     for (uint64_t k = 0; k < count; ++k) {
-        const size_t feature = dice.below(features().size() - kAreaFeatures);
+        const size_t feature = dice.below(features().size() - kFeaturesApart);
         pose.set(feature, value_of(feature, 0, dice));
     }
     set("blit", 0);
@@ -271,8 +211,12 @@ Pose Poses::draw(size_t candidate) const {
     // Hits are counted by blending, which a logical operation switches off, and queries are judged
     // by the hits.
     if (!pose.is_default("query")) {
-        set("logic", 0);
-        set("attachments", 0);
+        for (const char* other : {"logic", "attachments", "second", "alpha-to-one"}) {
+            set(other, 0);
+        }
+    }
+    if (!pose.is_default("second")) {
+        set("blend", kFactors);
     }
     if (!pose.is_default("early-tests") && pose.is_default("discard") &&
         pose.is_default("frag-depth")) {
@@ -288,7 +232,6 @@ Pose Poses::draw(size_t candidate) const {
             continue;
         }
         if (need.value == kAny) {
-            constexpr size_t kColorsOfNumbers = 10;
             set(need.other, 1 + dice.below(kColorsOfNumbers));
         } else {
             set(need.other, need.value);
@@ -321,35 +264,44 @@ Pose Poses::draw(size_t candidate) const {
     return pose;
 }
 
-namespace {
-
-// What a fragment size goes with (cases/load/load_target.cpp).
-bool goes_with_fragments(const Pose& pose) {
-    constexpr std::string_view kOthers[] = {
-        "blit",           "clip-distances",   "cull-distances", "complement", "probe", "source",
-        "sample-shading", "sample-locations", "shader-mask",    "frag-depth", "query", "discard"};
-    return std::ranges::all_of(kOthers, [&](std::string_view f) { return pose.is_default(f); }) &&
-           !pose.is("auxiliary", "sample") && !pose.is("relation", "scissor-tiles");
-}
-
-}  // namespace
-
-Pose Poses::with_area(const Pose& pose) const {
+Pose Poses::apart(const Pose& pose) const {
     Pose out = pose;
-    const bool goes_with_it = pose.is_default("clip-distances") &&
-                              pose.is_default("cull-distances") && pose.is_default("probe") &&
-                              pose.is_default("blit") && !pose.is("auxiliary", "centroid");
-    const uint64_t number = count_ / kPosesOfArea + seed_;
-    if (count_ % kPosesOfArea == kFirstOfArea && goes_with_it) {
-        const size_t feature = index_of("conservative");
-        out.set(feature, 1 + number % (features()[feature].values.size() - 1));
+    if (!pose.is_default("blit")) {
+        return out;
     }
-    if (count_ % kPosesOfArea == kFirstOfFragments && goes_with_fragments(pose)) {
-        // Of four samples and more the first four sizes have 32 samples at most.
-        const size_t feature = index_of("fragment-size");
-        const bool is_any = pose.is("samples", "1") || pose.is("samples", "2");
-        const size_t sizes = is_any ? features()[feature].values.size() - 1 : 3;
-        out.set(feature, 1 + number % sizes);
+    const uint64_t number = count_ / kPosesApart + seed_;
+    const auto set = [&](std::string_view feature, size_t value) {
+        out.set(index_of(feature), value);
+    };
+    const auto switch_on = [&](std::string_view feature, size_t value) {
+        if (pose.is_default(feature)) {
+            set(feature, value);
+        }
+    };
+    // What it does not go with is left out, as far as it is often drawn.
+    const auto leave_out = [&](std::initializer_list<std::string_view> others) {
+        std::ranges::for_each(others, [&](std::string_view other) { set(other, 0); });
+    };
+    if (count_ % kPosesApart == kFirstOfArea) {
+        leave_out({"clip-distances", "cull-distances", "complement"});
+        set("conservative", 1 + number % 3);
+    } else if (count_ % kPosesApart == kFirstOfFragments) {
+        leave_out({"clip-distances", "cull-distances", "complement", "discard", "discard-by",
+                   "early-tests", "frag-depth", "depth-layout", "sample-shading", "shader-mask"});
+        // Blocks begin at the target's first pixel, not at those of these.
+        switch_on(number % 2 == 0 ? "scissor" : "viewport", 1);
+        if (pose.is_default("color") && pose.is_default("source")) {
+            set("fragment-input", number % 3);
+            switch_on("attributes", number % 3 == 0 ? 0 : 1);
+        }
+        const bool has_mask = out.is("fragment-input", "sample-mask-in");
+        set("fragment-size", 1 + number % sizes_of_fragments(pose, has_mask ? 16 : 32));
+    } else if (count_ % kPosesApart == kFirstOfAlpha && number % 2 == 0) {
+        leave_out({"query", "early-tests"});
+        set("alpha-to-coverage", 1);
+        set("attachments", 2);  // with a depth
+        switch_on("color", 1 + number / 2 % kColorsOfNumbers);
+        switch_on("samples", number % 3 == 0 ? 0 : 1);
     }
     return out;
 }

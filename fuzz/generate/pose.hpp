@@ -61,7 +61,8 @@ class Poses {
                 found = true;
             }
         }
-        const Pose drawn = with_area(best);
+        Pose drawn = apart(best);
+        drawn = is_valid(drawn) ? std::move(drawn) : best;
         take(best);
         return drawn;
     }
@@ -72,8 +73,8 @@ class Poses {
     static constexpr size_t kCandidates = 12;
     Pose draw(size_t candidate) const;
     static Pose blit(uint64_t number);
-    // The pose, or, of some, the same with conservative draws, or with fragments of several pixels.
-    Pose with_area(const Pose& pose) const;
+    // The pose, or, of some, the same with what is drawn apart. It need not be a case.
+    Pose apart(const Pose& pose) const;
     size_t fresh_pairs(const Pose& pose) const;
     void take(const Pose& pose);
 

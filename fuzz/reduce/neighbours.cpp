@@ -29,7 +29,8 @@ struct WordKey {
     std::string_view key, phrase;  // "{}" in the phrase stands for the word
     WordSpan words;
 };
-constexpr std::array<WordKey, 19> kKeys = {{
+constexpr std::array<WordKey, 20> kKeys = {{
+    {"discard_by", "discard_by = {}", cases::kWords<cases::DiscardBy>},
     {"cull", "cull = {}", cases::kWords<cases::CullMode>},
     {"front_face", "front_face = {}", cases::kWords<cases::FrontFace>},
     {"provoking", "the {} vertex as provoking one", cases::kWords<cases::ProvokingVertex>},

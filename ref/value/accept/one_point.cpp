@@ -47,14 +47,14 @@ std::optional<size_t> first_unexplained(const Basis<mpq_class>& basis, const mpq
     for (const size_t index : which) {
         const Quantity& q = quantities[index];
         const Plane<mpq_class>& plane = basis.planes[q.plane];
+        const bool is_quotient = q.kind == Kind::perspective;
+        if (is_quotient && widest.exists != Answer::yes) {
+            continue;  // nothing is claimed of it, it need not even be finite
+        }
         const mpq_class v(static_cast<double>(q.get(device)));
         const mpq_class bn = plane.budget(widest.extent_x, widest.extent_y, widest.spread);
-        const bool is_quotient = q.kind == Kind::perspective;
         mpq_class reach = factor * bn;
         if (is_quotient) {
-            if (widest.exists != Answer::yes) {
-                continue;  // nothing is claimed of it
-            }
             mpq_class most;  // |f|: a quotient of linear functions is largest at a corner
             for (const Point<mpq_class>& p : corners) {
                 most = larger(most, magnitude(mpq_class(plane.form.at(p) / d.at(p))));

@@ -169,6 +169,9 @@ void add_reach(const CandidateSet<T>& set, const Basis<T>& basis, const Quantity
     if (takes_bias(set, q)) {
         bias = bias_of(set.depth, basis, factor);
     }
+    // Whether the denominator may be at least zero at some of the sites, and at most zero at some.
+    Answer reaches_up = Answer::no;
+    bool reaches_down = false;
     for (const Site<T>& site : sites) {
         const Valued<T> v =
             value_at(site, basis.planes[q.plane], q.kind == Kind::perspective, factor);
@@ -182,9 +185,12 @@ void add_reach(const CandidateSet<T>& set, const Basis<T>& basis, const Quantity
                            hull, device, out);
             } else {
                 out.is_free = true;
+                reaches_down = true;
+                reaches_up = either(reaches_up, is_at_most(T(0.0), T(site.d + factor * site.bd)));
             }
             continue;
         }
+        reaches_up = Answer::yes;
         widest = larger(widest, v.reach);
         if (is_frag_coord_z(q)) {
             add_value<T>(set, q, v, std::nullopt, device, out, out.all);
@@ -194,6 +200,12 @@ void add_reach(const CandidateSet<T>& set, const Basis<T>& basis, const Quantity
         } else {
             add_value(set, q, v, bias, device, out, out.all);
         }
+    }
+    // Outside of the triangle a device may divide by zero, which leaves infinity or NaN.
+    if (reaches_down && reaches_up == Answer::unknown) {
+        out.is_known = false;
+    } else if (reaches_down && reaches_up == Answer::yes) {
+        out.is_undefined = true;
     }
 }
 

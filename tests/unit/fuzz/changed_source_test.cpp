@@ -109,7 +109,7 @@ TEST(ChangedSource, MakesTheSameCasesOnEveryMachine) {
     for (const Source::Made& made : all_of(source, 64)) {
         hash = cases::stable_hash(made.text, hash);
     }
-    EXPECT_EQ(cases::hex(hash), "9482ec8d77defc55");
+    EXPECT_EQ(cases::hex(hash), "9cafcb3ee0ff9069");
     ChangedSource other(2, starts());
     uint64_t hash_of_other = 0;
     for (const Source::Made& made : all_of(other, 64)) {
@@ -288,6 +288,39 @@ vertices = [[0, 0, 0.125], [8, 0, 0.125], [0, 8, 0.125]]
                     "no logical operation", "another operation", "a query"));
 }
 
+TEST(ChangedSource, ChangesWhatAlphaDoesAndTheSizeOfFragments) {
+    const std::string toml = R"(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [8, 8]
+[target.color]
+format = "rgba8-unorm"
+[[draw]]
+query = "occlusion"
+color = { value = [1, 1, 1, 0.5] }
+vertices = [[0, 0], [8, 0], [0, 8]]
+)";
+    auto loaded = cases::load_text(toml, "f", "f");
+    ASSERT_TRUE(loaded) << cases::to_string(loaded.error().front());
+    ChangedSource source(
+        1, std::make_shared<const std::vector<Start>>(std::vector<Start>{{loaded->front(), {}}}));
+    std::set<std::string> seen;
+    for (const Source::Made& made : all_of(source, 400)) {
+        for (const cases::Draw& draw : made.data ? made.data->draws : std::vector<cases::Draw>()) {
+            for (const auto& [what, words] :
+                 {std::pair(draw.color.alpha_to_one, "to one"),
+                  std::pair(draw.color.alpha_to_coverage, "to coverage"),
+                  std::pair(draw.fragment_size[0] > draw.fragment_size[1], "wide fragments")}) {
+                if (what) {
+                    seen.insert(words);
+                }
+            }
+        }
+    }
+    EXPECT_THAT(seen, testing::UnorderedElementsAre("to one", "to coverage", "wide fragments"));
+}
+
 TEST(ChangedSource, ChangesWhatAStencilDoes) {
     const std::string toml = R"(format = 1
 description = "d"
@@ -311,7 +344,7 @@ vertices = [[0, 0], [8, 0], [0, 8]]
             seen.insert(words);
         }
     };
-    for (uint64_t group = 0; group < 4000; ++group) {
+    for (uint64_t group = 0; group < 8000; ++group) {
         source.enter(group);
         const Source::Made made = source.make(group * source.group_size());
         if (!made.data || made.data->draws.size() != 2) {

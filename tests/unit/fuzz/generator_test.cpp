@@ -35,7 +35,7 @@ TEST(Generator, MakesTheSameCasesOnEveryMachine) {
         const Pose pose = next(poses, 1);
         hash = cases::stable_hash(case_text(1, pose, k, k * kGeometries + 5), hash);
     }
-    EXPECT_EQ(cases::hex(hash), "00ca67a853d31ee5");
+    EXPECT_EQ(cases::hex(hash), "196d2e4698d925b1");
 }
 
 TEST(Generator, SeedsDiffer) {
@@ -48,7 +48,7 @@ TEST(Generator, SeedsDiffer) {
 // Random states that the loader refuses would be time lost, and a feature that it always refuses
 // would be one that nobody misses.
 TEST(Generator, EachFeatureIsDrawnAndItsCasesLoad) {
-    constexpr uint64_t kPoses = 500;
+    constexpr uint64_t kPoses = 640;
     Poses poses(3);
     std::map<std::pair<size_t, size_t>, size_t> seen;
     size_t made = 0, loaded = 0;
@@ -210,9 +210,10 @@ TEST(Generator, LogicalOperationsCombineCodes) {
 // By values that are of either sign, of any of the attributes.
 TEST(Generator, ShadersDiscardByAttributes) {
     EXPECT_THAT(
-        seen_in(pose_of({{"discard", "checker"}, {"attributes", "two"}}),
+        seen_in(pose_of({{"discard", "checker"}, {"discard-by", "demote"}, {"attributes", "two"}}),
                 [](const cases::Case& c, const auto& see) {
                     const cases::Draw& draw = c.draws[0];
+                    EXPECT_EQ(draw.discard_by, cases::DiscardBy::demote);
                     if (!cases::discards_by_value(draw)) {
                         see(draw.discard == cases::Discard::checker, "checker");
                         return;
@@ -220,11 +221,12 @@ TEST(Generator, ShadersDiscardByAttributes) {
                     for (const glm::vec4& v : draw.attributes.at(draw.discard_attribute).values) {
                         see(v.x < 0, "negative");
                         see(v.x > 0, "positive");
+                        see(!(v.x < 0) && !(v.x > 0), "zero");
                     }
                     see(draw.discard_attribute == 0, "first");
                     see(draw.discard_attribute == 1, "second");
                 }),
-        UnorderedElementsAre("checker", "negative", "positive", "first", "second"));
+        UnorderedElementsAre("checker", "negative", "positive", "zero", "first", "second"));
 }
 
 TEST(Generator, DrawsOfACaseHaveQueriesOfAllKinds) {
@@ -238,6 +240,12 @@ TEST(Generator, DrawsOfACaseHaveQueriesOfAllKinds) {
                             see(c.draws[0].query == cases::Query::occlusion_precise, "precise");
                         }),
                 UnorderedElementsAre("none", "any", "precise", "statistic"));
+    std::set<cases::Query> counters;
+    seen_in(pose_of({{"query", "statistics"}}), [&](const cases::Case& c, const auto&) {
+        EXPECT_TRUE(cases::is_statistic(c.draws[0].query));
+        counters.insert(c.draws[0].query);
+    });
+    EXPECT_EQ(counters.size(), 6U);
 }
 
 // The last draw shows whether a state ends with the draw that has it.
@@ -263,6 +271,78 @@ TEST(Generator, BlendingMeetsAllOfItsOperands) {
                         }),
                 UnorderedElementsAre("none at last", "above 1", "below 0", "saturated",
                                      "a large constant", "another equation of alpha"));
+}
+
+// A second source comes with a factor that takes it, whatever the turn draws.
+TEST(Generator, SecondSourcesAreBlended) {
+    EXPECT_THAT(seen_in(pose_of({{"second", "true"},
+                                 {"blend", "factors"},
+                                 {"color", "rgba8-unorm"},
+                                 {"attachments", "color"},
+                                 {"draws", "2"}}),
+                        [](const cases::Case& c, const auto& see) {
+                            using F = cases::BlendFactor;
+                            const auto& blend = c.draws[1].color.blend;
+                            see(!blend, "none at last");
+                            if (!blend) {
+                                return;
+                            }
+                            EXPECT_TRUE(cases::takes_second(*blend));
+                            see(blend->second.r > 0 && blend->second.a > 0, "a second source");
+                            see(blend->color.source == F::src1_color, "its colour");
+                            see(blend->color.destination == F::one_minus_src1_alpha, "its alpha");
+                            see(!cases::is_second(blend->color.source) &&
+                                    !cases::is_second(blend->color.destination),
+                                "for alpha alone");
+                        }),
+                UnorderedElementsAre("none at last", "a second source", "its colour", "its alpha",
+                                     "for alpha alone"));
+}
+
+// Of an alpha between 0 and 1 nothing is known once it takes samples away.
+TEST(Generator, AlphaTakesSamplesAwayAndIsReplaced) {
+    const auto see_alpha = [](const cases::Case& c, const auto& see) {
+        EXPECT_TRUE(c.target.other_colors.empty());
+        const cases::ColorOutput& color = c.draws[1].color;
+        see(color.alpha_to_coverage && color.value.a <= 0, "none");
+        see(color.alpha_to_coverage && color.value.a >= 1, "all");
+        see(color.alpha_to_coverage && color.value.a > 0 && color.value.a < 1, "some");
+        see(color.alpha_to_one, "to one");
+        see(c.draws[0].color.alpha_to_one && !color.alpha_to_one, "to one before");
+        see(c.draws[0].color.alpha_to_coverage && !color.alpha_to_coverage, "some before");
+    };
+    EXPECT_THAT(seen_in(pose_of({{"alpha-to-coverage", "true"},
+                                 {"samples", "4"},
+                                 {"color", "rgba8-unorm"},
+                                 {"attachments", "color+depth"},
+                                 {"draws", "2"}}),
+                        see_alpha),
+                UnorderedElementsAre("none", "all", "some", "some before"));
+    EXPECT_THAT(seen_in(pose_of({{"alpha-to-one", "true"},
+                                 {"color", "rgba8-unorm"},
+                                 {"attachments", "color"},
+                                 {"draws", "2"}}),
+                        see_alpha),
+                UnorderedElementsAre("to one", "to one before"));
+}
+
+TEST(Generator, FragmentsOfSeveralPixelsReadWhatIsTheirs) {
+    for (const std::string_view input : {"sample-mask-in", "shading-rate"}) {
+        EXPECT_THAT(seen_in(pose_of({{"fragment-size", "2x2"},
+                                     {"fragment-input", input},
+                                     {"attributes", "two"},
+                                     {"draws", "2"}}),
+                            [](const cases::Case& c, const auto& see) {
+                                const auto& draw = c.draws[0];
+                                EXPECT_EQ(draw.fragment_size, (std::array<uint32_t, 2>{2, 2}));
+                                see(draw.attributes[0].source == cases::Source::sample_mask_in,
+                                    "sample-mask-in");
+                                see(draw.attributes[0].source == cases::Source::shading_rate,
+                                    "shading-rate");
+                                EXPECT_EQ(draw.attributes[1].source, cases::Source::vertex);
+                            }),
+                    UnorderedElementsAre(input));
+    }
 }
 
 TEST(Generator, FloatsReachBeyondBinary16) {

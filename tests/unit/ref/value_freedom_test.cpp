@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "value_case.hpp"
@@ -169,6 +170,29 @@ TEST(ExhaustiveValueFreedom, DenominatorsThatMayBeZeroLeaveTheHull) {
         for (const float wrong : {1e30F, -1e30F, 1e6F, kUnbounded, kNan}) {
             v.attributes[0].x = wrong;
             EXPECT_FALSE(is_ok(*asked.c, asked.profile, asked.id, v)) << wrong;
+        }
+    }
+}
+
+// 1/w is 8 (x - zero), and the triangle begins an eighth to the right of that: the centre of the
+// pixel whose sample at 8.875 is covered lies outside.
+TEST(ExhaustiveValueFreedom, CentresOutsideMayDivideByZero) {
+    const cases::SampleId id{8, 8, 1};
+    for (const double zero : {8.5, 8.625}) {
+        cases::Case c = make_case(
+            16, {clip_of(zero + 0.125, 4, 0.5, 1, 16), clip_of(zero + 0.125, 13, 0.5, 1, 16),
+                 clip_of(zero + 4, 8.5, 0.5, 1.0 / 32, 16)});
+        c.target.samples = 4;
+        add_attribute(c, Interpolation::smooth, 1,
+                      {glm::vec4(1.0F), glm::vec4(2.0F), glm::vec4(3.0F)});
+        ref::FragmentValues v = exact_values(c, id);
+        for (const float any : {1.5F, 1e30F, -1e30F, kUnbounded, -kUnbounded, kNan}) {
+            v.attributes[0].x = any;
+            // Only the centre is asked for at direct3d, and there 1/w is 0, or -1.
+            const bool is_number = std::isfinite(any);
+            EXPECT_EQ(is_ok(c, Profile::direct3d, id, v), is_number || zero < 8.6) << any;
+            EXPECT_TRUE(is_ok(c, Profile::practice, id, v)) << any;
+            EXPECT_TRUE(is_ok(c, Profile::vulkan, id, v)) << any;
         }
     }
 }
