@@ -11,6 +11,7 @@
 
 #include "capture/checksum.hpp"
 #include "cases/base/checksum.hpp"
+#include "cases/base/heap.hpp"
 #include "cases/base/parallel.hpp"
 #include "cases/model/derive.hpp"
 #include "report/text/sentences.hpp"
@@ -339,6 +340,7 @@ void RunLoop::on_result(Slot& slot, CaseResult& result) {
                  profile = config_.profile, pictures = config_.pictures] {
                     judge(*record, (*plan)[k].data, view, {consistency, strays}, limits, profile,
                           pictures);
+                    cases::give_back_memory();
                 },
                 [this, k, bytes, record, keep = result.keep] {
                     judging_bytes_ -= bytes;

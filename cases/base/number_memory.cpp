@@ -3,7 +3,8 @@
 //
 // Memory of GMP's numbers. Exact arithmetic makes and drops millions of numbers of one to four
 // limbs; taking each from malloc costs more than computing with it. Small blocks are kept here, a
-// list a size and thread, and never go back to the system; large ones come from malloc.
+// list a size and thread, and never go back to the system; large ones come from malloc. What a
+// thread leaves when it ends is the next one's that begins.
 //
 // Not under AddressSanitizer, which must see every number.
 #include <gmp.h>
@@ -14,6 +15,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <mutex>
 #include <new>
 
 // Named by the linker option that keeps this file in every program (CMakeLists.txt).
@@ -40,6 +42,48 @@ struct Memory {
 };
 thread_local Memory memory{};
 
+// What threads that have ended left.
+struct Left {
+    Memory memory;
+    Left* next;
+};
+constinit std::mutex mutex;
+Left* left = nullptr;
+
+void take_over() {
+    Left* one = nullptr;
+    {
+        const std::lock_guard lock(mutex);
+        one = left;
+        left = one == nullptr ? nullptr : one->next;
+    }
+    if (one != nullptr) {
+        memory = one->memory;
+        std::free(one);
+    }
+}
+
+void leave() {
+    void* room = std::malloc(sizeof(Left));
+    if (room != nullptr) {
+        const std::lock_guard lock(mutex);
+        left = new (room) Left{memory, left};
+        memory = {};  // for numbers that are dropped later
+    }
+}
+
+// Made with a thread's first number, so that it is there before any block is kept.
+struct Tenant {
+    Tenant() { take_over(); }
+    Tenant(const Tenant&) = delete;
+    Tenant& operator=(const Tenant&) = delete;
+    ~Tenant() { leave(); }
+};
+
+void move_in() {
+    static thread_local const Tenant tenant;
+}
+
 size_t list_of(size_t bytes) {
     return bytes == 0 ? 0 : (bytes - 1) / kStep;
 }
@@ -64,6 +108,13 @@ void* allocate(size_t bytes) {
         return block;
     }
     const size_t size = (list + 1) * kStep;
+    if (m.fresh == nullptr) {
+        move_in();
+        if (Block* block = m.kept[list]; block != nullptr) {
+            m.kept[list] = block->next;
+            return block;
+        }
+    }
     if (m.fresh_bytes < size) {  // what is left of the last chunk is not worth keeping
         m.fresh = static_cast<std::byte*>(must_have(std::malloc(kChunk), kChunk));
         m.fresh_bytes = kChunk;
@@ -78,6 +129,9 @@ void release(void* p, size_t bytes) {
     if (bytes > kLargest) {
         std::free(p);
         return;
+    }
+    if (memory.fresh == nullptr) {
+        move_in();
     }
     Block*& kept = memory.kept[list_of(bytes)];
     kept = new (p) Block{kept};

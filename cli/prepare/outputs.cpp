@@ -16,6 +16,7 @@
 #include <filesystem>
 #include <future>
 
+#include "cases/base/heap.hpp"
 #include "cli/options/stop.hpp"
 #include "cli/prepare/ci.hpp"
 #include "report/files/json.hpp"
@@ -125,22 +126,21 @@ void write_pages(const report::Run& run, const ReportFiles& files, cases::Errors
     if (files.folder.empty() && files.html.empty()) {
         return;
     }
-    const std::vector<std::string> pages = report::to_html_parts(run);
     const std::string in_folder =
         files.folder.empty() ? std::string() : (files.folder / "report.html").string();
-    for (const std::string& file : {in_folder, files.html}) {
-        for (size_t k = 0; k < pages.size() && !file.empty(); ++k) {
-            if (k > 0 && file == "-") {
-                break;
+    report::for_each_page(run, [&](size_t part, const std::string& page) {
+        for (const std::string& first : {in_folder, files.html}) {
+            if (first.empty() || (part > 1 && first == "-")) {
+                continue;
             }
-            const std::string part = k == 0 ? file : part_file(file, k + 1);
+            const std::string file = part == 1 ? first : part_file(first, part);
             if (cases::Expected<void> written =
-                    file == in_folder ? replace_text(part, pages[k]) : write_text(part, pages[k]);
+                    first == in_folder ? replace_text(file, page) : write_text(file, page);
                 !written) {
                 errors.push_back(written.error());
             }
         }
-    }
+    });
 }
 
 }  // namespace
@@ -247,11 +247,13 @@ bool has_failed(const report::Run& run) {
 
 int conclude(const std::filesystem::path& folder, const RunOptions& options, Ci ci,
              std::FILE* console, report::ConsoleStyle style, const Ending& ending) {
+    cases::give_back_memory();
     cases::Expected<report::Run> run = report::load_journal(folder);
     if (!run) {
         print_errors({run.error()});
         return report::kExitInternal;
     }
+    cases::give_back_memory();
     if (ending.complete) {
         if (!options.quiet && has_failed(*run)) {
             style.totals_are_told = true;
@@ -259,6 +261,7 @@ int conclude(const std::filesystem::path& folder, const RunOptions& options, Ci 
             std::fflush(console);
         }
         ending.complete(*run);
+        cases::give_back_memory();
     }
     const ReportFiles files{folder, options.json, options.junit, options.html};
     cases::Errors errors = write_reports(*run, files);

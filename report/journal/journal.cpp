@@ -307,8 +307,16 @@ Line read_line(const std::string& text) {
     return line;
 }
 
-// All lines, by several threads.
-std::vector<Line> read_lines(const std::vector<std::string>& texts) {
+// The next lines of a journal, read by several threads. Not all at once: what they are as values of
+// the library takes ten times the memory of the text.
+std::vector<Line> read_lines(std::istream& stream) {
+    constexpr size_t kMost = 256;
+    std::vector<std::string> texts;
+    std::string text;
+    // No newline: the write was cut short.
+    while (texts.size() < kMost && std::getline(stream, text) && !stream.eof()) {
+        texts.push_back(std::move(text));
+    }
     std::vector<Line> lines(texts.size());
     cases::for_each_index(texts.size(), [&](size_t k) { lines[k] = read_line(texts[k]); });
     return lines;
@@ -324,27 +332,27 @@ cases::Expected<Run> load_journal(const std::filesystem::path& dir,
         return failure(fmt::format("cannot read {}: {}; name the directory of a run", file,
                                    std::strerror(errno)));
     }
-    std::vector<std::string> texts;
-    std::string text;
-    while (std::getline(stream, text) && !stream.eof()) {  // no newline: the write was cut short
-        texts.push_back(std::move(text));
-    }
     Rebuilder rebuilder;
     uint32_t number = 0;
-    for (Line& line : read_lines(texts)) {
+    const auto add = [&](Line& line) -> cases::Expected<void> {
         ++number;
         try {
-            if (!line.record) {
-                return failure("this line is not JSON; the journal was changed or damaged", file,
-                               number);
+            if (line.record) {
+                rebuilder.add(*line.record, std::move(line.ended));
+                return {};
             }
-            rebuilder.add(*line.record, std::move(line.ended));
-        } catch (const Json::exception&) {
-            return failure("this line is not JSON; the journal was changed or damaged", file,
-                           number);
+        } catch (const Json::exception&) {  // as if it were none
         } catch (const std::exception& e) {
             return failure(std::string(e.what()) + "; the journal was changed or damaged", file,
                            number);
+        }
+        return failure("this line is not JSON; the journal was changed or damaged", file, number);
+    };
+    for (std::vector<Line> lines = read_lines(stream); !lines.empty(); lines = read_lines(stream)) {
+        for (Line& line : lines) {
+            if (auto added = add(line); !added) {
+                return tl::unexpected(added.error());
+            }
         }
     }
     if (stream.bad()) {

@@ -178,20 +178,24 @@ std::string to_html(const Run& run) {
     return page_of(run, 1, left_out);
 }
 
-std::vector<std::string> to_html_parts(const Run& run) {
-    std::vector<std::string> pages;
+void for_each_page(const Run& run, const std::function<void(size_t, const std::string&)>& visit) {
     std::vector<size_t> left_out;
-    pages.push_back(page_of(run, 1, left_out));
-    Run rest = run;
-    while (!left_out.empty()) {
+    visit(1, page_of(run, 1, left_out));
+    Run rest;
+    static_cast<RunHeader&>(rest) = run;
+    static_cast<RunEnd&>(rest) = run;
+    rest.device = run.device;
+    for (const size_t k : left_out) {
+        rest.cases.push_back(run.cases[k]);
+    }
+    for (size_t part = 2; !rest.cases.empty(); ++part) {
+        visit(part, page_of(rest, part, left_out));
         std::vector<CaseRecord> cases;
         for (const size_t k : left_out) {
             cases.push_back(std::move(rest.cases[k]));
         }
         rest.cases = std::move(cases);  // fewer than before: the first case of a page always fits
-        pages.push_back(page_of(rest, pages.size() + 1, left_out));
     }
-    return pages;
 }
 
 }  // namespace report

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "capture/checksum.hpp"
+#include "cases/base/heap.hpp"
 #include "cases/format/color_format.hpp"
 #include "cases/model/derive.hpp"
 #include "report/record/run.hpp"
@@ -208,6 +209,7 @@ void render_batch(Backend& backend, const RenderRequest& request, const std::vec
     }
     shared.lock();
     send(FrameType::batch_done, {});
+    cases::give_back_memory();  // the driver's, too, if it draws on the CPU
 }
 
 // What the device lacks for a case, whose relations name doors only if it is of doors alone

@@ -98,6 +98,25 @@ TEST(NumberMemory, ABlockIsUsedAgainForTheSameSize) {
     EXPECT_EQ(f.allocate(17), first) << "17 to 32 bytes share a list";
     f.release(first, 17);
 }
+
+TEST(NumberMemory, AThreadHasWhatTheLastOneLeft) {
+    const Functions f;
+    void* first = nullptr;
+    std::thread([&] {
+        first = f.allocate(24);
+        f.release(first, 24);
+    }).join();
+    std::thread([&] {
+        // A block that comes to a thread before it has a number of its own stays, too.
+        void* other = nullptr;
+        std::thread([&] { other = f.allocate(40); }).join();
+        f.release(other, 40);
+        EXPECT_EQ(f.allocate(40), other);
+        EXPECT_EQ(f.allocate(24), first);
+        f.release(other, 40);
+        f.release(first, 24);
+    }).join();
+}
 #endif
 
 }  // namespace

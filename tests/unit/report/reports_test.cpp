@@ -475,6 +475,15 @@ TEST(ExhaustiveHtml, thousands_of_failures_stay_small) {
     EXPECT_LT(to_html(run).size(), size_t{8} << 20);
 }
 
+std::vector<std::string> pages_of(const report::Run& run) {
+    std::vector<std::string> pages;
+    for_each_page(run, [&](size_t part, const std::string& page) {
+        pages.push_back(page);
+        EXPECT_EQ(part, pages.size());
+    });
+    return pages;
+}
+
 TEST(ExhaustiveHtml, every_picture_stands_in_one_part) {
     report::Run run = test::sample_run();
     const CaseRecord fail = run.cases[3];
@@ -494,7 +503,7 @@ TEST(ExhaustiveHtml, every_picture_stands_in_one_part) {
             }
         }
     }
-    const std::vector<std::string> parts = to_html_parts(run);
+    const std::vector<std::string> parts = pages_of(run);
     EXPECT_GT(parts.size(), 1U);
     EXPECT_EQ(parts.front(), to_html(run));
     size_t pictures = 0;
@@ -504,7 +513,7 @@ TEST(ExhaustiveHtml, every_picture_stands_in_one_part) {
     }
     EXPECT_EQ(pictures, run.cases.size());
     // A run that fits has one part.
-    EXPECT_EQ(to_html_parts(test::sample_run()).size(), 1U);
+    EXPECT_EQ(pages_of(test::sample_run()).size(), 1U);
 }
 
 TEST(html, a_picture_larger_than_a_page_may_be_is_shown_all_the_same) {
@@ -514,7 +523,7 @@ TEST(html, a_picture_larger_than_a_page_may_be_is_shown_all_the_same) {
     for (size_t k = 0; k < (size_t{3} << 20); ++k) {
         run.cases[0].pictures.expected_colors.push_back(static_cast<uint8_t>(k));
     }
-    const std::vector<std::string> parts = to_html_parts(run);
+    const std::vector<std::string> parts = pages_of(run);
     ASSERT_EQ(parts.size(), 1U);
     EXPECT_EQ(count_of(parts[0], "\"expected_hits\":"), 1U);
 }
