@@ -19,7 +19,7 @@ constexpr VkDeviceSize kKeptBytes = VkDeviceSize{512} << 20;
 // Pipelines and shader objects kept between submissions. The cases of a family follow each other,
 // so that few are asked for again behind these: a run of the suite takes as long with 4,096. One of
 // lavapipe takes some 600 KB, and a run through all doors makes tens of thousands.
-constexpr size_t kKeptPipelines = 512;
+constexpr size_t kKeptPipelines = 256;
 // Pictures through doors in one submission. A worker gives a sign of life before a submission and
 // after it, and none while it waits for the device; after 30 s without any (--timeout) it counts as
 // hung. A case goes through up to some sixty doors, and there are cases that take a driver seconds
