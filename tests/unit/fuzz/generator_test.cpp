@@ -48,17 +48,17 @@ TEST(Generator, SeedsDiffer) {
 // Random states that the loader refuses would be time lost, and a feature that it always refuses
 // would be one that nobody misses.
 TEST(Generator, EachFeatureIsDrawnAndItsCasesLoad) {
-    constexpr uint64_t kPoses = 640;
-    Poses poses(3);
+    constexpr uint64_t kPoses = 500;
+    Poses poses(4);
     std::map<std::pair<size_t, size_t>, size_t> seen;
     size_t made = 0, loaded = 0;
     for (uint64_t k = 0; k < kPoses; ++k) {
-        const Pose pose = next(poses, 3);
+        const Pose pose = next(poses, 4);
         for (const auto& value : pose.active()) {
             ++seen[value];
         }
         for (uint64_t number : {k * kGeometries + 1, k * kGeometries + 45}) {
-            const auto c = cases::load_text(case_text(3, pose, k, number), "fuzz", "fuzz");
+            const auto c = cases::load_text(case_text(4, pose, k, number), "fuzz", "fuzz");
             ++made;
             loaded += c ? 1U : 0U;
             EXPECT_TRUE(c) << pose.text() << '\n' << cases::to_string(c.error().front());
