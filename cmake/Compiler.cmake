@@ -29,9 +29,6 @@ if(NOT EDGECASE_SANITIZE)
     add_compile_definitions($<$<NOT:$<CONFIG:Debug>>:_FORTIFY_SOURCE=2>)  # it needs optimisation
     add_link_options(LINKER:-z,relro,-z,now)
 endif()
-if(NOT EDGECASE_DEBUG_INFO)
-    add_compile_options(-g0)  # behind the flags of the preset
-endif()
 find_program(EDGECASE_MOLD mold)
 if(EDGECASE_MOLD)
     include(CheckLinkerFlag)

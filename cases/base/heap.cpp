@@ -7,7 +7,7 @@
 
 #include <atomic>
 #include <cstdint>
-#include <cstdio>
+#include <fstream>
 
 namespace cases {
 
@@ -15,14 +15,9 @@ namespace {
 
 // Bytes of memory that only this process has; 0 if the system does not tell. Linux, proc(5).
 int64_t own_bytes() {
-    std::FILE* file = std::fopen("/proc/self/statm", "re");
-    if (file == nullptr) {
-        return 0;
-    }
+    std::ifstream file("/proc/self/statm");
     int64_t pages = 0, resident = 0, shared = 0;
-    const int read = std::fscanf(file, "%ld %ld %ld", &pages, &resident, &shared);
-    std::fclose(file);
-    return read == 3 ? (resident - shared) * ::sysconf(_SC_PAGESIZE) : 0;
+    return file >> pages >> resident >> shared ? (resident - shared) * ::sysconf(_SC_PAGESIZE) : 0;
 }
 
 }  // namespace

@@ -42,6 +42,10 @@ class Keys {
 
 // The first and the last code, by key, that an interval of stored() allows.
 std::array<int64_t, 2> codes_of(cases::ComponentFormat format, const Interval& stored) {
+    if (Component::is_anything(stored)) {
+        constexpr int64_t kAll = int64_t{1} << 40;  // beyond all keys
+        return {-kAll, kAll};
+    }
     const Component component(format);
     const Keys keys(format);
     const auto allows = [&](int64_t key) {
@@ -114,11 +118,10 @@ ref::color::Color ColorRows::source_of(uint32_t triangle, cases::SampleId id) {
         ranges = values_.ranges(triangle, id, static_cast<size_t>(output.attribute));
     }
     for (size_t k = 0; k < 4; ++k) {
-        constexpr double kMost = 0x1.fffffep127;  // nothing is promised: any finite number
         const auto constant = static_cast<double>(output.value[static_cast<int>(k)]);
         out.at(k) = output.attribute < 0       ? ref::color::point(constant)
                     : ranges.at(k).is_promised ? Interval{ranges.at(k).low, ranges.at(k).high}
-                                               : Interval{-kMost, kMost};
+                                               : Component::anything();
     }
     return out;
 }

@@ -81,6 +81,7 @@ const std::vector<Feature>& features() {
           "more-attributes", "scissor-tiles"}},
         {"w", {"one", "equal", "unequal", "steep", "behind"}},
         {"z", {"half", "plane", "beyond"}},
+        // Drawn apart (kFeaturesApart of pose.cpp): they stay last.
         {"conservative", {"none", "overestimate", "underestimate", "extra"}},
         {"fragment-size", {"1x1", "2x1", "2x2", "1x2", "4x2", "2x4", "4x4"}},
         {"fragment-input", {"none", "sample-mask-in", "shading-rate"}},

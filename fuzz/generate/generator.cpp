@@ -71,9 +71,6 @@ class CaseWriter {
         draws_ = std::stoul(std::string(pose.value("draws")));
         // What a device lacks without this test is drawn by the others of the pose.
         has_bounds_ = !pose.is_default("depth-bounds") && dice_.one_in(2);
-        samples_ = static_cast<uint32_t>(std::stoul(std::string(pose.value("samples"))));
-        layers_ = static_cast<uint32_t>(std::stoul(std::string(pose.value("layers"))));
-        draws_ = std::stoul(std::string(pose.value("draws")));
     }
 
     std::string write() {

@@ -172,15 +172,18 @@ size_t value_of(size_t feature, size_t first, Dice& dice) {
     return first + dice.below(row.values.size() - first);
 }
 
-// How many of the sizes of fragments have at most so many samples.
-size_t sizes_of_fragments(const Pose& pose, size_t most) {
+// The sizes of fragments, but for one pixel, that have at most so many samples.
+std::vector<size_t> sizes_of_fragments(const Pose& pose, size_t most) {
     const size_t samples = std::stoul(std::string(pose.value("samples")));
     const std::vector<std::string_view>& sizes = features()[index_of("fragment-size")].values;
-    return static_cast<size_t>(
-        std::count_if(sizes.begin() + 1, sizes.end(), [&](std::string_view size) {
-            const auto side = [](char digit) { return static_cast<size_t>(digit - '0'); };
-            return side(size.front()) * side(size.back()) * samples <= most;
-        }));
+    const auto side = [](char digit) { return static_cast<size_t>(digit - '0'); };
+    std::vector<size_t> out;
+    for (size_t k = 1; k < sizes.size(); ++k) {
+        if (side(sizes[k].front()) * side(sizes[k].back()) * samples <= most) {
+            out.push_back(k);
+        }
+    }
+    return out;
 }
 
 Pose Poses::draw(size_t candidate) const {
@@ -264,11 +267,11 @@ Pose Poses::draw(size_t candidate) const {
     return pose;
 }
 
-Pose Poses::apart(const Pose& pose) const {
-    Pose out = pose;
+std::optional<Pose> Poses::apart(const Pose& pose) const {
     if (!pose.is_default("blit")) {
-        return out;
+        return std::nullopt;
     }
+    Pose out = pose;
     const uint64_t number = count_ / kPosesApart + seed_;
     const auto set = [&](std::string_view feature, size_t value) {
         out.set(index_of(feature), value);
@@ -291,17 +294,20 @@ Pose Poses::apart(const Pose& pose) const {
         // Blocks begin at the target's first pixel, not at those of these.
         switch_on(number % 2 == 0 ? "scissor" : "viewport", 1);
         if (pose.is_default("color") && pose.is_default("source")) {
-            set("fragment-input", number % 3);
-            switch_on("attributes", number % 3 == 0 ? 0 : 1);
+            set("fragment-input", number / 2 % 3);
+            switch_on("attributes", number / 2 % 3 == 0 ? 0 : 1);
         }
         const bool has_mask = out.is("fragment-input", "sample-mask-in");
-        set("fragment-size", 1 + number % sizes_of_fragments(pose, has_mask ? 16 : 32));
+        const std::vector<size_t> sizes = sizes_of_fragments(pose, has_mask ? 16 : 32);
+        set("fragment-size", sizes[number / 6 % sizes.size()]);
     } else if (count_ % kPosesApart == kFirstOfAlpha && number % 2 == 0) {
         leave_out({"query", "early-tests"});
         set("alpha-to-coverage", 1);
         set("attachments", 2);  // with a depth
         switch_on("color", 1 + number / 2 % kColorsOfNumbers);
         switch_on("samples", number % 3 == 0 ? 0 : 1);
+    } else {
+        return std::nullopt;
     }
     return out;
 }

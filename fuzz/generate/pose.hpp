@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -61,10 +62,9 @@ class Poses {
                 found = true;
             }
         }
-        Pose drawn = apart(best);
-        drawn = is_valid(drawn) ? std::move(drawn) : best;
+        const std::optional<Pose> other = apart(best);
         take(best);
-        return drawn;
+        return other && is_valid(*other) ? *other : best;
     }
     size_t count() const { return count_; }
     size_t pairs() const { return seen_.size(); }
@@ -73,8 +73,8 @@ class Poses {
     static constexpr size_t kCandidates = 12;
     Pose draw(size_t candidate) const;
     static Pose blit(uint64_t number);
-    // The pose, or, of some, the same with what is drawn apart. It need not be a case.
-    Pose apart(const Pose& pose) const;
+    // Of some poses the same with what is drawn apart. It need not be a case.
+    std::optional<Pose> apart(const Pose& pose) const;
     size_t fresh_pairs(const Pose& pose) const;
     void take(const Pose& pose);
 

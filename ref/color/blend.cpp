@@ -188,7 +188,10 @@ Color Unit::write(const cases::ColorOutput& output, const Color& written,
         }
         const cases::BlendEquation& equation = k == 3 ? output.blend->alpha : output.blend->color;
         Interval result;
-        if (equation.op == BlendOp::min) {  // factors are ignored
+        const bool is_extreme = equation.op == BlendOp::min || equation.op == BlendOp::max;
+        if (is_extreme && Component::is_anything(s[k])) {
+            result = Component::anything();        // NaN is neither
+        } else if (equation.op == BlendOp::min) {  // factors are ignored
             result = smaller(s[k], d[k]);
         } else if (equation.op == BlendOp::max) {
             result = larger(s[k], d[k]);

@@ -102,10 +102,9 @@ const color::Source& ColorReference::source_of(uint32_t triangle, cases::SampleI
         const std::array<ValueRange, 4> ranges =
             values_.ranges(triangle, id, static_cast<size_t>(attribute));
         for (size_t k = 0; k < 4; ++k) {
-            // Nothing is promised of the value: any finite one.
-            const double most = 0x1.fffffep127;
-            found->second.low[k] = ranges[k].is_promised ? ranges[k].low : -most;
-            found->second.high[k] = ranges[k].is_promised ? ranges[k].high : most;
+            // Of what nothing is promised: where the value is divided by zero, it is no number.
+            found->second.low[k] = ranges[k].is_promised ? ranges[k].low : -HUGE_VAL;
+            found->second.high[k] = ranges[k].is_promised ? ranges[k].high : HUGE_VAL;
         }
     }
     return found->second;

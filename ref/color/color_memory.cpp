@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ref/color/color_memory.hpp"
 
+#include <cmath>
+
 namespace ref::color {
 
 Color color_of(const Source& source) {
     Color out;
     for (size_t k = 0; k < 4; ++k) {
-        out[k] = {mpq_class(source.low[k]), mpq_class(source.high[k])};
+        out[k] = std::isinf(source.low[k])
+                     ? Component::anything()
+                     : Interval{mpq_class(source.low[k]), mpq_class(source.high[k])};
     }
     return out;
 }

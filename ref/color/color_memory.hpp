@@ -17,7 +17,8 @@
 
 namespace ref::color {
 
-// What a shader wrote, by component: every interval of it has ends in binary64.
+// What a shader wrote, by component: every interval of it has ends in binary64. Infinite ends mean
+// that nothing is known of the component, which may be NaN.
 struct Source {
     std::array<double, 4> low{}, high{};
     auto operator<=>(const Source&) const = default;

@@ -102,7 +102,9 @@ std::string source_text(cases::ColorFormat format, const color::Source& source) 
     for (uint32_t k = 0; k < 4; ++k) {
         if (cases::component_of(format, k).bits != 0) {
             text += fmt::format("{}{} {}", text.empty() ? "" : ", ", "rgba"[k],
-                                number_text(source.low.at(k), source.high.at(k)));
+                                std::isinf(source.low.at(k))
+                                    ? "anything"
+                                    : number_text(source.low.at(k), source.high.at(k)));
         }
     }
     return text;

@@ -59,7 +59,8 @@ class Component {
     // itself.
     Interval stored(const Interval& v, cases::Profile profile, bool is_blended) const;
     // Whether the code may be stored of a value of [low, high] that the shader wrote: by binary64
-    // alone, nothing where only rationals tell (component_filter.cpp).
+    // alone, nothing where only rationals tell (component_filter.cpp). Infinite ends: any code may
+    // be.
     std::optional<bool> may_store(double low, double high, uint32_t code,
                                   cases::Profile profile) const;
     // Whether a code means a value of an interval that stored() returned. An infinity does if its

@@ -66,6 +66,9 @@ double Component::number(uint32_t code) const {
 
 std::optional<bool> Component::may_store(double low, double high, uint32_t code,
                                          cases::Profile profile) const {
+    if (std::isinf(low)) {
+        return true;
+    }
     switch (format_.kind) {
         case ComponentKind::unorm: {
             // The code c may be stored if floor(units low) <= c <= ceil(units high), that is

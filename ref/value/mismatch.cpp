@@ -321,7 +321,12 @@ std::string ValueReference::Impl::expected_text(uint32_t t, cases::SampleId id, 
     const auto v = basis.orientation != 0 ? value::nominal_value(basis, q, places.front(), profile)
                                           : value::Valued<mpq_class>{};
     if (v.exists != Answer::yes) {
-        return "a value between the vertex values";
+        const auto& place = places.front();
+        const bool is_outside =
+            basis.orientation != 0 &&
+            (primitive.draw->conservative == cases::Conservative::overestimate ||
+             !value::is_same(place.attributes, place.sample));
+        return is_outside ? "any finite value" : "a value between the vertex values";
     }
     const double factor = budget_factor(profile);
     if (q.id.is_depth() && !is_plain_depth(primitive)) {

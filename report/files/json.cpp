@@ -250,7 +250,8 @@ std::string with_cases(std::string text, const Run& run) {
             }
         }
     }
-    return text + "\n ]\n}";
+    text += "\n ]\n}";
+    return text;
 }
 
 }  // namespace

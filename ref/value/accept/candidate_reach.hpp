@@ -85,8 +85,8 @@ void add_candidate(const CandidateSet<T>& set, const Candidate<T>& candidate,
                 const std::span<const Site<T>> at(sites[place_of(q, where)]);
                 const bool is_own = q.at_sample || (q.at_centroid ? centroid_at_sample : at_sample);
                 add_reach(set, basis, q, at, set.hulls[i], is_own,
-                          candidate.name == ref::BasisKind::snapped, asked.got(i), widest[i],
-                          reaches[i]);
+                          set.covers_samples && candidate.name == ref::BasisKind::snapped,
+                          asked.got(i), widest[i], reaches[i]);
             }
         }
     }

@@ -356,6 +356,7 @@ std::optional<CandidateSet<T>> try_candidates(const Primitive& primitive,
     }
 
     const bool is_overestimated = primitive.draw->conservative == cases::Conservative::overestimate;
+    set.covers_samples = !is_overestimated;
     const bool is_nothing_left = primitive.needs_clipping && polygon.empty();
     const bool is_large = cases::has_large_fragments(*primitive.draw);
     for (size_t q = 0; q < set.hulls.size(); ++q) {

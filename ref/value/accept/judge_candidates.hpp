@@ -41,6 +41,8 @@ struct CandidateSet {
     T least_inv_w{};              // of the visible part of the triangle
     DepthPath<T> depth;           // from interpolated to stored depth
     bool any_of_all = false;      // profile vulkan: each value alone, any candidate, their hull
+    // The positions that cover a sample have it inside; not where primitives are enlarged.
+    bool covers_samples = true;
     // What the numbers are the roundings of; null if they were made as they are.
     std::shared_ptr<const CandidateSet<mpq_class>> exact;
 };

@@ -117,22 +117,21 @@ void add_hull(const Range<T>& hull, const T& widest, double device, Stretch<T>& 
     widen(out.range, out.is_first, T(hull.low - widest), T(hull.high + widest));
 }
 
-// A smooth value whose denominator binary32 cannot tell from zero. `is_covered`: a device that
-// uses this basis covers the point by the same positions, so that it is inside of its triangle.
+// Whether the hull of the vertex values holds a smooth value whose denominator binary32 cannot tell
+// from zero: that of a sample inside of the basis's triangle. `is_covered`: a device that uses this
+// basis covers the sample by the same positions.
 template <class T>
-void add_unsafe(const CandidateSet<T>& set, const Site<T>& site, const Plane<T>& inv_w,
-                const Plane<T>& plane, bool is_covered, const Range<T>& hull, double device,
-                Reach<T>& out) {
-    const Answer inside = is_covered ? Answer::yes : site.is_inside;
-    if (inside == Answer::unknown || is_positive(set.least_inv_w) == Answer::unknown) {
-        out.is_known = false;
-    } else if (inside == Answer::no || is_positive(set.least_inv_w) == Answer::no) {
-        out.is_free = true;
-    } else {
-        const T most = larger(T(magnitude(hull.low)), T(magnitude(hull.high)));
-        add_hull(hull, hull_reach(site, inv_w, plane, set.least_inv_w, most, set.factor), device,
-                 out.all);
+Answer is_in_hull(const CandidateSet<T>& set, const Site<T>& site, bool at_sample,
+                  bool is_covered) {
+    if (!at_sample) {
+        return Answer::no;
     }
+    const Answer inside = is_covered ? Answer::yes : site.is_inside;
+    const Answer has_least = is_positive(set.least_inv_w);
+    if (inside == Answer::unknown || has_least == Answer::unknown) {
+        return Answer::unknown;
+    }
+    return inside == Answer::yes && has_least == Answer::yes ? Answer::yes : Answer::no;
 }
 
 // Adds what is accepted around a value; nothing if the bias is not added.
@@ -180,13 +179,19 @@ void add_reach(const CandidateSet<T>& set, const Basis<T>& basis, const Quantity
             return;
         }
         if (v.exists == Answer::no) {
-            if (at_sample) {
-                add_unsafe(set, site, basis.planes[kPlaneInvW], basis.planes[q.plane], is_covered,
-                           hull, device, out);
-            } else {
+            const Plane<T>& inv_w = basis.planes[kPlaneInvW];
+            const Answer in_hull = is_in_hull(set, site, at_sample, is_covered);
+            if (in_hull == Answer::yes) {
+                const T most = larger(T(magnitude(hull.low)), T(magnitude(hull.high)));
+                const Plane<T>& plane = basis.planes[q.plane];
+                add_hull(hull, hull_reach(site, inv_w, plane, set.least_inv_w, most, factor),
+                         device, out.all);
+            } else if (in_hull == Answer::no) {
                 out.is_free = true;
                 reaches_down = true;
                 reaches_up = either(reaches_up, is_at_most(T(0.0), T(site.d + factor * site.bd)));
+            } else {
+                out.is_known = false;
             }
             continue;
         }
@@ -201,7 +206,8 @@ void add_reach(const CandidateSet<T>& set, const Basis<T>& basis, const Quantity
             add_value(set, q, v, bias, device, out, out.all);
         }
     }
-    // Outside of the triangle a device may divide by zero, which leaves infinity or NaN.
+    // Where the denominator may be zero in binary32, a device may divide by that, which leaves
+    // infinity or NaN.
     if (reaches_down && reaches_up == Answer::unknown) {
         out.is_known = false;
     } else if (reaches_down && reaches_up == Answer::yes) {
@@ -299,8 +305,8 @@ Fit fit(const Reach<T>& reach, double device, const Store& store) {
         return {Answer::yes, 0};
     }
     if (!std::isfinite(device)) {
-        const bool is_settled = reach.is_known || !store.may_clamp;
-        return {is_settled ? Answer::no : Answer::unknown, std::numeric_limits<double>::infinity()};
+        return {reach.is_known ? Answer::no : Answer::unknown,
+                std::numeric_limits<double>::infinity()};
     }
     if (!reach.is_known) {
         return {Answer::unknown, 0};

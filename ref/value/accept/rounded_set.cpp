@@ -66,6 +66,7 @@ CandidateSet<Ball> rounded(const CandidateSet<mpq_class>& exact) {
                  rounded(exact.depth.unit), tight_ball(exact.depth.nominal_unit),
                  exact.depth.viewport};
     set.any_of_all = exact.any_of_all;
+    set.covers_samples = exact.covers_samples;
     return set;
 }
 

@@ -102,6 +102,12 @@ std::vector<Source::Made> all_of(Source& source, uint64_t groups) {
     return all;
 }
 
+std::shared_ptr<const std::vector<Start>> start_of(const std::string& toml) {
+    auto loaded = cases::load_text(toml, "f", "f");
+    EXPECT_TRUE(loaded) << cases::to_string(loaded.error().front());
+    return std::make_shared<const std::vector<Start>>(std::vector<Start>{{loaded->front(), {}}});
+}
+
 TEST(ChangedSource, MakesTheSameCasesOnEveryMachine) {
     // A change of this number changes what every seed means: say so in the changelog.
     ChangedSource source(1, starts());
@@ -248,10 +254,7 @@ frag_depth = { value = 0.25 }
 color = { value = [1, 1, 1, 1], logic = "xor" }
 vertices = [[0, 0, 0.125], [8, 0, 0.125], [0, 8, 0.125]]
 )";
-    auto loaded = cases::load_text(toml, "f", "f");
-    ASSERT_TRUE(loaded) << cases::to_string(loaded.error().front());
-    ChangedSource source(
-        1, std::make_shared<const std::vector<Start>>(std::vector<Start>{{loaded->front(), {}}}));
+    ChangedSource source(1, start_of(toml));
     std::set<std::string> seen;
     const auto see = [&](bool what, const char* words) {
         if (what) {
@@ -301,10 +304,7 @@ query = "occlusion"
 color = { value = [1, 1, 1, 0.5] }
 vertices = [[0, 0], [8, 0], [0, 8]]
 )";
-    auto loaded = cases::load_text(toml, "f", "f");
-    ASSERT_TRUE(loaded) << cases::to_string(loaded.error().front());
-    ChangedSource source(
-        1, std::make_shared<const std::vector<Start>>(std::vector<Start>{{loaded->front(), {}}}));
+    ChangedSource source(1, start_of(toml));
     std::set<std::string> seen;
     for (const Source::Made& made : all_of(source, 400)) {
         for (const cases::Draw& draw : made.data ? made.data->draws : std::vector<cases::Draw>()) {
@@ -334,10 +334,7 @@ vertices = [[0, 0], [8, 0], [0, 8]]
 stencil = { compare = "equal", pass = "replace", reference = 3 }
 vertices = [[0, 0], [8, 0], [0, 8]]
 )";
-    auto loaded = cases::load_text(toml, "f", "f");
-    ASSERT_TRUE(loaded) << cases::to_string(loaded.error().front());
-    ChangedSource source(
-        1, std::make_shared<const std::vector<Start>>(std::vector<Start>{{loaded->front(), {}}}));
+    ChangedSource source(1, start_of(toml));
     std::set<std::string> seen;
     const auto see = [&](bool what, const char* words) {
         if (what) {
@@ -379,10 +376,7 @@ size = [4, 4]
 from = [0, 0, 3, 4]
 to = [1, 1, 7, 5]
 )";
-    auto loaded = cases::load_text(toml, "f", "f");
-    ASSERT_TRUE(loaded) << cases::to_string(loaded.error().front());
-    ChangedSource source(
-        1, std::make_shared<const std::vector<Start>>(std::vector<Start>{{loaded->front(), {}}}));
+    ChangedSource source(1, start_of(toml));
     std::set<std::string> seen;
     const auto see = [&](bool what, const char* words) {
         if (what) {

@@ -35,7 +35,7 @@ TEST(Generator, MakesTheSameCasesOnEveryMachine) {
         const Pose pose = next(poses, 1);
         hash = cases::stable_hash(case_text(1, pose, k, k * kGeometries + 5), hash);
     }
-    EXPECT_EQ(cases::hex(hash), "196d2e4698d925b1");
+    EXPECT_EQ(cases::hex(hash), "c650f00185f024bc");
 }
 
 TEST(Generator, SeedsDiffer) {
@@ -221,8 +221,10 @@ TEST(Generator, ShadersDiscardByAttributes) {
                     for (const glm::vec4& v : draw.attributes.at(draw.discard_attribute).values) {
                         see(v.x < 0, "negative");
                         see(v.x > 0, "positive");
-                        see(!(v.x < 0) && !(v.x > 0), "zero");
                     }
+                    see(std::ranges::all_of(draw.attributes.at(draw.discard_attribute).values,
+                                            [](auto& v) { return !(v.x < 0) && !(v.x > 0); }),
+                        "zero");
                     see(draw.discard_attribute == 0, "first");
                     see(draw.discard_attribute == 1, "second");
                 }),

@@ -7,6 +7,7 @@
 
 #include <bit>
 #include <cmath>
+#include <optional>
 #include <random>
 
 #include "ref/color/color.hpp"
@@ -262,6 +263,44 @@ TEST(ColorMemory, WhatIsNoNumberIsNotTakenForWhatWasWritten) {
         }
     }
     EXPECT_GT(compared, 100U);
+}
+
+// 1/w is 8 (x - 8.5): 0 at the centre of a pixel whose sample at 8.875 is covered. Whatever a
+// device makes of the division may be stored, and may be blended.
+TEST(ColorMemory, AValueThatIsDividedByZeroLeavesAnything) {
+    const uint32_t nan = std::bit_cast<uint32_t>(std::nanf(""));
+    const uint32_t infinity = std::bit_cast<uint32_t>(-HUGE_VALF);
+    const uint32_t number = std::bit_cast<uint32_t>(0.25F);
+    for (const std::optional<BlendOp> op :
+         {std::optional<BlendOp>(), std::optional(BlendOp::add), std::optional(BlendOp::min)}) {
+        cases::Case c =
+            value_test::make_case(16, {value_test::clip_of(8.625, 4, 0.5, 1, 16),
+                                       value_test::clip_of(8.625, 13, 0.5, 1, 16),
+                                       value_test::clip_of(12.5, 8.5, 0.5, 1.0 / 32, 16)});
+        c.target.samples = 4;
+        c.target.has_instruments = false;
+        c.target.color.emplace().format = cases::ColorFormat::rgba32_float;
+        value_test::add_attribute(c, cases::Interpolation::smooth, 4,
+                                  {glm::vec4(0.25F), glm::vec4(0.5F), glm::vec4(1.0F)});
+        c.draws[0].color.attribute = 0;
+        if (op) {
+            const cases::BlendEquation equation{BlendFactor::one, BlendFactor::one, *op};
+            c.draws[0].color.blend = cases::Blend{equation, equation};
+        }
+        const Expectation expectation = expect(c, Limits{8}, Profile::direct3d);
+        ColorReference reference(c, expectation);
+        const auto explains = [&](cases::SampleId id, uint32_t code) {
+            const size_t index = cases::index_of(c.target, id);
+            return reference.explains(index, id, {code, code, code, code}, std::nullopt);
+        };
+        for (const uint32_t code : {nan, infinity, number}) {
+            EXPECT_TRUE(explains({8, 8, 1}, code)) << code;
+        }
+        // In a pixel that is covered as a whole nothing is divided by zero.
+        for (const uint32_t code : {nan, infinity}) {
+            EXPECT_FALSE(explains({10, 8, 1}, code)) << code;
+        }
+    }
 }
 
 TEST(ColorMemory, KeepsNoMoreThanItsCapacity) {

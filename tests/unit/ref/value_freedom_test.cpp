@@ -197,6 +197,27 @@ TEST(ExhaustiveValueFreedom, CentresOutsideMayDivideByZero) {
     }
 }
 
+// Where primitives are enlarged the one sample is the centre, covered and outside of the triangle.
+// 1/w is 0 there, or it is by the snapped vertices alone, or -1.
+TEST(ExhaustiveValueFreedom, EnlargedPrimitivesMayDivideByZero) {
+    const cases::SampleId id{8, 8, 0};
+    for (const double zero : {8.5, 8.5 + 1.0 / 1024, 8.625}) {
+        cases::Case c = make_case(
+            16, {clip_of(zero + 0.125, 4, 0.5, 1, 16), clip_of(zero + 0.125, 13, 0.5, 1, 16),
+                 clip_of(zero + 4, 8.5, 0.5, 1.0 / 32, 16)});
+        c.draws[0].conservative = cases::Conservative::overestimate;
+        add_attribute(c, Interpolation::smooth, 1,
+                      {glm::vec4(1.0F), glm::vec4(2.0F), glm::vec4(3.0F)});
+        ref::FragmentValues v = exact_values(c, id);
+        for (const float any : {1.5F, 1e30F, kUnbounded, -kUnbounded, kNan}) {
+            v.attributes[0].x = any;
+            for (const Profile profile : {Profile::vulkan, Profile::practice, Profile::direct3d}) {
+                EXPECT_EQ(is_ok(c, profile, id, v), std::isfinite(any) || zero < 8.6) << any;
+            }
+        }
+    }
+}
+
 // Every numeric value spoilt.
 ref::FragmentValues spoilt(float x, float y, float with) {
     ref::FragmentValues v;
