@@ -198,10 +198,13 @@ TEST(ExhaustiveValueFreedom, CentresOutsideMayDivideByZero) {
 }
 
 // Where primitives are enlarged the one sample is the centre, covered and outside of the triangle.
-// 1/w is 0 there, or it is by the snapped vertices alone, or -1.
+// 1/w is 0 there, or it is by the snapped vertices alone, or -1. At direct3d all values are of one
+// basis: FragCoord.w says which.
 TEST(ExhaustiveValueFreedom, EnlargedPrimitivesMayDivideByZero) {
     const cases::SampleId id{8, 8, 0};
-    for (const double zero : {8.5, 8.5 + 1.0 / 1024, 8.625}) {
+    constexpr double kBySnappedAlone = 8.5 + 1.0 / 1024;
+    for (const double zero : {8.5, kBySnappedAlone, 8.625}) {
+        const bool is_by_all = zero < kBySnappedAlone;
         cases::Case c = make_case(
             16, {clip_of(zero + 0.125, 4, 0.5, 1, 16), clip_of(zero + 0.125, 13, 0.5, 1, 16),
                  clip_of(zero + 4, 8.5, 0.5, 1.0 / 32, 16)});
@@ -209,11 +212,17 @@ TEST(ExhaustiveValueFreedom, EnlargedPrimitivesMayDivideByZero) {
         add_attribute(c, Interpolation::smooth, 1,
                       {glm::vec4(1.0F), glm::vec4(2.0F), glm::vec4(3.0F)});
         ref::FragmentValues v = exact_values(c, id);
+        ref::FragmentValues snapped = v;
+        snapped.frag_coord.w = zero < 8.6 ? 0 : v.frag_coord.w;
         for (const float any : {1.5F, 1e30F, kUnbounded, -kUnbounded, kNan}) {
             v.attributes[0].x = any;
-            for (const Profile profile : {Profile::vulkan, Profile::practice, Profile::direct3d}) {
-                EXPECT_EQ(is_ok(c, profile, id, v), std::isfinite(any) || zero < 8.6) << any;
+            snapped.attributes[0].x = any;
+            const bool is_number = std::isfinite(any);
+            for (const Profile profile : cases::kProfiles) {
+                EXPECT_EQ(is_ok(c, profile, id, snapped), is_number || zero < 8.6) << any;
             }
+            EXPECT_EQ(is_ok(c, Profile::practice, id, v), is_number || zero < 8.6) << any;
+            EXPECT_EQ(is_ok(c, Profile::direct3d, id, v), is_number || is_by_all) << any;
         }
     }
 }
