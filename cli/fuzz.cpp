@@ -114,7 +114,7 @@ class FuzzCommand {
         if (const std::optional<int> ended = know(*expected, session)) {
             return *ended;
         }
-        return hunt(session);
+        return hunt(session, std::move(expected->broken_doors));
     }
 
   private:
@@ -298,8 +298,9 @@ class FuzzCommand {
         return replace_text(folder_ / fuzz::kLedgerFile, fuzz::to_json(ledger_));
     }
 
-    int hunt(run::Session& session) {
+    int hunt(run::Session& session, std::set<cases::Door> broken_doors) {
         fuzz::HuntOptions hunt;
+        hunt.broken_doors = std::move(broken_doors);
         hunt.source = source_;
         hunt.first_case = ledger_.counts.next_case;
         hunt.most_cases = options_.cases == 0 ? 0 : options_.cases;

@@ -10,6 +10,7 @@
 
 #include "cases/load/loader.hpp"
 #include "cases/model/rule.hpp"
+#include "cases/model/words.hpp"
 #include "diff/color.hpp"
 #include "fuzz/document/document.hpp"
 #include "fuzz/reduce/neighbours.hpp"
@@ -34,10 +35,6 @@ bool can_fail_everywhere(const cases::Case& c) {
            (c.target.has_instruments || !diff::may_stay_clear(c, expectation));
 }
 
-diff::FindingKind sort_of(diff::FindingKind kind) {
-    return kind == diff::FindingKind::double_hit ? diff::FindingKind::extra : kind;
-}
-
 bool is_value(const Symptom& symptom) {
     return symptom.kind == diff::FindingKind::value;
 }
@@ -50,25 +47,6 @@ bool shows_like(const CaseRecord& record, const Symptom& symptom) {
                return (group.kind == diff::FindingKind::value) == is_value(symptom) &&
                       group.level <= std::max(symptom.level, cases::Profile::practice);
            });
-}
-
-// The essentials that say something of a case's numbers only.
-const std::set<std::string> kNumbers = {"behind the eye", "several draws", "several triangles",
-                                        "sloping depth", "unequal w"};
-const std::set<std::string> kSamples = {"several samples"};
-const std::set<std::string> kThinToo = {"behind the eye", "several draws",     "several samples",
-                                        "sloping depth",  "several triangles", "unequal w"};
-
-bool is_within(const std::set<std::string>& part, const std::set<std::string>& whole) {
-    return std::includes(whole.begin(), whole.end(), part.begin(), part.end());
-}
-
-std::set<std::string> without(const std::set<std::string>& words,
-                              const std::set<std::string>& left_out) {
-    std::set<std::string> rest;
-    std::set_difference(words.begin(), words.end(), left_out.begin(), left_out.end(),
-                        std::inserter(rest, rest.end()));
-    return rest;
 }
 
 // The cases of the texts that are one, and their numbers among the texts.
@@ -204,6 +182,14 @@ std::set<std::string> essentials_of(const std::string& text) {
     return words;
 }
 
+std::set<std::string> facts_of(const std::string& text) {
+    std::set<std::string> words = with_implied(essentials_of(text));
+    if (const auto c = load_one(text, "fuzz"); c && c->target.color) {
+        words.insert("format " + std::string(cases::word_of(c->target.color->format)));
+    }
+    return words;
+}
+
 std::vector<Symptom> symptoms_of(const CaseRecord& record) {
     std::vector<Symptom> all;
     const std::optional<Symptom> gravest = symptom_of(record);
@@ -228,129 +214,6 @@ std::vector<Symptom> symptoms_of(const CaseRecord& record) {
 std::string described(const std::string& text, const Symptom& symptom) {
     const auto document = cases::read_toml(text, "drawn");
     return document ? to_text(described(*document, symptom)) : text;
-}
-
-bool explains(const Entry& entry, const Symptom& symptom,
-              const std::set<std::string>& of_the_case) {
-    if (!std::includes(of_the_case.begin(), of_the_case.end(), entry.essentials.begin(),
-                       entry.essentials.end())) {
-        return false;
-    }
-    if (symptom.status != Status::fail || entry.symptom.status != Status::fail) {
-        return entry.symptom.status == symptom.status && entry.symptom.signal == symptom.signal;
-    }
-    // What breaks a looser profile than the entry does is news.
-    if (entry.symptom.level > symptom.level) {
-        return false;
-    }
-    // By which rule a sample is missing depends on the triangle that misses it, and whether one hit
-    // too many is the only one on what else is drawn there: where the case has something special to
-    // blame, too few or too many is enough.
-    return std::any_of(entry.also.begin(), entry.also.end(), [&](const auto& known) {
-        return is_value(symptom) || entry.essentials.empty()
-                   ? known == std::pair(symptom.kind, symptom.rule)
-                   : sort_of(known.first) == sort_of(symptom.kind);
-    });
-}
-
-namespace {
-
-// Whether a word says which fragments there are: a state of a draw, not what it writes.
-bool decides_hits(const std::string& word) {
-    return word.starts_with("draw.") && !word.starts_with("draw.attribute") &&
-           !word.starts_with("draw.color");
-}
-
-// Whether an earlier entry hits too much or too little by something special that the fresh one
-// needs, too: whatever hits write, and later draws find, is wrong with them. A stencil that counts
-// where a scissor lets fragments through is the scissor's.
-bool is_consequence(const Entry& earlier, const Entry& fresh) {
-    const std::set<std::string> keys = without(earlier.essentials, kNumbers);
-    return !is_value(earlier.symptom) && std::ranges::any_of(keys, decides_hits) &&
-           is_within(keys, fresh.essentials);
-}
-
-// "draw.discard" of "draw.discard=front".
-std::set<std::string> names_of(const std::set<std::string>& words) {
-    std::set<std::string> names;
-    for (const std::string& word : words) {
-        names.insert(word.substr(0, word.find('=')));
-    }
-    return names;
-}
-
-// Whether a fresh entry shows the very same by the same keys with other words, or by all but one of
-// several: that one was needed for the earlier case's numbers alone.
-bool shows_the_same(const Entry& earlier, const Entry& fresh) {
-    const std::set<std::string> keys = without(fresh.essentials, kNumbers);
-    const std::set<std::string> others = without(earlier.essentials, kNumbers);
-    if (earlier.symptom.kind != fresh.symptom.kind || earlier.symptom.rule != fresh.symptom.rule ||
-        earlier.symptom.level != fresh.symptom.level) {
-        return false;
-    }
-    const bool is_one_less =
-        keys.size() >= 3 && others.size() == keys.size() + 1 && is_within(keys, others);
-    return is_one_less || (keys.size() >= 2 && names_of(keys) == names_of(others));
-}
-
-}  // namespace
-
-bool is_same_cause(const Entry& earlier, const Entry& fresh) {
-    if (earlier.symptom.status != fresh.symptom.status ||
-        earlier.symptom.signal != fresh.symptom.signal ||
-        (earlier.is_known && earlier.symptom.level > fresh.symptom.level)) {
-        return false;
-    }
-    if (fresh.symptom.status != Status::fail) {
-        return earlier.essentials == fresh.essentials;
-    }
-    if (is_consequence(earlier, fresh)) {
-        return true;
-    }
-    if (is_value(earlier.symptom) != is_value(fresh.symptom)) {
-        return false;
-    }
-    if (shows_the_same(earlier, fresh)) {
-        return true;
-    }
-    const bool is_same_rule =
-        std::any_of(fresh.also.begin(), fresh.also.end(),
-                    [&](const auto& one) { return earlier.also.contains(one); });
-    if (earlier.essentials == fresh.essentials) {
-        return is_same_rule || !fresh.essentials.empty();
-    }
-    // Whatever else of its numbers and samples a case needs in which a thin triangle fails is
-    // chance: with other numbers another one would.
-    if (earlier.essentials.contains(kThinTriangle) && fresh.essentials.contains(kThinTriangle)) {
-        const std::set<std::string> a = without(earlier.essentials, kThinToo),
-                                    b = without(fresh.essentials, kThinToo);
-        return is_within(a, b) || is_within(b, a);
-    }
-    // What only Direct3D's rules forbid is mostly another thing.
-    const bool are_grave =
-        std::max(earlier.symptom.level, fresh.symptom.level) <= cases::Profile::practice;
-    const std::set<std::string> keys = without(fresh.essentials, kNumbers);
-    return (are_grave || earlier.symptom.level == fresh.symptom.level) &&
-           without(earlier.essentials, kNumbers) == keys && !without(keys, kSamples).empty();
-}
-
-void merge(Entry& earlier, Entry fresh) {
-    earlier.also.insert(fresh.also.begin(), fresh.also.end());
-    if (earlier.is_known) {
-        return;
-    }
-    std::set<std::string> both;
-    std::set_intersection(earlier.essentials.begin(), earlier.essentials.end(),
-                          fresh.essentials.begin(), fresh.essentials.end(),
-                          std::inserter(both, both.end()));
-    earlier.essentials = std::move(both);
-    if (fresh.symptom.level < earlier.symptom.level) {
-        fresh.also = std::move(earlier.also);
-        fresh.essentials = std::move(earlier.essentials);
-        fresh.count = earlier.count;
-        fresh.stale_file = earlier.stale_file.empty() ? earlier.file : earlier.stale_file;
-        earlier = std::move(fresh);
-    }
 }
 
 std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom, const Draw& draw,

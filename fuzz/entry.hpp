@@ -56,8 +56,8 @@ std::string need_text(const Entry& entry);
 // A case's text with a description of what it shows and a rule that it exercises, if there is one.
 std::string described(const std::string& text, const Symptom& symptom);
 
-// Whether an entry explains that a case with these essentials shows a symptom.
-bool explains(const Entry& entry, const Symptom& symptom, const std::set<std::string>& of_the_case);
+// Whether an entry explains that a case of these facts shows a symptom.
+bool explains(const Entry& entry, const Symptom& symptom, const std::set<std::string>& facts);
 
 // Whether a fresh entry tells the cause of an earlier one again: if it needs the same to show a
 // like failure. A known cause that turns out graver is news.
@@ -70,5 +70,10 @@ std::vector<Symptom> symptoms_of(const report::CaseRecord& record);
 
 // essentials() of a case file's text; nothing if it is no TOML.
 std::set<std::string> essentials_of(const std::string& text);
+// These with what they imply, and "format rgba8-unorm" of the colours that are judged.
+std::set<std::string> facts_of(const std::string& text);
+// Essentials, and those of simpler cases that show as much: colours beside depth are colours, and
+// an attribute writes a colour as a constant does.
+std::set<std::string> with_implied(std::set<std::string> essentials);
 
 }  // namespace fuzz

@@ -83,8 +83,8 @@ void Hunt::take_up(const std::vector<Waiting>& waiting) {
         }
         Source::Made made = source_->make(number);
         if (one) {
-            std::set<std::string> words = essentials_of(made.text);
-            open_.push_back({std::move(*one), std::move(made.text), std::move(words), {}});
+            std::set<std::string> facts = facts_of(made.text);
+            open_.push_back({std::move(*one), std::move(made.text), std::move(facts), {}});
         } else if (made.data) {
             left.made.push_back({std::move(made.text), number});
             left.cases.push_back(std::move(*made.data));
@@ -124,7 +124,7 @@ std::vector<Entry> Hunt::not_reduced() const {
         ++entry.count;
         if (entry.count == 1 || open.text.size() < entry.text.size()) {
             entry.symptom = symptom;
-            entry.essentials = open.essentials;
+            entry.essentials = essentials_of(open.text);
             entry.text = open.text;
             entry.first_case = open.waiting.number;
             entry.is_reduced = false;
@@ -228,8 +228,24 @@ void Hunt::keep_unjudged(const std::string& text, const std::string& reason) {
     }
 }
 
+// What goes through a door that is known to draw something else shows that, and nothing new.
+void Hunt::leave_out_broken_doors(Chunk& chunk) {
+    const auto is_broken = [&](const cases::Relation& relation) {
+        return relation.kind == cases::RelationKind::door &&
+               options_.broken_doors.contains(relation.door);
+    };
+    for (size_t k = chunk.cases.size(); k-- > 0;) {
+        if (std::ranges::any_of(chunk.cases[k].relations, is_broken)) {
+            chunk.cases.erase(chunk.cases.begin() + static_cast<std::ptrdiff_t>(k));
+            chunk.made.erase(chunk.made.begin() + static_cast<std::ptrdiff_t>(k));
+            ++counts_.through_broken_doors;
+        }
+    }
+}
+
 void Hunt::draw_chunk(Chunk chunk) {
     const Clock::time_point begin = Clock::now();
+    leave_out_broken_doors(chunk);
     std::vector<size_t> triangles;
     for (const cases::Case& c : chunk.cases) {
         triangles.push_back(cases::assemble(c).size());
@@ -273,9 +289,9 @@ void Hunt::draw_chunk(Chunk chunk) {
         if (!symptoms.empty()) {
             ++counts_.failed;
             Made& made = chunk.made[k];
-            std::set<std::string> words = essentials_of(made.text);
+            std::set<std::string> facts = facts_of(made.text);
             open_.push_back(
-                {{made.number, std::move(symptoms)}, std::move(made.text), std::move(words), {}});
+                {{made.number, std::move(symptoms)}, std::move(made.text), std::move(facts), {}});
         }
     }
     counts_.next_case = chunk.next_case;
@@ -289,7 +305,7 @@ void Hunt::draw_chunk(Chunk chunk) {
 void Hunt::explain(Open& open) const {
     std::erase_if(open.waiting.symptoms, [&](const Symptom& symptom) {
         const auto entry = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) {
-            return explains(e, symptom, open.essentials);
+            return explains(e, symptom, open.facts);
         });
         if (entry == entries_.end()) {
             return false;

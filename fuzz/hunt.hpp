@@ -30,8 +30,9 @@ struct HuntOptions {
     std::vector<uint64_t> left;  // numbers below first_case that are drawn first
     std::optional<Clock::time_point> deadline;
     std::function<Clock::time_point()> now = Clock::now;
-    uint32_t shard = 1, shards = 1;  // groups of numbers are dealt out in turn
-    size_t most_rounds = 400;        // of one reduction: batches of candidates
+    uint32_t shard = 1, shards = 1;      // groups of numbers are dealt out in turn
+    size_t most_rounds = 400;            // of one reduction: batches of candidates
+    std::set<cases::Door> broken_doors;  // cases through them are counted, not drawn
 };
 
 // A failing case of a hunt that waits for its reduction, and what no entry explains of it, the
@@ -45,8 +46,9 @@ struct HuntCounts {
     uint64_t next_case = 0;  // all below have been made
     uint64_t drawn = 0, triangles = 0, failed = 0;
     uint64_t unsupported = 0;
-    uint64_t empty = 0;       // no sample must be covered: nothing to judge
-    uint64_t unjudged = 0;    // errors of the judge
+    uint64_t through_broken_doors = 0;  // and so not drawn
+    uint64_t empty = 0;                 // no sample must be covered: nothing to judge
+    uint64_t unjudged = 0;              // errors of the judge
     uint64_t unrepeated = 0;  // failures that did not come again when they were to be reduced
     uint64_t refused = 0;     // changes of other cases that made no case
     uint64_t missing = 0;     // numbers that have no case: none of some changes made one
@@ -109,7 +111,7 @@ class Hunt {
     struct Open {
         Waiting waiting;
         std::string text;
-        std::set<std::string> essentials;
+        std::set<std::string> facts;
         std::optional<size_t> entry;  // that explains the gravest symptom of those explained
         bool is_unrepeated = false;
     };
@@ -117,6 +119,7 @@ class Hunt {
     void take_up(const std::vector<Waiting>& waiting);
     Chunk make_chunk();
     bool is_over() const;
+    void leave_out_broken_doors(Chunk& chunk);
     void draw_chunk(Chunk chunk);
     void keep_unjudged(const std::string& text, const std::string& reason);
     void explain(Open& open) const;

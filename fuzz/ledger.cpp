@@ -137,6 +137,7 @@ std::string to_json(const Ledger& ledger) {
                        {"triangles", c.triangles},
                        {"failed_cases", c.failed},
                        {"unsupported_cases", c.unsupported},
+                       {"cases_through_broken_doors", c.through_broken_doors},
                        {"empty_cases", c.empty},
                        {"unjudged_cases", c.unjudged},
                        {"unrepeated_failures", c.unrepeated},
@@ -194,6 +195,7 @@ cases::Expected<Ledger> load_ledger(const fs::path& folder) {
         c.triangles = json.at("triangles");
         c.failed = json.at("failed_cases");
         c.unsupported = json.at("unsupported_cases");
+        c.through_broken_doors = json.value("cases_through_broken_doors", uint64_t{0});
         c.empty = json.at("empty_cases");
         c.unjudged = json.at("unjudged_cases");
         c.unrepeated = json.at("unrepeated_failures");

@@ -72,10 +72,15 @@ void tell_counts(const fuzz::Ledger& ledger, size_t starts) {
     const double drawing = std::max(c.drawing_seconds, 1e-9);
     say(fmt::format(
         "{} and {} judged in {:.1f} s ({:.0f} cases/s, {:.0f} triangles/s while drawing); {} "
-        "unsupported, {} with nothing to judge; {}\n",
+        "unsupported, {} with nothing to judge{}; {}\n",
         counted(c.drawn, "case"), counted(c.triangles, "triangle"), ledger.seconds,
         static_cast<double>(c.drawn) / drawing, static_cast<double>(c.triangles) / drawing,
-        c.unsupported, c.empty, variety_of(c, starts)));
+        c.unsupported, c.empty,
+        c.through_broken_doors == 0
+            ? ""
+            : fmt::format(", {} through doors that expectation files leave out",
+                          c.through_broken_doors),
+        variety_of(c, starts)));
     say(fmt::format("{} failed, by {}{}; {} took {:.1f} s and {}\n", counted(c.failed, "case"),
                     counted(fresh, "cause"),
                     known > 0 ? fmt::format(" and {} of {} known ones", met, known) : "",

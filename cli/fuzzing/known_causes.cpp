@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cases/base/checksum.hpp"
+#include "cases/model/door.hpp"
 #include "cases/write/to_toml.hpp"
 #include "cli/prepare/expectations.hpp"
 #include "cli/prepare/run_plan.hpp"
@@ -29,13 +30,13 @@ constexpr size_t kMostDeaths = 1;    // cases of one line that are drawn to see 
 // A case that fails as an expectation file says, and what no entry explains of it.
 struct Open {
     std::string text, bug;
-    std::set<std::string> essentials;
+    std::set<std::string> facts;
     std::vector<Symptom> symptoms;
 };
 
 bool is_explained(const std::vector<Entry>& entries, const Symptom& symptom, const Open& open) {
     return std::any_of(entries.begin(), entries.end(),
-                       [&](const Entry& e) { return fuzz::explains(e, symptom, open.essentials); });
+                       [&](const Entry& e) { return fuzz::explains(e, symptom, open.facts); });
 }
 
 bool is_known_failure(Status status) {
@@ -92,7 +93,7 @@ std::vector<Open> failing_cases(const ExpectedFailures& expected, Reducer& reduc
         const cases::Expected<std::string> text = cases::to_toml(c);
         std::vector<Symptom> symptoms = fuzz::symptoms_of(records[k]);
         if (record.status == Status::xfail && text && !symptoms.empty()) {
-            all.push_back({*text, record.bug, fuzz::essentials_of(*text), std::move(symptoms)});
+            all.push_back({*text, record.bug, fuzz::facts_of(*text), std::move(symptoms)});
         }
     }
     // The shortest first: nearest to what it will be.
@@ -125,6 +126,11 @@ OrStop<ExpectedFailures> expected_failures(const Program& program, const RunOpti
     auto lines = expectations_of(options, selection, header);
     if (!lines) {
         return tl::unexpected(lines.error());
+    }
+    for (const auto& [word, bug] : header.skipped_doors) {
+        if (const std::optional<cases::Door> door = cases::find_door(word)) {
+            out.broken_doors.insert(*door);
+        }
     }
     std::map<std::string, size_t> deaths;  // by line
     std::erase_if(*lines, [&](const auto& named) {

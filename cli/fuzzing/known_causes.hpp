@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,8 +28,9 @@ struct ExpectedFailures {
         run::ExpectationLine line;
     };
     std::vector<Failing> cases;
-    size_t files = 0;      // expectation files that speak of them
-    std::string checksum;  // of what they say of which cases; empty if nothing
+    std::set<cases::Door> broken_doors;  // "door=NAME skip"
+    size_t files = 0;                    // expectation files that speak of them
+    std::string checksum;                // of what they say of which cases; empty if nothing
 };
 
 // By --expect or the files beside the suite that fit the device; nothing with --no-expect, and

@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "cases/base/number_text.hpp"
 #include "ref/color/logic.hpp"
@@ -124,6 +127,79 @@ Interval factor_of(BlendFactor factor, size_t k, const Color& source, const Colo
     return k == 3 ? point(1) : smaller(source[3], complement(destination[3]));
 }
 
+// The factor that is 1 minus another one for a component; nothing of those that are no variables.
+std::optional<BlendFactor> complement_of(BlendFactor factor) {
+    using enum BlendFactor;
+    constexpr std::array<std::pair<BlendFactor, BlendFactor>, 8> kPairs = {
+        {{src_color, one_minus_src_color},
+         {dst_color, one_minus_dst_color},
+         {src_alpha, one_minus_src_alpha},
+         {dst_alpha, one_minus_dst_alpha},
+         {constant_color, one_minus_constant_color},
+         {constant_alpha, one_minus_constant_alpha},
+         {src1_color, one_minus_src1_color},
+         {src1_alpha, one_minus_src1_alpha}}};
+    for (const auto& [one, other] : kPairs) {
+        if (factor == one || factor == other) {
+            return factor == one ? other : one;
+        }
+    }
+    return std::nullopt;
+}
+
+// The ends of an interval, one if they are the same.
+std::vector<mpq_class> ends_of(const Interval& v) {
+    return v.low == v.high ? std::vector{v.low} : std::vector{v.low, v.high};
+}
+
+// What f s + (1 - f) d, f s - (1 - f) d or (1 - f) d - f s may be if it is computed with one
+// product of a sum, which is rounded to the component's format, too. All are of degree 1 in each of
+// s, d and f, and rounding is monotonic: so each is least and greatest at ends of the intervals.
+Interval reordered(const Component& component, BlendOp op, const Interval& source,
+                   const Interval& destination, const Interval& factor) {
+    const auto rounded = [&](const mpq_class& x) { return held(component, point(x)); };
+    const auto times = [&](const Interval& f, const Interval& x) {
+        return held(component, product(f, x));
+    };
+    const auto minus = [](const Interval& a, const Interval& b) {
+        return Interval{a.low - b.high, a.high - b.low};
+    };
+    std::optional<Interval> all;
+    const auto add = [&](const Interval& one) { all = all ? hull(*all, one) : one; };
+    for (const mpq_class& s : ends_of(source)) {
+        for (const mpq_class& d : ends_of(destination)) {
+            for (const mpq_class& f : ends_of(factor)) {
+                const Interval g = rounded(1 - f);
+                if (op == BlendOp::add) {
+                    const Interval up = rounded(s - d), down = rounded(d - s);
+                    add(minus(times(point(f), up), point(-d)));
+                    add(minus(times(g, down), point(-s)));
+                    continue;
+                }
+                const Interval both = rounded(s + d);
+                const Interval one = minus(point(s), times(g, both));
+                const Interval other = minus(times(point(f), both), point(d));
+                add(op == BlendOp::subtract ? one : negated(one));
+                add(op == BlendOp::subtract ? other : negated(other));
+            }
+        }
+    }
+    return *all;
+}
+
+// What a device may read of a component of the target; what it may hold is codes.
+Interval read(const Component& component, const Interval& before) {
+    if (component.kind() != ComponentKind::srgb) {
+        return held(component, before);
+    }
+    return {component.read(component.code_of(before.low)).low,
+            component.read(component.code_of(before.high)).high};
+}
+
+bool is_exactly(const Interval& v, int number) {
+    return v.low == number && v.high == number;
+}
+
 }  // namespace
 
 bool replaces_alpha(const cases::ColorOutput& output, cases::ColorFormat format) {
@@ -179,7 +255,7 @@ Color Unit::write(const cases::ColorOutput& output, const Color& written,
         s[k] = held(grid, s[k]);
         second[k] = held(grid, second[k]);
         constants[k] = held(grid, constants[k]);
-        d[k] = held(grid, before[k]);
+        d[k] = component.exists() ? read(component, before[k]) : held(grid, before[k]);
     }
     for (uint32_t k = 0; k < 4; ++k) {
         const Component component(cases::component_of(format, k));
@@ -187,23 +263,35 @@ Color Unit::write(const cases::ColorOutput& output, const Color& written,
             continue;
         }
         const cases::BlendEquation& equation = k == 3 ? output.blend->alpha : output.blend->color;
+        // What goes through unchanged stays the code it is, however it is decoded.
+        const Interval& stored = component.kind() == ComponentKind::srgb ? before[k] : d[k];
         Interval result;
         const bool is_extreme = equation.op == BlendOp::min || equation.op == BlendOp::max;
         if (is_extreme && Component::is_anything(s[k])) {
             result = Component::anything();        // NaN is neither
         } else if (equation.op == BlendOp::min) {  // factors are ignored
-            result = smaller(s[k], d[k]);
+            result = smaller(s[k], stored);
         } else if (equation.op == BlendOp::max) {
-            result = larger(s[k], d[k]);
+            result = larger(s[k], stored);
         } else {
-            const auto scaled = [&](const Interval& value, BlendFactor factor) {
-                return term(component, value,
-                            held(component, factor_of(factor, k, s, second, d, constants)));
+            const auto factor = [&](BlendFactor of) {
+                return held(component, factor_of(of, k, s, second, d, constants));
             };
-            const Interval a = scaled(s[k], equation.source);
-            const Interval b = scaled(d[k], equation.destination);
+            const Interval f = factor(equation.source), g = factor(equation.destination);
+            const Interval a = term(component, s[k], f);
+            const bool is_read = component.kind() == ComponentKind::srgb && is_exactly(g, 1);
+            const Interval b = !is_read           ? term(component, d[k], g)
+                               : is_exactly(a, 0) ? stored
+                                                  : d[k];
             result = sum(component, equation.op == BlendOp::reverse_subtract ? negated(a) : a,
                          equation.op == BlendOp::subtract ? negated(b) : b);
+            const bool is_finite =
+                !Component::is_anything(result) && !component.may_be_infinite(s[k]) &&
+                !component.may_be_infinite(d[k]) && !component.may_be_infinite(f);
+            if (!component.is_fixed_point() && is_finite &&
+                complement_of(equation.source) == equation.destination) {
+                result = hull(result, reordered(component, equation.op, s[k], d[k], f));
+            }
         }
         out[k] = Component::is_anything(before[k]) || Component::is_anything(result)
                      ? Component::anything()

@@ -251,10 +251,11 @@ bool Component::may_convert(const Interval& v, uint32_t code) const {
 }
 
 Interval Component::read(uint32_t code) const {
-    if (format_.kind == ComponentKind::srgb) {
+    constexpr uint32_t kLastCode = 255;
+    if (format_.kind == ComponentKind::srgb && code > 0 && code < kLastCode) {
         constexpr double kOutwards = 0x1p-40;
-        return {mpq_class(std::max(0.0, linear_of(std::max(0.0, code - 0.5)) - kOutwards)),
-                mpq_class(std::min(1.0, linear_of(std::min(255.0, code + 0.5)) + kOutwards))};
+        return {mpq_class(linear_of(code - 0.5) - kOutwards),
+                mpq_class(linear_of(code + 0.5) + kOutwards)};
     }
     mpq_class value;
     value_of(code, value);

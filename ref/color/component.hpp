@@ -78,10 +78,9 @@ class Component {
     // infinity as they are; UNORM rounded once; sRGB the number that value_of() has.
     double number(uint32_t code) const;
     // What a device may read where the code (of a number) is stored: its value. An sRGB code may be
-    // decoded as far off as half a code more or less would be: Direct3D 3.2.3 allows 0.5 of a code
-    // on the sRGB side and Vulkan names no bound. Both ends are moved outwards by 2^-40, far more
-    // than binary64 loses. (Blending needs no such room: its unit rounds what it reads to either
-    // neighbour, which is more.)
+    // decoded as far off as half a code more or less would be, but 0 and 1 exactly: so Direct3D
+    // 3.2.3.7, and Vulkan names no bound. Both ends are moved outwards by 2^-40, far more than
+    // binary64 loses.
     Interval read(uint32_t code) const;
     // The code nearest to a value, of two the upper; of values beyond the format's its end.
     uint32_t code_of(const mpq_class& value) const;

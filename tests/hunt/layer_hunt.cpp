@@ -139,8 +139,14 @@ report::CaseRecord judged(const Numbered& one, const run::RenderedCase& drawn,
 std::set<std::string> symptoms_of(const Numbered& one, const run::RenderedCase& drawn,
                                   const ref::Limits& limits) {
     std::set<std::string> texts;
+    if (drawn.rendered.status == vk_harness::Rendered::Status::error) {
+        // A call that fails: a hunt tells it as a case that is not judged. What the call was given
+        // may be another number without the fault, and is nothing that shows it.
+        const std::string& reason = drawn.rendered.reason;
+        return {"not judged: " + reason.substr(0, reason.find(" for "))};
+    }
     if (drawn.rendered.status != vk_harness::Rendered::Status::drawn) {
-        return texts;  // not supported, or an error of the harness: no picture was judged
+        return texts;
     }
     const report::CaseRecord record = judged(one, drawn, limits);
     if (record.status == report::Status::error &&
@@ -240,12 +246,14 @@ Bits bits_without_fault(std::vector<Numbered>& chunk) {
 }
 
 // lavapipe 22.3 dies of a query that begins before any pipeline is bound
-// (docs/findings/lavapipe-query-before-pipeline.md).
-void leave_out_deadly(std::vector<Numbered>& chunk) {
+// (docs/findings/lavapipe-query-before-pipeline.md), and what it draws after a count that a buffer
+// held hangs on what became of that buffer's memory (docs/findings/lavapipe-indirect.md).
+void leave_out_broken_doors(std::vector<Numbered>& chunk) {
     std::erase_if(chunk, [](const Numbered& one) {
         return std::ranges::any_of(one.data.relations, [](const cases::Relation& relation) {
             return relation.kind == cases::RelationKind::door &&
-                   relation.door == cases::Door::query_first;
+                   (relation.door == cases::Door::query_first ||
+                    relation.door == cases::Door::indirect_after_count);
         });
     });
 }
@@ -320,7 +328,8 @@ void take_answer(const Child& child, Defects& defects, Chase& chase) {
     Find& find = *chase.find;
     const auto [text, status] = finish(child);
     std::error_code none;
-    find.alterations += size_of(child.count);
+    const uint64_t alterations = size_of(child.count);
+    find.alterations += alterations;
     fs::remove(child.count, none);
     chase.is_over = true;
     if (text.empty()) {
@@ -335,7 +344,8 @@ void take_answer(const Child& child, Defects& defects, Chase& chase) {
     const size_t end = text.find('\n');
     const uint64_t number = std::stoull(text.substr(0, end));
     for (const std::string& symptom : lines_of(text.substr(end + 1))) {
-        if (!defects.of(number).contains(symptom)) {
+        // Where the layer changed nothing, the driver itself draws now this, now that.
+        if (alterations > 0 && !defects.of(number).contains(symptom)) {
             find.number = number;
             find.symptom = symptom;
             return;
@@ -412,7 +422,7 @@ void hunt_layer(const Plan& plan, const OnFind& tell) {
     while (sequence.next_case() < plan.cases && !open.empty()) {
         std::vector<Numbered> chunk =
             sequence.next(sequence.next_case() == 0 ? kPosesOfFirstChunk : kPosesOfChunk);
-        leave_out_deadly(chunk);
+        leave_out_broken_doors(chunk);
         if (chunk.empty()) {
             continue;
         }

@@ -51,6 +51,83 @@ TEST(SameCause, NothingSpecialIsNoLikeness) {
     EXPECT_TRUE(is_same_cause(plain, both));
 }
 
+std::string colored(const std::string& format) {
+    return "format = 1\ndescription = \"d\"\nrules = [\"cover.inside\"]\n[target]\nsize = [4, 4]\n"
+           "[target.color]\nformat = \"" +
+           format +
+           "\"\n[[draw]]\ncolor = { value = [1, 0, 0, 0] }\nvertices = [[0, 0], [4, 0], [0, 4]]\n";
+}
+
+TEST(SameCause, WhatIsStoredWronglyRoundedIsHandedOn) {
+    Entry stored = entry("value of store.unorm [direct3d]", {"color", "draw.color.value"});
+    stored.text = colored("r5g6b5-unorm");
+    const std::set<std::string> through = {"attachments=color", "color", "draw.attribute",
+                                           "draw.color.attribute", "draw.color.logic=equivalent"};
+    for (const char* symptom :
+         {"value of logic.operation [direct3d]", "order of order.primitive [direct3d]",
+          "value of blend.write-mask [direct3d]", "value of color.location [direct3d]"}) {
+        Entry fresh = entry(symptom, through);
+        fresh.text = colored("r5g6b5-unorm");
+        EXPECT_TRUE(is_same_cause(stored, fresh)) << symptom;
+        fresh.text = colored("rgb10a2-unorm");
+        EXPECT_FALSE(is_same_cause(stored, fresh)) << symptom;
+    }
+    for (const char* symptom :
+         {"value of logic.operation [practice]", "missing of cover.inside [practice]"}) {
+        Entry fresh = entry(symptom, through);
+        fresh.text = colored("r5g6b5-unorm");
+        EXPECT_FALSE(is_same_cause(stored, fresh)) << symptom;
+    }
+    // Where more than colours is delivered it is another thing.
+    Entry depth = entry("value of depth.linear [direct3d]", {"draw.cull=back"});
+    depth.text = colored("r5g6b5-unorm");
+    EXPECT_FALSE(is_same_cause(stored, depth));
+    // What is stored wrongly by something special is that, by any rule of a colour.
+    Entry clipped = entry("value of store.unorm [practice]",
+                          {"draw.attribute", "draw.attribute.interpolation=noperspective"});
+    std::set<std::string> also = through;
+    also.insert("draw.attribute.interpolation=noperspective");
+    EXPECT_TRUE(is_same_cause(clipped, entry("value of stencil.compare [practice]", also)));
+    EXPECT_FALSE(is_same_cause(clipped, entry("value of stencil.compare [vulkan]", also)));
+    EXPECT_FALSE(is_same_cause(clipped, entry("value of stencil.compare [practice]", through)));
+    Entry special = entry("value of store.unorm [direct3d]", {"color", "draw.cull=back"});
+    special.text = colored("r5g6b5-unorm");
+    Entry fresh = entry("value of logic.operation [direct3d]", through);
+    fresh.text = colored("r5g6b5-unorm");
+    EXPECT_FALSE(is_same_cause(special, fresh));
+    // Of other cases it explains those with its format.
+    const Symptom again = *parse_symptom("value of store.unorm [direct3d]");
+    EXPECT_TRUE(explains(stored, again, facts_of(colored("r5g6b5-unorm"))));
+    EXPECT_FALSE(explains(stored, again, facts_of(colored("rgb10a2-unorm"))));
+}
+
+TEST(SameCause, AlphaToCoverageDecidesWhoIsHit) {
+    const Entry integers = entry(
+        "missing of sample.alpha-to-coverage [vulkan]",
+        {"attachments=color", "color", "draw.color.alpha_to_coverage=true", "draw.color.value"});
+    const std::set<std::string> beside = {"attachments=color+depth", "color",
+                                          "draw.color.attribute",
+                                          "draw.color.alpha_to_coverage=true", "several samples"};
+    EXPECT_TRUE(is_same_cause(integers, entry("order of order.primitive [vulkan]", beside)));
+    EXPECT_TRUE(is_same_cause(integers, entry("missing of cover.inside [vulkan]", beside)));
+    EXPECT_FALSE(is_same_cause(
+        integers, entry("missing of cover.inside [vulkan]", {"attachments=color+depth", "color"})));
+}
+
+TEST(SameCause, AConstantAndAnAttributeAreTwoWaysToWriteAColor) {
+    const Entry constant =
+        entry("value of sample.alpha-to-one [vulkan]",
+              {"attachments=color+depth", "color", "draw.color.alpha_to_one=true",
+               "draw.color.value", "draw.shader_mask"});
+    std::set<std::string> words = {"attachments=color",    "color",
+                                   "draw.attribute",       "draw.color.alpha_to_one=true",
+                                   "draw.color.attribute", "draw.shader_mask"};
+    EXPECT_TRUE(is_same_cause(constant, entry("value of sample.alpha-to-one [vulkan]", words)));
+    words.erase("draw.shader_mask");
+    words.insert("draw.cull=back");
+    EXPECT_FALSE(is_same_cause(constant, entry("value of sample.alpha-to-one [vulkan]", words)));
+}
+
 TEST(SameCause, WhatElseAThinTriangleNeedsIsChance) {
     const Entry thin = entry("value of interp.hull [vulkan]", {kThinTriangle});
     const Entry more = entry("value of depth.linear [vulkan]", {kThinTriangle, "unequal w"});

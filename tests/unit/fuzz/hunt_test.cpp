@@ -76,7 +76,9 @@ struct Device {
 };
 
 Hunt hunt_on(Device& device, HuntOptions options, const std::vector<Waiting>& waiting = {}) {
-    options.source = [] { return std::make_unique<PlainSource>(); };
+    if (!options.source) {
+        options.source = [] { return std::make_unique<PlainSource>(); };
+    }
     options.now = [&device] { return device.now(); };
     return Hunt(
         options,
@@ -108,6 +110,43 @@ void expect_resumed(Hunt& ended, Device& device, size_t judged) {
     uint64_t next = 0;
     for (const uint64_t number : device.drawn) {
         EXPECT_EQ(number, next++);
+    }
+}
+
+// Every second number goes through a door.
+class DoorSource : public PlainSource {
+  public:
+    Made make(uint64_t number) const override {
+        Made made = PlainSource::make(number);
+        if (number % 2 == 1) {
+            made.text.replace(
+                made.text.find("[target]"), 0,
+                "relations = [{ doors = [\"interleaved\", \"indirect-after-count\"] }]\n");
+            made.data = load_one(made.text, std::to_string(number));
+        }
+        return made;
+    }
+};
+
+TEST(Hunt, LeavesOutDoorsThatTheDeviceBreaks) {
+    for (const bool is_broken : {false, true}) {
+        Device device;
+        HuntOptions options;
+        options.most_cases = kChunk;
+        options.source = [] { return std::make_unique<DoorSource>(); };
+        if (is_broken) {
+            options.broken_doors = {cases::Door::indirect_after_count};
+        }
+        Hunt hunt = hunt_on(device, options);
+        Hunt::State state = Hunt::State::goes_on;
+        while (state == Hunt::State::goes_on) {
+            state = hunt.step();
+        }
+        EXPECT_EQ(hunt.counts().drawn, is_broken ? kChunk / 2 : kChunk);
+        EXPECT_EQ(hunt.counts().through_broken_doors, is_broken ? kChunk / 2 : 0);
+        EXPECT_EQ(device.drawn.count(1), is_broken ? 0U : 1U);
+        EXPECT_EQ(device.drawn.count(2), 1U);
+        EXPECT_THAT(hunt.left(), IsEmpty());
     }
 }
 

@@ -359,6 +359,95 @@ std::array<float, 4> any_color() {
     return out;
 }
 
+// Of r32-float: what a unit leaves of 1 - 2^-24 on 1 with the factors 1/2 and 1 - 1/2.
+Interval halves(cases::BlendOp op, cases::BlendFactor source, cases::BlendFactor destination) {
+    cases::ColorOutput output;
+    output.blend.emplace();
+    output.blend->color = {source, destination, op};
+    output.blend->constants = glm::vec4(0.5F);
+    const double s = 1 - 0x1p-24;
+    return Unit{ColorFormat::r32_float, Profile::direct3d}
+        .write(output, color_of({s, s, s, s}), color_of({1, 1, 1, 1}))
+        .front();
+}
+
+TEST(Blend, AProductOfASumIsAnotherOrder) {
+    using enum cases::BlendFactor;
+    using enum cases::BlendOp;
+    // s + d = 2 - 2^-24 lies between the numbers 2 - 2^-23 and 2, halves of which are 1 - 2^-24 and
+    // 1: s minus these is 0 or -2^-24. In the order of the text it is -2^-25.
+    for (const auto& [f, g] : {std::pair(constant_color, one_minus_constant_color),
+                               std::pair(one_minus_constant_color, constant_color)}) {
+        const Interval less = halves(subtract, f, g), more = halves(reverse_subtract, f, g);
+        EXPECT_EQ(less.low, mpq_class(-0x1p-24));
+        EXPECT_EQ(less.high, 0);
+        EXPECT_EQ(more.low, 0);
+        EXPECT_EQ(more.high, mpq_class(0x1p-24));
+    }
+    // Without a complement there is nothing to save.
+    const Interval plain = halves(subtract, constant_color, constant_color);
+    EXPECT_EQ(plain.low, mpq_class(-0x1p-25));
+    EXPECT_EQ(plain.high, plain.low);
+}
+
+TEST(Blend, WhatAnSrgbTargetHoldsIsDecodedFirst) {
+    const Unit unit{ColorFormat::rgba8_srgb, Profile::direct3d};
+    cases::ColorOutput output;
+    output.blend.emplace();
+    output.blend->color = {cases::BlendFactor::one, cases::BlendFactor::one,
+                           cases::BlendOp::reverse_subtract};
+    const auto left = [&](double source, uint32_t code) {
+        mpq_class held;
+        Component(cases::component_of(unit.format, 0)).value_of(code, held);
+        const Color before = {point(held), point(held), point(held), point(0)};
+        return unit.write(output, color_of({source, source, source, 0}), before);
+    };
+    const auto allows = [&](const Color& color, uint32_t code) {
+        return unit.allows(color, {code, code, code, unit.codes_of(color)[3]});
+    };
+    // Code 120 is the number 0.18782; half a code less and more is 0.1860 and 0.1896.
+    // The source is code 110.1, so that 0.1559 to 0.1590 is subtracted, or a code more of the
+    // product: 0.0240 to 0.0337, codes 42.7 to 51.5.
+    const Color dark = left(0.15625, 120);
+    EXPECT_FALSE(allows(dark, 41));
+    EXPECT_TRUE(allows(dark, 50));
+    EXPECT_TRUE(allows(dark, 51));
+    EXPECT_TRUE(allows(dark, 52));
+    EXPECT_FALSE(allows(dark, 53));
+    // Nothing added leaves the code; 0 and 1 are decoded exactly.
+    const Color same = left(0, 120);
+    EXPECT_TRUE(allows(same, 120));
+    EXPECT_FALSE(allows(same, 119) || allows(same, 121));
+    output.blend->color.op = cases::BlendOp::subtract;
+    EXPECT_EQ(left(0, 0).front().high, 0);
+}
+
+// A unit that saves a product where the factors are f and 1 - f.
+RC_GTEST_PROP(Blend, AllowsBinary32UnitsOfOneProduct, ()) {
+    const auto number = [] {
+        return static_cast<float>(*rc::gen::inRange(-100000, 1200000)) / 1000000.0F;
+    };
+    const float s = number(), d = number(), f = number(), g = 1 - f;
+    const auto op = *rc::gen::element(cases::BlendOp::add, cases::BlendOp::subtract,
+                                      cases::BlendOp::reverse_subtract);
+    const bool is_first = *rc::gen::arbitrary<bool>();
+    const bool is_less = op != cases::BlendOp::add;
+    const float sum = is_less ? s + d : is_first ? s - d : d - s;
+    float got =
+        is_first ? (is_less ? f * sum - d : d + f * sum) : (is_less ? s - g * sum : s + g * sum);
+    got = op == cases::BlendOp::reverse_subtract ? -got : got;
+    cases::ColorOutput output;
+    output.blend.emplace();
+    output.blend->color = {cases::BlendFactor::constant_color,
+                           cases::BlendFactor::one_minus_constant_color, op};
+    output.blend->constants = glm::vec4(f);
+    const Unit unit{ColorFormat::r32_float, Profile::direct3d};
+    const auto x = static_cast<double>(s), y = static_cast<double>(d);
+    const Color allowed = unit.write(output, color_of({x, x, x, x}), color_of({y, y, y, y}));
+    RC_ASSERT(unit.allows(allowed, {std::bit_cast<uint32_t>(got)}));
+    RC_ASSERT(!unit.allows(allowed, {std::bit_cast<uint32_t>(got + 0x1p-18F)}));
+}
+
 RC_GTEST_PROP(Blend, AllowsEveryEightBitUnit, ()) {
     const Unit unit{ColorFormat::rgba8_unorm, Profile::direct3d};
     const cases::Blend blend = any_blend();

@@ -1,0 +1,237 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which failures are of one cause.
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "fuzz/cause.hpp"
+#include "fuzz/entry.hpp"
+
+namespace fuzz {
+
+using report::Status;
+
+namespace {
+
+diff::FindingKind sort_of(diff::FindingKind kind) {
+    return kind == diff::FindingKind::double_hit ? diff::FindingKind::extra : kind;
+}
+
+bool is_value(const Symptom& symptom) {
+    return symptom.kind == diff::FindingKind::value;
+}
+
+// The essentials that say something of a case's numbers only.
+const std::set<std::string> kNumbers = {"behind the eye", "several draws", "several triangles",
+                                        "sloping depth", "unequal w"};
+const std::set<std::string> kSamples = {"several samples"};
+const std::set<std::string> kThinToo = {"behind the eye", "several draws",     "several samples",
+                                        "sloping depth",  "several triangles", "unequal w"};
+
+bool is_within(const std::set<std::string>& part, const std::set<std::string>& whole) {
+    return std::includes(whole.begin(), whole.end(), part.begin(), part.end());
+}
+
+std::set<std::string> without(const std::set<std::string>& words,
+                              const std::set<std::string>& left_out) {
+    std::set<std::string> rest;
+    std::set_difference(words.begin(), words.end(), left_out.begin(), left_out.end(),
+                        std::inserter(rest, rest.end()));
+    return rest;
+}
+
+// "format rgba8-unorm" of the colours that an entry's case is judged by.
+std::string format_of(const Entry& entry) {
+    const std::set<std::string> facts = facts_of(entry.text);
+    const auto at = std::ranges::find_if(
+        facts, [](const std::string& fact) { return fact.starts_with("format "); });
+    return at == facts.end() ? "" : *at;
+}
+
+// Whether an entry stores colours wrongly rounded: those of other formats are another cause.
+bool is_of_rounding(const Entry& entry) {
+    return is_value(entry.symptom) && entry.symptom.rule.starts_with("store.") &&
+           entry.symptom.level == cases::Profile::direct3d;
+}
+
+}  // namespace
+
+std::set<std::string> with_implied(std::set<std::string> essentials) {
+    if (essentials.contains("attachments=color+depth")) {
+        essentials.insert("attachments=color");
+    }
+    if (essentials.contains("draw.color.attribute")) {
+        essentials.insert("draw.color.value");
+    }
+    return essentials;
+}
+
+bool explains(const Entry& entry, const Symptom& symptom,
+              const std::set<std::string>& facts) {
+    if (!is_within(entry.essentials, facts) ||
+        (is_of_rounding(entry) && !facts.contains(format_of(entry)))) {
+        return false;
+    }
+    if (symptom.status != Status::fail || entry.symptom.status != Status::fail) {
+        return entry.symptom.status == symptom.status && entry.symptom.signal == symptom.signal;
+    }
+    // What breaks a looser profile than the entry does is news.
+    if (entry.symptom.level > symptom.level) {
+        return false;
+    }
+    // By which rule a sample is missing depends on the triangle that misses it, and whether one hit
+    // too many is the only one on what else is drawn there: where the case has something special to
+    // blame, too few or too many is enough.
+    return std::any_of(entry.also.begin(), entry.also.end(), [&](const auto& known) {
+        return is_value(symptom) || entry.essentials.empty()
+                   ? known == std::pair(symptom.kind, symptom.rule)
+                   : sort_of(known.first) == sort_of(symptom.kind);
+    });
+}
+
+namespace {
+
+// Whether a word says which fragments there are: a state of a draw, not what it writes.
+bool decides_hits(const std::string& word) {
+    return word.starts_with("draw.color.alpha_to_coverage") ||
+           (word.starts_with("draw.") && !word.starts_with("draw.attribute") &&
+            !word.starts_with("draw.color"));
+}
+
+// Whether an earlier entry hits too much or too little by something special that the fresh one
+// needs, too: whatever hits write, and later draws find, is wrong with them. A stencil that counts
+// where a scissor lets fragments through is the scissor's.
+bool is_consequence(const Entry& earlier, const Entry& fresh) {
+    const std::set<std::string> keys = without(earlier.essentials, kNumbers);
+    return !is_value(earlier.symptom) && std::ranges::any_of(keys, decides_hits) &&
+           is_within(keys, with_implied(fresh.essentials));
+}
+
+// What a case needs without its numbers. A constant and an attribute are two ways to write a colour.
+std::set<std::string> keys_of(const Entry& entry) {
+    std::set<std::string> keys = without(entry.essentials, kNumbers);
+    if (keys.erase("draw.color.attribute") > 0) {
+        keys.erase("draw.attribute");
+        keys.insert("draw.color.value");
+    }
+    return keys;
+}
+
+// Whether what is wrong was seen in a colour.
+bool is_of_color(const Entry& entry) {
+    constexpr std::array<std::string_view, 6> kRules = {
+        "store.", "blend.", "logic.", "color.location", "order.primitive", "sample.alpha-to-one"};
+    return entry.essentials.contains("attachments=color") ||
+           std::ranges::any_of(kRules, [&](std::string_view word) {
+               return entry.symptom.rule.starts_with(word);
+           });
+}
+
+// Whether an earlier entry stores wrong colours, and the fresh one shows them by another rule, as
+// write masks, logical operations and blending hand on what is stored. Those that need nothing
+// special and that only Direct3D forbids are rounded otherwise than it says, by their format.
+bool is_of_stored(const Entry& earlier, const Entry& fresh) {
+    if (!is_value(earlier.symptom) || !earlier.symptom.rule.starts_with("store.") ||
+        !is_of_color(fresh)) {
+        return false;
+    }
+    const std::set<std::string> special =
+        without(keys_of(earlier), {"attachments=color", "attachments=color+depth", "color",
+                                   "draw.attribute", "draw.color.value"});
+    if (!special.empty()) {
+        return fresh.symptom.level >= earlier.symptom.level && is_within(special, fresh.essentials);
+    }
+    return is_of_rounding(earlier) && fresh.symptom.level == cases::Profile::direct3d &&
+           format_of(earlier) == format_of(fresh);
+}
+
+// "draw.discard" of "draw.discard=front".
+std::set<std::string> names_of(const std::set<std::string>& words) {
+    std::set<std::string> names;
+    for (const std::string& word : words) {
+        names.insert(word.substr(0, word.find('=')));
+    }
+    return names;
+}
+
+// Whether a fresh entry shows the very same by the same keys with other words, or by all but one of
+// several: that one was needed for the earlier case's numbers alone.
+bool shows_the_same(const Entry& earlier, const Entry& fresh) {
+    const std::set<std::string> keys = keys_of(fresh);
+    const std::set<std::string> others = keys_of(earlier);
+    if (earlier.symptom.kind != fresh.symptom.kind || earlier.symptom.rule != fresh.symptom.rule ||
+        earlier.symptom.level != fresh.symptom.level) {
+        return false;
+    }
+    const bool is_one_less =
+        keys.size() >= 3 && others.size() == keys.size() + 1 && is_within(keys, others);
+    return is_one_less || (keys.size() >= 2 && names_of(keys) == names_of(others));
+}
+
+}  // namespace
+
+bool is_same_cause(const Entry& earlier, const Entry& fresh) {
+    if (earlier.symptom.status != fresh.symptom.status ||
+        earlier.symptom.signal != fresh.symptom.signal ||
+        (earlier.is_known && earlier.symptom.level > fresh.symptom.level)) {
+        return false;
+    }
+    if (fresh.symptom.status != Status::fail) {
+        return earlier.essentials == fresh.essentials;
+    }
+    if (is_consequence(earlier, fresh) || is_of_stored(earlier, fresh)) {
+        return true;
+    }
+    if (is_value(earlier.symptom) != is_value(fresh.symptom)) {
+        return false;
+    }
+    if (shows_the_same(earlier, fresh)) {
+        return true;
+    }
+    const bool is_same_rule =
+        std::any_of(fresh.also.begin(), fresh.also.end(),
+                    [&](const auto& one) { return earlier.also.contains(one); });
+    if (earlier.essentials == fresh.essentials) {
+        return is_same_rule || !fresh.essentials.empty();
+    }
+    // Whatever else of its numbers and samples a case needs in which a thin triangle fails is
+    // chance: with other numbers another one would.
+    if (earlier.essentials.contains(kThinTriangle) && fresh.essentials.contains(kThinTriangle)) {
+        const std::set<std::string> a = without(earlier.essentials, kThinToo),
+                                    b = without(fresh.essentials, kThinToo);
+        return is_within(a, b) || is_within(b, a);
+    }
+    // What only Direct3D's rules forbid is mostly another thing.
+    const bool are_grave =
+        std::max(earlier.symptom.level, fresh.symptom.level) <= cases::Profile::practice;
+    const std::set<std::string> keys = without(fresh.essentials, kNumbers);
+    return (are_grave || earlier.symptom.level == fresh.symptom.level) &&
+           without(earlier.essentials, kNumbers) == keys && !without(keys, kSamples).empty();
+}
+
+void merge(Entry& earlier, Entry fresh) {
+    earlier.also.insert(fresh.also.begin(), fresh.also.end());
+    if (earlier.is_known) {
+        return;
+    }
+    std::set<std::string> both;
+    std::set_intersection(earlier.essentials.begin(), earlier.essentials.end(),
+                          fresh.essentials.begin(), fresh.essentials.end(),
+                          std::inserter(both, both.end()));
+    earlier.essentials = std::move(both);
+    if (fresh.symptom.level < earlier.symptom.level) {
+        fresh.also = std::move(earlier.also);
+        fresh.essentials = std::move(earlier.essentials);
+        fresh.count = earlier.count;
+        fresh.stale_file = earlier.stale_file.empty() ? earlier.file : earlier.stale_file;
+        earlier = std::move(fresh);
+    }
+}
+
+}  // namespace fuzz
