@@ -72,8 +72,7 @@ std::set<std::string> with_implied(std::set<std::string> essentials) {
     return essentials;
 }
 
-bool explains(const Entry& entry, const Symptom& symptom,
-              const std::set<std::string>& facts) {
+bool explains(const Entry& entry, const Symptom& symptom, const std::set<std::string>& facts) {
     if (!is_within(entry.essentials, facts) ||
         (is_of_rounding(entry) && !facts.contains(format_of(entry)))) {
         return false;
@@ -113,7 +112,8 @@ bool is_consequence(const Entry& earlier, const Entry& fresh) {
            is_within(keys, with_implied(fresh.essentials));
 }
 
-// What a case needs without its numbers. A constant and an attribute are two ways to write a colour.
+// What a case needs without its numbers. A constant and an attribute are two ways to write a
+// colour.
 std::set<std::string> keys_of(const Entry& entry) {
     std::set<std::string> keys = without(entry.essentials, kNumbers);
     if (keys.erase("draw.color.attribute") > 0) {
@@ -128,9 +128,8 @@ bool is_of_color(const Entry& entry) {
     constexpr std::array<std::string_view, 6> kRules = {
         "store.", "blend.", "logic.", "color.location", "order.primitive", "sample.alpha-to-one"};
     return entry.essentials.contains("attachments=color") ||
-           std::ranges::any_of(kRules, [&](std::string_view word) {
-               return entry.symptom.rule.starts_with(word);
-           });
+           std::ranges::any_of(
+               kRules, [&](std::string_view word) { return entry.symptom.rule.starts_with(word); });
 }
 
 // Whether an earlier entry stores wrong colours, and the fresh one shows them by another rule, as

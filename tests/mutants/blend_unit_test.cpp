@@ -163,6 +163,7 @@ std::vector<Unit> legal_units() {
         d.blend = BlendMath::binary32;
         d.fused = true;
     });
+    add("one product", Profile::direct3d, [](Device& d) { d.blend = BlendMath::one_product; });
     add("halves towards zero", Profile::direct3d, [](Device& d) { d.half_toward_zero = true; });
     for (const Profile profile : {Profile::vulkan, Profile::practice}) {
         add("down", profile, [](Device& d) { d.unorm = UnormRounding::down; });

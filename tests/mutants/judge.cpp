@@ -119,6 +119,8 @@ std::vector<LegalDevice> legal_devices() {
             d.unorm = UnormRounding::nearest_even;
             d.fused = true;
         });
+    add("blend_with_one_product", "factors f and 1 - f are blended with one product, in binary32",
+        Profile::direct3d, [](Device& d) { d.blend = BlendMath::one_product; });
     add("bytes_divided_by_255", "products of bytes divided by 255, halves rounded towards zero",
         Profile::direct3d, [](Device& d) {
             d.multiply = FixedMultiply::divide;

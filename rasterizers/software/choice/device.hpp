@@ -41,7 +41,9 @@ enum class Centroid : uint8_t { first_sample, mean };  // Direct3D's; the mean o
 enum class UnormRounding : uint8_t { nearest, nearest_even, nearest_down, down };
 // What blends targets of 8 bits of fixed point; all others are blended in binary32. cut: in fixed
 // point, and the source is cut to a multiple of 2^-12 before it becomes a code (NVIDIA's Hopper).
-enum class BlendMath : uint8_t { fixed, binary32, cut };
+// one_product: all in binary32, and where the factors are f and 1 - f with one product, as
+// d + f (s - d) (lavapipe).
+enum class BlendMath : uint8_t { fixed, binary32, cut, one_product };
 // A product of 8-bit numbers over 255: (x y + 127) / 255, or t = x y + 128, (t + (t >> 8)) >> 8.
 enum class FixedMultiply : uint8_t { divide, shifts };
 

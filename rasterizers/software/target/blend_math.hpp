@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <type_traits>
 #include <utility>
 
 #include "cases/model/case.hpp"
@@ -24,6 +25,7 @@ struct FloatMath {
     using Value = float;
     static constexpr float kOne = 1.0F;
     bool fused;
+    bool has_one_product;
 
     // s f + d g and the like: the first product may be kept in full.
     float add(float s, float f, float d, float g) const {
@@ -34,6 +36,31 @@ struct FloatMath {
     }
     float scale(float a, float b) const { return a * b; }
 };
+
+// Whether one factor is 1 minus the other by its name.
+inline bool are_complements(BlendFactor a, BlendFactor b) {
+    const auto is_of = [&](BlendFactor plain, BlendFactor complement) {
+        return (a == plain && b == complement) || (b == plain && a == complement);
+    };
+    return is_of(BlendFactor::src_color, BlendFactor::one_minus_src_color) ||
+           is_of(BlendFactor::dst_color, BlendFactor::one_minus_dst_color) ||
+           is_of(BlendFactor::src_alpha, BlendFactor::one_minus_src_alpha) ||
+           is_of(BlendFactor::dst_alpha, BlendFactor::one_minus_dst_alpha) ||
+           is_of(BlendFactor::constant_color, BlendFactor::one_minus_constant_color) ||
+           is_of(BlendFactor::constant_alpha, BlendFactor::one_minus_constant_alpha) ||
+           is_of(BlendFactor::src1_color, BlendFactor::one_minus_src1_color) ||
+           is_of(BlendFactor::src1_alpha, BlendFactor::one_minus_src1_alpha);
+}
+
+// s f + d g and the like with f + g = 1: whichever of them is the complement is not used.
+inline float with_one_product(BlendOp op, float s, float f, float d, float g, bool is_by_source) {
+    const float sum = op == BlendOp::add ? (is_by_source ? s - d : d - s) : s + d;
+    if (op == BlendOp::add) {
+        return is_by_source ? d + f * sum : s + g * sum;
+    }
+    const float less = is_by_source ? f * sum - d : s - g * sum;
+    return op == BlendOp::subtract ? less : -less;
+}
 
 // 8 bits: every step is clamped to 0..255.
 struct FixedMath {
@@ -179,6 +206,13 @@ std::array<typename Math::Value, 4> blend_all(const cases::Blend& blend, Operand
         const bool scales = fault == Fault::blend_min_max_scaled;
         const auto a = scales ? math.scale(s, f) : s;
         const auto b = scales ? math.scale(d, g) : d;
+        if constexpr (std::is_same_v<Math, FloatMath>) {
+            if (math.has_one_product && op != BlendOp::min && op != BlendOp::max &&
+                are_complements(equation.source, equation.destination)) {
+                out[k] = with_one_product(op, s, f, d, g, equation.source < equation.destination);
+                continue;
+            }
+        }
         switch (op) {
             case BlendOp::add:
                 out[k] = math.add(s, f, d, g);

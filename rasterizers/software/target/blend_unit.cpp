@@ -83,7 +83,8 @@ glm::vec4 BlendUnit::blend(const cases::Blend& blend, const glm::vec4& source,
                            const glm::vec4& destination) const {
     const Operands<FloatMath> o{to_array(source), to_array(blend.second), to_array(destination),
                                 to_array(blend.constants)};
-    const auto out = blend_all(blend, o, FloatMath{device_.fused}, device_.fault);
+    const auto out = blend_all(
+        blend, o, FloatMath{device_.fused, device_.blend == BlendMath::one_product}, device_.fault);
     return {out[0], out[1], out[2], out[3]};
 }
 
@@ -140,7 +141,8 @@ Texel BlendUnit::write(const cases::ColorOutput& output, const glm::vec4& writte
                            ? store_channel(source[static_cast<int>(k)], channels[k], device_)
                            : 0;
         }
-    } else if (is_eight_bits && device_.blend != BlendMath::binary32) {
+    } else if (is_eight_bits && device_.blend != BlendMath::binary32 &&
+               device_.blend != BlendMath::one_product) {
         std::array<uint32_t, 4> s{}, d{};
         for (size_t k = 0; k < 4; ++k) {
             s[k] = store_channel(source_of_blending(source[static_cast<int>(k)]), channels[k],
