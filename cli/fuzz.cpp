@@ -44,6 +44,7 @@ fuzz::HuntCounts sum_of(fuzz::HuntCounts sum, const fuzz::HuntCounts& now) {
     sum.triangles += now.triangles;
     sum.failed += now.failed;
     sum.unsupported += now.unsupported;
+    sum.through_broken_doors += now.through_broken_doors;
     sum.empty += now.empty;
     sum.unjudged += now.unjudged;
     sum.refused += now.refused;

@@ -72,8 +72,7 @@ std::vector<Symptom> symptoms_of(const report::CaseRecord& record);
 std::set<std::string> essentials_of(const std::string& text);
 // These with what they imply, and "format rgba8-unorm" of the colours that are judged.
 std::set<std::string> facts_of(const std::string& text);
-// Essentials, and those of simpler cases that show as much: colours beside depth are colours, and
-// an attribute writes a colour as a constant does.
+// Essentials, and those of simpler cases that show as much: colours beside depth are colours.
 std::set<std::string> with_implied(std::set<std::string> essentials);
 
 }  // namespace fuzz

@@ -82,7 +82,9 @@ void Hunt::take_up(const std::vector<Waiting>& waiting) {
             source_->enter(*group);
         }
         Source::Made made = source_->make(number);
-        if (one) {
+        if (one && made.data && is_through_broken_door(*made.data)) {
+            ++counts_.through_broken_doors;  // the door is known since
+        } else if (one) {
             std::set<std::string> facts = facts_of(made.text);
             open_.push_back({std::move(*one), std::move(made.text), std::move(facts), {}});
         } else if (made.data) {
@@ -229,13 +231,16 @@ void Hunt::keep_unjudged(const std::string& text, const std::string& reason) {
 }
 
 // What goes through a door that is known to draw something else shows that, and nothing new.
-void Hunt::leave_out_broken_doors(Chunk& chunk) {
-    const auto is_broken = [&](const cases::Relation& relation) {
+bool Hunt::is_through_broken_door(const cases::Case& c) const {
+    return std::ranges::any_of(c.relations, [&](const cases::Relation& relation) {
         return relation.kind == cases::RelationKind::door &&
                options_.broken_doors.contains(relation.door);
-    };
+    });
+}
+
+void Hunt::leave_out_broken_doors(Chunk& chunk) {
     for (size_t k = chunk.cases.size(); k-- > 0;) {
-        if (std::ranges::any_of(chunk.cases[k].relations, is_broken)) {
+        if (is_through_broken_door(chunk.cases[k])) {
             chunk.cases.erase(chunk.cases.begin() + static_cast<std::ptrdiff_t>(k));
             chunk.made.erase(chunk.made.begin() + static_cast<std::ptrdiff_t>(k));
             ++counts_.through_broken_doors;

@@ -119,6 +119,7 @@ class Hunt {
     void take_up(const std::vector<Waiting>& waiting);
     Chunk make_chunk();
     bool is_over() const;
+    bool is_through_broken_door(const cases::Case& c) const;
     void leave_out_broken_doors(Chunk& chunk);
     void draw_chunk(Chunk chunk);
     void keep_unjudged(const std::string& text, const std::string& reason);

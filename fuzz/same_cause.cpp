@@ -66,15 +66,11 @@ std::set<std::string> with_implied(std::set<std::string> essentials) {
     if (essentials.contains("attachments=color+depth")) {
         essentials.insert("attachments=color");
     }
-    if (essentials.contains("draw.color.attribute")) {
-        essentials.insert("draw.color.value");
-    }
     return essentials;
 }
 
 bool explains(const Entry& entry, const Symptom& symptom, const std::set<std::string>& facts) {
-    if (!is_within(entry.essentials, facts) ||
-        (is_of_rounding(entry) && !facts.contains(format_of(entry)))) {
+    if (!is_within(entry.essentials, facts)) {
         return false;
     }
     if (symptom.status != Status::fail || entry.symptom.status != Status::fail) {
@@ -87,14 +83,26 @@ bool explains(const Entry& entry, const Symptom& symptom, const std::set<std::st
     // By which rule a sample is missing depends on the triangle that misses it, and whether one hit
     // too many is the only one on what else is drawn there: where the case has something special to
     // blame, too few or too many is enough.
-    return std::any_of(entry.also.begin(), entry.also.end(), [&](const auto& known) {
+    const bool is_like = std::any_of(entry.also.begin(), entry.also.end(), [&](const auto& known) {
         return is_value(symptom) || entry.essentials.empty()
                    ? known == std::pair(symptom.kind, symptom.rule)
                    : sort_of(known.first) == sort_of(symptom.kind);
     });
+    return is_like && (!is_of_rounding(entry) || facts.contains(format_of(entry)));
 }
 
 namespace {
+
+// What a case needs without its numbers. A constant and an attribute are two ways to write a
+// colour.
+std::set<std::string> keys_of(const Entry& entry) {
+    std::set<std::string> keys = without(entry.essentials, kNumbers);
+    if (keys.erase("draw.color.attribute") > 0) {
+        keys.erase("draw.attribute");
+        keys.insert("draw.color.value");
+    }
+    return keys;
+}
 
 // Whether a word says which fragments there are: a state of a draw, not what it writes.
 bool decides_hits(const std::string& word) {
@@ -107,20 +115,20 @@ bool decides_hits(const std::string& word) {
 // needs, too: whatever hits write, and later draws find, is wrong with them. A stencil that counts
 // where a scissor lets fragments through is the scissor's.
 bool is_consequence(const Entry& earlier, const Entry& fresh) {
-    const std::set<std::string> keys = without(earlier.essentials, kNumbers);
+    // What writes a colour decides no hit.
+    const std::set<std::string> keys = without(keys_of(earlier), {"color", "draw.color.value"});
     return !is_value(earlier.symptom) && std::ranges::any_of(keys, decides_hits) &&
            is_within(keys, with_implied(fresh.essentials));
 }
 
-// What a case needs without its numbers. A constant and an attribute are two ways to write a
-// colour.
-std::set<std::string> keys_of(const Entry& entry) {
-    std::set<std::string> keys = without(entry.essentials, kNumbers);
-    if (keys.erase("draw.color.attribute") > 0) {
-        keys.erase("draw.attribute");
-        keys.insert("draw.color.value");
+// What a case needs besides numbers, samples and plain colours, however they are written.
+std::set<std::string> special_of(const Entry& entry) {
+    std::set<std::string> words = without(keys_of(entry), kThinToo);
+    for (const char* plain : {kThinTriangle, "attachments=color", "attachments=color+depth",
+                              "color", "draw.attribute", "draw.color.value"}) {
+        words.erase(plain);
     }
-    return keys;
+    return words;
 }
 
 // Whether what is wrong was seen in a colour.
@@ -136,13 +144,13 @@ bool is_of_color(const Entry& entry) {
 // write masks, logical operations and blending hand on what is stored. Those that need nothing
 // special and that only Direct3D forbids are rounded otherwise than it says, by their format.
 bool is_of_stored(const Entry& earlier, const Entry& fresh) {
+    const bool is_told_of_values =
+        is_value(fresh.symptom) || fresh.symptom.kind == diff::FindingKind::order;
     if (!is_value(earlier.symptom) || !earlier.symptom.rule.starts_with("store.") ||
-        !is_of_color(fresh)) {
+        !is_told_of_values || !is_of_color(fresh)) {
         return false;
     }
-    const std::set<std::string> special =
-        without(keys_of(earlier), {"attachments=color", "attachments=color+depth", "color",
-                                   "draw.attribute", "draw.color.value"});
+    const std::set<std::string> special = special_of(earlier);
     if (!special.empty()) {
         return fresh.symptom.level >= earlier.symptom.level && is_within(special, fresh.essentials);
     }
@@ -162,8 +170,13 @@ std::set<std::string> names_of(const std::set<std::string>& words) {
 // Whether a fresh entry shows the very same by the same keys with other words, or by all but one of
 // several: that one was needed for the earlier case's numbers alone.
 bool shows_the_same(const Entry& earlier, const Entry& fresh) {
-    const std::set<std::string> keys = keys_of(fresh);
-    const std::set<std::string> others = keys_of(earlier);
+    // Where nothing but colours is needed, a constant and an attribute are two things: one of them
+    // is interpolated.
+    const bool is_special = !special_of(fresh).empty() && !special_of(earlier).empty();
+    const std::set<std::string> keys =
+        is_special ? keys_of(fresh) : without(fresh.essentials, kNumbers);
+    const std::set<std::string> others =
+        is_special ? keys_of(earlier) : without(earlier.essentials, kNumbers);
     if (earlier.symptom.kind != fresh.symptom.kind || earlier.symptom.rule != fresh.symptom.rule ||
         earlier.symptom.level != fresh.symptom.level) {
         return false;
@@ -183,6 +196,10 @@ bool is_same_cause(const Entry& earlier, const Entry& fresh) {
     }
     if (fresh.symptom.status != Status::fail) {
         return earlier.essentials == fresh.essentials;
+    }
+    if (is_of_rounding(earlier) && is_of_rounding(fresh) &&
+        format_of(earlier) != format_of(fresh)) {
+        return false;
     }
     if (is_consequence(earlier, fresh) || is_of_stored(earlier, fresh)) {
         return true;

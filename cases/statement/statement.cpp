@@ -246,7 +246,7 @@ constexpr Statement kStatements[] = {
      "With the precision of the destination or more: the set of codes that any such arithmetic reaches.",
      {"blend.equation"}, ""},
     {"blending on floating-point targets", exact, exact,
-     "Exactly, where every sum is representable.",
+     "Exactly, where every sum is representable in the order of the text and with one product.",
      {"blend.equation", "store.float"}, ""},
     {"stencil operations", exact, exact,
      "A stencil that counts up for front and down for back faces holds their difference, modulo 256; "

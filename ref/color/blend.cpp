@@ -127,64 +127,113 @@ Interval factor_of(BlendFactor factor, size_t k, const Color& source, const Colo
     return k == 3 ? point(1) : smaller(source[3], complement(destination[3]));
 }
 
-// The factor that is 1 minus another one for a component; nothing of those that are no variables.
-std::optional<BlendFactor> complement_of(BlendFactor factor) {
+// What of a pixel a factor names, and whether it is 1 minus that.
+struct Named {
+    BlendFactor of = BlendFactor::zero;
+    bool is_complement = false;
+};
+
+// Nothing for factors that are no variables. Of alpha (`k` is 3) colours are alphas.
+std::optional<Named> named(BlendFactor factor, size_t k) {
     using enum BlendFactor;
-    constexpr std::array<std::pair<BlendFactor, BlendFactor>, 8> kPairs = {
-        {{src_color, one_minus_src_color},
-         {dst_color, one_minus_dst_color},
-         {src_alpha, one_minus_src_alpha},
-         {dst_alpha, one_minus_dst_alpha},
-         {constant_color, one_minus_constant_color},
-         {constant_alpha, one_minus_constant_alpha},
-         {src1_color, one_minus_src1_color},
-         {src1_alpha, one_minus_src1_alpha}}};
-    for (const auto& [one, other] : kPairs) {
-        if (factor == one || factor == other) {
-            return factor == one ? other : one;
+    struct Row {
+        BlendFactor plain, complement, alpha;
+    };
+    constexpr std::array<Row, 8> kRows = {
+        {{src_color, one_minus_src_color, src_alpha},
+         {dst_color, one_minus_dst_color, dst_alpha},
+         {src_alpha, one_minus_src_alpha, src_alpha},
+         {dst_alpha, one_minus_dst_alpha, dst_alpha},
+         {constant_color, one_minus_constant_color, constant_alpha},
+         {constant_alpha, one_minus_constant_alpha, constant_alpha},
+         {src1_color, one_minus_src1_color, src1_alpha},
+         {src1_alpha, one_minus_src1_alpha, src1_alpha}}};
+    for (const Row& row : kRows) {
+        if (factor == row.plain || factor == row.complement) {
+            return Named{k == 3 ? row.alpha : row.plain, factor == row.complement};
         }
     }
     return std::nullopt;
 }
 
-// The ends of an interval, one if they are the same.
-std::vector<mpq_class> ends_of(const Interval& v) {
-    return v.low == v.high ? std::vector{v.low} : std::vector{v.low, v.high};
+// Whether the two products of an equation can be computed as one: with f twice, or f and 1 - f.
+enum class Shared : uint8_t { nothing, factor, complement };
+
+Shared shared_by(const cases::BlendEquation& equation, size_t k) {
+    const std::optional<Named> a = named(equation.source, k), b = named(equation.destination, k);
+    return !a || !b || a->of != b->of             ? Shared::nothing
+           : a->is_complement == b->is_complement ? Shared::factor
+                                                  : Shared::complement;
 }
 
-// What f s + (1 - f) d, f s - (1 - f) d or (1 - f) d - f s may be if it is computed with one
-// product of a sum, which is rounded to the component's format, too. All are of degree 1 in each of
-// s, d and f, and rounding is monotonic: so each is least and greatest at ends of the intervals.
-Interval reordered(const Component& component, BlendOp op, const Interval& source,
-                   const Interval& destination, const Interval& factor) {
-    const auto rounded = [&](const mpq_class& x) { return held(component, point(x)); };
-    const auto times = [&](const Interval& f, const Interval& x) {
-        return held(component, product(f, x));
+// The equation with one product of a sum, of numbers s and d: f (s + d), d + f (s - d) or s + g (d
+// - s), and the like. `round`: of each step.
+template <class Round>
+std::vector<Interval> with_one_product(Shared shared, BlendOp op, const mpq_class& s,
+                                       const mpq_class& d, const Interval& f, const Interval& g,
+                                       const Round& round) {
+    const auto times = [&](const Interval& factor, const mpq_class& sum) {
+        return round(product(factor, round(point(sum))));
     };
-    const auto minus = [](const Interval& a, const Interval& b) {
-        return Interval{a.low - b.high, a.high - b.low};
+    const auto plus = [](const Interval& v, const mpq_class& b) {
+        return Interval{v.low + b, v.high + b};
     };
+    const mpq_class a = op == BlendOp::reverse_subtract ? mpq_class(-s) : s;
+    const mpq_class b = op == BlendOp::subtract ? mpq_class(-d) : d;
+    if (shared == Shared::factor) {
+        return {times(f, a + b)};
+    }
+    return {plus(times(f, a - b), b), plus(times(g, b - a), a)};
+}
+
+// The unit of the last place of numbers of that magnitude, in binary16 or binary32.
+mpq_class unit_of(const Component& component, const mpq_class& magnitude) {
+    const bool is_half = component.kind() == ComponentKind::half;
+    int exponent = 0;
+    std::frexp(magnitude.get_d() * (1 + 0x1p-40), &exponent);  // magnitude < 2^exponent
+    const int least = is_half ? -24 : -149;
+    return mpq_class(std::ldexp(1.0, std::max(exponent - (is_half ? 11 : 24), least)));
+}
+
+// The largest magnitude in an interval.
+mpq_class most_of(const Interval& v) {
+    return std::max<mpq_class>(abs(v.low), abs(v.high));
+}
+
+// What an equation may give if it is computed with one product; f and g are its factors. Of numbers
+// s and d each step is either neighbour. Of intervals the exact result is least and greatest at
+// ends, since it is of degree 1 in each variable, and rounding moves it by the sum's unit, times
+// the factor, and the product's. Nothing where a sum overflows: the dynamic range is to be that of
+// the target or more.
+std::optional<Interval> reordered(const Component& component, const cases::BlendEquation& equation,
+                                  size_t k, const Interval& source, const Interval& destination,
+                                  const Interval& f, const Interval& g) {
+    const Shared shared = shared_by(equation, k);
+    const mpq_class most_sum = most_of(source) + most_of(destination);
+    if (shared == Shared::nothing || component.may_be_infinite(point(most_sum))) {
+        return std::nullopt;
+    }
     std::optional<Interval> all;
-    const auto add = [&](const Interval& one) { all = all ? hull(*all, one) : one; };
-    for (const mpq_class& s : ends_of(source)) {
-        for (const mpq_class& d : ends_of(destination)) {
-            for (const mpq_class& f : ends_of(factor)) {
-                const Interval g = rounded(1 - f);
-                if (op == BlendOp::add) {
-                    const Interval up = rounded(s - d), down = rounded(d - s);
-                    add(minus(times(point(f), up), point(-d)));
-                    add(minus(times(g, down), point(-s)));
-                    continue;
+    const auto gather = [&](const auto& round) {
+        for (const mpq_class& s : {source.low, source.high}) {
+            for (const mpq_class& d : {destination.low, destination.high}) {
+                for (const Interval& one :
+                     with_one_product(shared, equation.op, s, d, f, g, round)) {
+                    all = all ? hull(*all, one) : one;
                 }
-                const Interval both = rounded(s + d);
-                const Interval one = minus(point(s), times(g, both));
-                const Interval other = minus(times(point(f), both), point(d));
-                add(op == BlendOp::subtract ? one : negated(one));
-                add(op == BlendOp::subtract ? other : negated(other));
             }
         }
+    };
+    if (source.low == source.high && destination.low == destination.high) {
+        gather([&](const Interval& v) { return held(component, v); });
+        return all;
     }
-    return *all;
+    gather([](const Interval& v) { return v; });
+    const mpq_class most_factor = std::max<mpq_class>(most_of(f), most_of(g));
+    const mpq_class sum_unit = unit_of(component, most_sum);
+    const mpq_class lost =
+        most_factor * sum_unit + unit_of(component, most_factor * (most_sum + sum_unit));
+    return Interval{all->low - lost, all->high + lost};
 }
 
 // What a device may read of a component of the target; what it may hold is codes.
@@ -268,11 +317,14 @@ Color Unit::write(const cases::ColorOutput& output, const Color& written,
         Interval result;
         const bool is_extreme = equation.op == BlendOp::min || equation.op == BlendOp::max;
         if (is_extreme && Component::is_anything(s[k])) {
-            result = Component::anything();        // NaN is neither
-        } else if (equation.op == BlendOp::min) {  // factors are ignored
-            result = smaller(s[k], stored);
-        } else if (equation.op == BlendOp::max) {
-            result = larger(s[k], stored);
+            result = Component::anything();  // NaN is neither
+        } else if (is_extreme) {             // factors are ignored
+            const auto extreme = equation.op == BlendOp::min ? smaller : larger;
+            result = extreme(s[k], stored);
+            // What is decoded otherwise may be the larger one of two that are near.
+            if (s[k].low <= d[k].high && d[k].low <= s[k].high) {
+                result = hull(result, extreme(s[k], d[k]));
+            }
         } else {
             const auto factor = [&](BlendFactor of) {
                 return held(component, factor_of(of, k, s, second, d, constants));
@@ -285,12 +337,13 @@ Color Unit::write(const cases::ColorOutput& output, const Color& written,
                                                   : d[k];
             result = sum(component, equation.op == BlendOp::reverse_subtract ? negated(a) : a,
                          equation.op == BlendOp::subtract ? negated(b) : b);
-            const bool is_finite =
-                !Component::is_anything(result) && !component.may_be_infinite(s[k]) &&
-                !component.may_be_infinite(d[k]) && !component.may_be_infinite(f);
-            if (!component.is_fixed_point() && is_finite &&
-                complement_of(equation.source) == equation.destination) {
-                result = hull(result, reordered(component, equation.op, s[k], d[k], f));
+            const bool is_finite = !Component::is_anything(result) &&
+                                   !component.may_be_infinite(s[k]) &&
+                                   !component.may_be_infinite(d[k]) &&
+                                   !component.may_be_infinite(f) && !component.may_be_infinite(g);
+            if (!component.is_fixed_point() && is_finite) {
+                const auto other = reordered(component, equation, k, s[k], d[k], f, g);
+                result = other ? hull(result, *other) : result;
             }
         }
         out[k] = Component::is_anything(before[k]) || Component::is_anything(result)

@@ -79,8 +79,8 @@ class Component {
     double number(uint32_t code) const;
     // What a device may read where the code (of a number) is stored: its value. An sRGB code may be
     // decoded as far off as half a code more or less would be, but 0 and 1 exactly: so Direct3D
-    // 3.2.3.7, and Vulkan names no bound. Both ends are moved outwards by 2^-40, far more than
-    // binary64 loses.
+    // 3.2.3.7. Vulkan names no bound, but its formula has 0 and 1 for these codes. Both ends are
+    // moved outwards by 2^-40, far more than binary64 loses.
     Interval read(uint32_t code) const;
     // The code nearest to a value, of two the upper; of values beyond the format's its end.
     uint32_t code_of(const mpq_class& value) const;

@@ -333,10 +333,10 @@ void take_answer(const Child& child, Defects& defects, Chase& chase) {
     fs::remove(child.count, none);
     chase.is_over = true;
     if (text.empty()) {
-        if (WIFSIGNALED(status)) {
+        if (WIFSIGNALED(status) && alterations > 0) {
             find.number = chase.rest.front().number;  // or a later one of the chunk
             find.symptom = fmt::format("ended by signal {}", WTERMSIG(status));
-        } else if (status != 0) {
+        } else if (WIFEXITED(status) && status != 0) {
             give_up("the driver could not draw with the fault " + find.fault);
         }
         return;
@@ -344,7 +344,7 @@ void take_answer(const Child& child, Defects& defects, Chase& chase) {
     const size_t end = text.find('\n');
     const uint64_t number = std::stoull(text.substr(0, end));
     for (const std::string& symptom : lines_of(text.substr(end + 1))) {
-        // Where the layer changed nothing, the driver itself draws now this, now that.
+        // Where the layer has changed nothing of the chunk, the driver draws now this, now that.
         if (alterations > 0 && !defects.of(number).contains(symptom)) {
             find.number = number;
             find.symptom = symptom;

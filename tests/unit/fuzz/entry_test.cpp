@@ -73,7 +73,7 @@ TEST(SameCause, WhatIsStoredWronglyRoundedIsHandedOn) {
         EXPECT_FALSE(is_same_cause(stored, fresh)) << symptom;
     }
     for (const char* symptom :
-         {"value of logic.operation [practice]", "missing of cover.inside [practice]"}) {
+         {"value of logic.operation [practice]", "missing of cover.inside [direct3d]"}) {
         Entry fresh = entry(symptom, through);
         fresh.text = colored("r5g6b5-unorm");
         EXPECT_FALSE(is_same_cause(stored, fresh)) << symptom;
@@ -95,6 +95,15 @@ TEST(SameCause, WhatIsStoredWronglyRoundedIsHandedOn) {
     Entry fresh = entry("value of logic.operation [direct3d]", through);
     fresh.text = colored("r5g6b5-unorm");
     EXPECT_FALSE(is_same_cause(special, fresh));
+    // Of another format, or a hit, it is another cause, however alike they are.
+    Entry other = entry("value of store.unorm [direct3d]", {"color", "draw.color.value"});
+    other.text = colored("rgb10a2-unorm");
+    EXPECT_FALSE(is_same_cause(stored, other));
+    Entry samples = entry("value of store.unorm [vulkan]",
+                          {"color", "draw.attribute", "draw.color.attribute", "several samples"});
+    samples.text = colored("r5g6b5-unorm");
+    EXPECT_FALSE(is_same_cause(samples, entry("missing of cover.inside [vulkan]",
+                                              {"attachments=color", "color", "several samples"})));
     // Of other cases it explains those with its format.
     const Symptom again = *parse_symptom("value of store.unorm [direct3d]");
     EXPECT_TRUE(explains(stored, again, facts_of(colored("r5g6b5-unorm"))));
@@ -123,6 +132,11 @@ TEST(SameCause, AConstantAndAnAttributeAreTwoWaysToWriteAColor) {
                                    "draw.attribute",       "draw.color.alpha_to_one=true",
                                    "draw.color.attribute", "draw.shader_mask"};
     EXPECT_TRUE(is_same_cause(constant, entry("value of sample.alpha-to-one [vulkan]", words)));
+    // Where nothing else is needed an attribute may be interpolated wrongly.
+    EXPECT_FALSE(
+        is_same_cause(entry("value of store.unorm [vulkan]", {"color", "draw.color.value"}),
+                      entry("value of store.unorm [vulkan]",
+                            {"color", "draw.attribute", "draw.color.attribute"})));
     words.erase("draw.shader_mask");
     words.insert("draw.cull=back");
     EXPECT_FALSE(is_same_cause(constant, entry("value of sample.alpha-to-one [vulkan]", words)));

@@ -384,10 +384,29 @@ TEST(Blend, AProductOfASumIsAnotherOrder) {
         EXPECT_EQ(more.low, 0);
         EXPECT_EQ(more.high, mpq_class(0x1p-24));
     }
-    // Without a complement there is nothing to save.
-    const Interval plain = halves(subtract, constant_color, constant_color);
-    EXPECT_EQ(plain.low, mpq_class(-0x1p-25));
-    EXPECT_EQ(plain.high, plain.low);
+    // With the same factor twice it is half of s - d, which is exact; with other ones there is
+    // nothing to save.
+    for (const cases::BlendFactor g : {constant_color, constant_alpha}) {
+        const Interval plain = halves(subtract, constant_color, g);
+        EXPECT_EQ(plain.low, mpq_class(-0x1p-25));
+        EXPECT_EQ(plain.high, plain.low);
+    }
+}
+
+// 3/4 of 1 and of 1.25 * 2^-24: by two products 3/4 + 2^-24, or the number below it; by one 1 +
+// 2^-23 may be the sum.
+TEST(Blend, AFactorThatBothHaveIsAnotherOrder) {
+    cases::ColorOutput output;
+    output.blend.emplace();
+    output.blend->color = {cases::BlendFactor::constant_color, cases::BlendFactor::constant_color,
+                           cases::BlendOp::add};
+    output.blend->constants = glm::vec4(0.75F);
+    const Interval sum = Unit{ColorFormat::r32_float, Profile::direct3d}
+                             .write(output, color_of({1, 1, 1, 1}),
+                                    color_of({0x1.4p-24, 0x1.4p-24, 0x1.4p-24, 0x1.4p-24}))
+                             .front();
+    EXPECT_EQ(sum.low, mpq_class(0.75));
+    EXPECT_EQ(sum.high, mpq_class(0.75 + 0x1p-23));
 }
 
 TEST(Blend, WhatAnSrgbTargetHoldsIsDecodedFirst) {
@@ -420,6 +439,38 @@ TEST(Blend, WhatAnSrgbTargetHoldsIsDecodedFirst) {
     EXPECT_FALSE(allows(same, 119) || allows(same, 121));
     output.blend->color.op = cases::BlendOp::subtract;
     EXPECT_EQ(left(0, 0).front().high, 0);
+    // Code 120.3 is the smaller one for a device that decodes 120 as 120.4; it stores 121, or 120.
+    mpq_class held;
+    Component(cases::component_of(unit.format, 0)).value_of(120, held);
+    output.blend->color.op = cases::BlendOp::min;
+    EXPECT_TRUE(allows(left(held.get_d() * 1.005, 120), 121));
+    EXPECT_FALSE(allows(left(held.get_d() * 1.005, 120), 122));
+    EXPECT_FALSE(allows(left(held.get_d() * 1.2, 120), 121));
+}
+
+// Interpolated colours are intervals: a unit has some number of them.
+RC_GTEST_PROP(Blend, AllowsBinary32UnitsOfOneProductOfAnyNumber, ()) {
+    const auto number = [] {
+        return static_cast<float>(*rc::gen::inRange(-1000000, 1200000)) / 1000000.0F;
+    };
+    const float low = number() * 0x1p-20F, width = std::fabs(number()) * 0x1p-22F;
+    const float part = std::fabs(number());
+    const float s = std::min(low + part * width, low + width), d = number();
+    const float f = std::ldexp(number(), *rc::gen::inRange(-14, 1)), g = 1 - f;
+    cases::ColorOutput output;
+    output.blend.emplace();
+    output.blend->color = {cases::BlendFactor::constant_color,
+                           cases::BlendFactor::one_minus_constant_color, cases::BlendOp::add};
+    output.blend->constants = glm::vec4(f);
+    const Unit unit{ColorFormat::r32_float, Profile::direct3d};
+    const Interval of_source{mpq_class(static_cast<double>(low)),
+                             mpq_class(static_cast<double>(low + width))};
+    const auto y = static_cast<double>(d);
+    const Color allowed =
+        unit.write(output, {of_source, of_source, of_source, of_source}, color_of({y, y, y, y}));
+    RC_ASSERT(unit.allows(allowed, {std::bit_cast<uint32_t>(d + f * (s - d))}));
+    RC_ASSERT(unit.allows(allowed, {std::bit_cast<uint32_t>(s + g * (d - s))}));
+    RC_ASSERT(!unit.allows(allowed, {std::bit_cast<uint32_t>(d + f * (s - d) + 0x1p-16F)}));
 }
 
 // A unit that saves a product where the factors are f and 1 - f.
