@@ -26,7 +26,9 @@ struct Entry {
     std::set<std::string> essentials;
     // What else the reduced case breaks: in a case with the same essentials that is no news.
     std::set<std::pair<diff::FindingKind, std::string>> also;
-    std::string text;                  // of the reduced case
+    std::string text;  // of the reduced case
+    // "format rgba8-unorm" of the colours of cases of the same cause, besides the reduced one's.
+    std::set<std::string> other_formats;
     std::vector<std::string> needs;    // "not with 1 sample": simpler cases that do not show it
     std::vector<std::string> undrawn;  // "with 2 samples": simpler ones that the device cannot draw
     std::vector<std::string> passes;   // "with 2 samples in place of 4": other ones that pass

@@ -60,6 +60,19 @@ bool is_of_rounding(const Entry& entry) {
            entry.symptom.level == cases::Profile::direct3d;
 }
 
+// Whether an entry is of its format: it needs another one than the default, or is of rounding.
+bool hangs_on_format(const Entry& entry) {
+    return is_of_rounding(entry) || std::ranges::any_of(entry.needs, [](const std::string& need) {
+               return need.starts_with("not with the format");
+           });
+}
+
+bool has_format_of(const std::set<std::string>& facts, const Entry& entry) {
+    return facts.contains(format_of(entry)) ||
+           std::ranges::any_of(entry.other_formats,
+                               [&](const std::string& format) { return facts.contains(format); });
+}
+
 }  // namespace
 
 std::set<std::string> with_implied(std::set<std::string> essentials) {
@@ -88,7 +101,7 @@ bool explains(const Entry& entry, const Symptom& symptom, const std::set<std::st
                    ? known == std::pair(symptom.kind, symptom.rule)
                    : sort_of(known.first) == sort_of(symptom.kind);
     });
-    return is_like && (!is_of_rounding(entry) || facts.contains(format_of(entry)));
+    return is_like && (!hangs_on_format(entry) || has_format_of(facts, entry));
 }
 
 namespace {
@@ -233,6 +246,8 @@ bool is_same_cause(const Entry& earlier, const Entry& fresh) {
 
 void merge(Entry& earlier, Entry fresh) {
     earlier.also.insert(fresh.also.begin(), fresh.also.end());
+    earlier.other_formats.merge(fresh.other_formats);
+    earlier.other_formats.insert(format_of(fresh));
     if (earlier.is_known) {
         return;
     }
@@ -243,6 +258,8 @@ void merge(Entry& earlier, Entry fresh) {
     earlier.essentials = std::move(both);
     if (fresh.symptom.level < earlier.symptom.level) {
         fresh.also = std::move(earlier.also);
+        fresh.other_formats = std::move(earlier.other_formats);
+        fresh.other_formats.insert(format_of(earlier));
         fresh.essentials = std::move(earlier.essentials);
         fresh.count = earlier.count;
         fresh.stale_file = earlier.stale_file.empty() ? earlier.file : earlier.stale_file;

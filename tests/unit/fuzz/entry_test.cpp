@@ -110,6 +110,24 @@ TEST(SameCause, WhatIsStoredWronglyRoundedIsHandedOn) {
     EXPECT_FALSE(explains(stored, again, facts_of(colored("rgb10a2-unorm"))));
 }
 
+TEST(SameCause, WhatNeedsAFormatExplainsThatFormat) {
+    Entry integers = entry("value of sample.alpha-to-one [vulkan]", {"color"});
+    integers.text = colored("rgba8-uint");
+    integers.needs = {"not without a colour target", "not with the format rgba8-unorm"};
+    const Symptom again = *parse_symptom("value of sample.alpha-to-one [vulkan]");
+    EXPECT_TRUE(explains(integers, again, facts_of(colored("rgba8-uint"))));
+    EXPECT_FALSE(explains(integers, again, facts_of(colored("rgba8-unorm"))));
+    // What was reduced of another one, and is the same, is explained from then on.
+    Entry other = entry("value of sample.alpha-to-one [vulkan]", {"color"});
+    other.text = colored("r32-uint");
+    EXPECT_FALSE(explains(integers, again, facts_of(colored("r32-uint"))));
+    merge(integers, other);
+    EXPECT_TRUE(explains(integers, again, facts_of(colored("r32-uint"))));
+    EXPECT_FALSE(explains(integers, again, facts_of(colored("rgba8-unorm"))));
+    integers.needs = {"not without a colour target"};
+    EXPECT_TRUE(explains(integers, again, facts_of(colored("rgba8-unorm"))));
+}
+
 TEST(SameCause, AlphaToCoverageDecidesWhoIsHit) {
     const Entry integers = entry(
         "missing of sample.alpha-to-coverage [vulkan]",
