@@ -475,6 +475,21 @@ class Known(FuzzTest):
         self.assertTrue(told, self.ledger("faulty")["causes"])
         self.assertFalse([c for c in told if {"several samples", "draw.scissor beyond 32767"} & set(c["essentials"])], told)
 
+    def test_doors_that_an_expectation_file_leaves_out_are_left_out_and_counted(self):
+        # Cases 96 to 111 of seed 1 go through the door interleaved.
+        (self.folder / "doors.txt").write_text("# edgecase-expectations 2\n# device: llvmpipe*\n"
+                                               "door=interleaved   skip   bug/1   # Draws something else.\n")
+        whole = self.fuzz("--cases=112", "--no-expect", out=self.folder / "whole")
+        self.assertNotIn("leave out", whole.stdout)
+        self.assertEqual(self.ledger("whole")["cases_through_broken_doors"], 0)
+        done = self.fuzz("--cases=112", "--expect", "doors.txt")
+        self.assertIn(", 16 through doors that expectation files leave out; ", done.stdout)
+        self.edgecase("fuzz", "--resume", "hunt", "--cases=128")
+        self.assertEqual(self.ledger()["cases_through_broken_doors"], 16)
+        keys = ("judged_cases", "unsupported_cases", "empty_cases")
+        self.edgecase("fuzz", "--resume", "whole", "--cases=128")
+        self.assertEqual(sum(self.ledger()[key] for key in keys) + 16, sum(self.ledger("whole")[key] for key in keys))
+
     def test_wrong_files(self):
         def refused(words, sentence, code):
             self.assertIn(sentence, self.edgecase("fuzz", "--cases=16", *words, check=code).stderr)

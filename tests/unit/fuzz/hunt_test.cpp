@@ -150,6 +150,28 @@ TEST(Hunt, LeavesOutDoorsThatTheDeviceBreaks) {
     }
 }
 
+// An earlier hunt left two cases to be reduced: one goes through a door that is known since.
+TEST(Hunt, WhatWaitsThroughABrokenDoorIsKnown) {
+    for (const bool is_broken : {false, true}) {
+        Device device;
+        HuntOptions options;
+        options.first_case = kChunk;
+        options.most_cases = kChunk;
+        options.source = [] { return std::make_unique<DoorSource>(); };
+        if (is_broken) {
+            options.broken_doors = {cases::Door::indirect_after_count};
+        }
+        const Symptom symptom{report::Status::fail,
+                              diff::FindingKind::missing,
+                              "cover.inside",
+                              cases::Profile::vulkan,
+                              {}};
+        const Hunt hunt = hunt_on(device, options, {{1, {symptom}}, {2, {symptom}}});
+        EXPECT_THAT(hunt.waiting(), SizeIs(is_broken ? 1 : 2));
+        EXPECT_EQ(hunt.counts().through_broken_doors, is_broken ? 1U : 0U);
+    }
+}
+
 TEST(Hunt, EndsWithinAChunkWhenItsTimeIsOver) {
     Device device;
     HuntOptions options;

@@ -56,6 +56,33 @@ TEST(BlendOrder, AProductOfASumIsAnotherOrder) {
     }
 }
 
+TEST(BlendOrder, OfAlphaAColorIsItsAlpha) {
+    using enum cases::BlendFactor;
+    cases::ColorOutput output;
+    output.blend.emplace();
+    output.blend->color = {constant_color, one_minus_constant_alpha, cases::BlendOp::subtract};
+    output.blend->alpha = output.blend->color;
+    output.blend->constants = glm::vec4(0.5F);
+    const double s = 1 - 0x1p-24;
+    const Color left = Unit{ColorFormat::rgba32_float, Profile::direct3d}.write(
+        output, color_with({s, s, s, s}), color_with({1, 1, 1, 1}));
+    EXPECT_EQ(left[0].low, mpq_class(-0x1p-25));  // of red the factors are two things
+    EXPECT_EQ(left[3].low, mpq_class(-0x1p-24));
+}
+
+// Half of 60000 twice is 0. 120000 is beyond binary16, whose dynamic range is what is asked for.
+TEST(BlendOrder, SumsThatOverflowAreNotComputed) {
+    cases::ColorOutput output;
+    output.blend.emplace();
+    output.blend->color = {cases::BlendFactor::constant_color,
+                           cases::BlendFactor::one_minus_constant_color, cases::BlendOp::subtract};
+    output.blend->constants = glm::vec4(0.5F);
+    const Color half = color_with({60000, 30000, 0, 0});
+    const Color left = Unit{ColorFormat::rgba16_float, Profile::direct3d}.write(output, half, half);
+    EXPECT_EQ(left[0].low, 0);
+    EXPECT_EQ(left[0].high, 0);
+}
+
 // 3/4 of 1 and of 1.25 * 2^-24: by two products 3/4 + 2^-24, or the number below it; by one 1 +
 // 2^-23 may be the sum.
 TEST(BlendOrder, AFactorThatBothHaveIsAnotherOrder) {
