@@ -138,6 +138,30 @@ TEST(BlendOrder, WhatAnSrgbTargetHoldsIsDecodedFirst) {
     EXPECT_FALSE(allows(left(held.get_d() * 1.2, 120), 121));
 }
 
+// A source of 0 to 2^-23 on 1 + 2^-12: a source within that is cut off by the difference, and the
+// sum is a unit of binary32 below what both ends give.
+TEST(BlendOrder, BetweenTheEndsOfAnIntervalRoundingGoesOn) {
+    cases::ColorOutput output;
+    output.blend.emplace();
+    output.blend->color = {cases::BlendFactor::constant_color,
+                           cases::BlendFactor::one_minus_constant_color, cases::BlendOp::add};
+    const float f = 0x1p-11F, g = 1 - f, d = 1 + 0x1p-12F;
+    output.blend->constants = glm::vec4(f);
+    const Interval source{0, mpq_class(0x1p-23)};
+    const Unit unit{ColorFormat::r32_float, Profile::direct3d};
+    const auto y = static_cast<double>(d);
+    const Color allowed =
+        unit.write(output, {source, source, source, source}, color_with({y, y, y, y}));
+    for (int part = 0; part <= 64; ++part) {
+        const float s = std::ldexp(static_cast<float>(part), -23 - 6);
+        const float by_sum = s + g * (d - s);
+        EXPECT_TRUE(unit.allows(allowed, {std::bit_cast<uint32_t>(by_sum)})) << part;
+        EXPECT_TRUE(unit.allows(allowed, {std::bit_cast<uint32_t>(d + f * (s - d))})) << part;
+    }
+    EXPECT_FALSE(unit.allows(allowed, {std::bit_cast<uint32_t>(1 - 0x1p-12F - 0x1p-20F)}));
+    EXPECT_FALSE(unit.allows(allowed, {std::bit_cast<uint32_t>(1 - 0x1p-12F + 0x1p-20F)}));
+}
+
 // Interpolated colours are intervals: a unit has some number of them.
 RC_GTEST_PROP(BlendOrder, AllowsBinary32UnitsOfOneProductOfAnyNumber, ()) {
     const auto number = [] {
