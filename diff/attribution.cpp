@@ -58,8 +58,7 @@ const ref::Expectation& Attribution::at(cases::Profile profile, size_t index) {
     if (profile == expectation_.profile) {
         return expectation_;
     }
-    const std::optional<ref::Expectation>& whole = looser_[static_cast<size_t>(profile)];
-    return whole ? *whole : explainer(profile).expectation_at(index);
+    return explainer(profile).expectation_at(index);
 }
 
 ref::Explainer& Attribution::explainer(cases::Profile level) {

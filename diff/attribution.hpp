@@ -59,8 +59,8 @@ class Attribution {
 
     // The expectation of the case at a profile that is not stricter than the asked one.
     const ref::Expectation& at(cases::Profile profile);
-    // The same for one sample, in less time: the other samples need not be right, and it holds
-    // until the next call.
+    // The same for one sample, in less time: the samples that were never asked for need not be
+    // right. Always the same object of a profile.
     const ref::Expectation& at(cases::Profile profile, size_t index);
 
   private:

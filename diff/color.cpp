@@ -5,19 +5,32 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <numeric>
+#include <optional>
 
 #include "cases/base/number_text.hpp"
+#include "ref/coverage/fast/fast.hpp"
+#include "ref/expectation/on_demand.hpp"
+#include "ref/expectation/scene.hpp"
 
 namespace diff {
 
 using Kind = ref::ColorVerdict::Kind;
 
-ref::ColorReference& ColorComparison::reference(cases::Profile profile) {
+ref::ColorReference& ColorComparison::reference() {
+    auto& slot = references_[static_cast<size_t>(expectation_.profile)];
+    if (!slot) {
+        slot = std::make_unique<ref::ColorReference>(case_, expectation_);
+    }
+    return *slot;
+}
+
+ref::ColorReference& ColorComparison::looser(cases::Profile profile, size_t index) {
+    const ref::Expectation& expectation = attribution_.at(profile, index);
     auto& slot = references_[static_cast<size_t>(profile)];
     if (!slot) {
-        const bool is_asked = profile == expectation_.profile;
-        slot = std::make_unique<ref::ColorReference>(
-            case_, is_asked ? expectation_ : attribution_.at(profile));
+        slot = std::make_unique<ref::ColorReference>(case_, expectation);
     }
     return *slot;
 }
@@ -43,18 +56,16 @@ std::optional<ref::ColorWitness> ColorComparison::witness_of(size_t index,
 std::optional<Finding> ColorComparison::judge(size_t index, cases::SampleId id,
                                               std::optional<uint32_t> writer) {
     const std::optional<ref::ColorWitness> witness = witness_of(index, writer);
-    const ref::ColorVerdict verdict =
-        reference(expectation_.profile).judge(index, id, capture_.color[index], witness);
+    const ref::ColorVerdict verdict = reference().judge(index, id, capture_.color[index], witness);
     if (verdict.kind != Kind::ok && verdict.kind != Kind::open) {
         return finding_of(index, id, verdict, witness);
     }
     if (!case_.target.has_instruments && case_.target.has_depth &&
-        !reference(expectation_.profile)
-             .explains_depth(index, id, capture_.depth[index], case_.target.depth_clear)) {
+        !reference().explains_depth(index, id, capture_.depth[index], case_.target.depth_clear)) {
         Finding finding = finding_at(FindingKind::value, case_.target, id);
         tell(finding, ref::ReasonKind::depth_of_none);
         finding.quantity = "depth";
-        finding.level = loosest_wrong([&](ref::ColorReference& at) {
+        finding.level = loosest_wrong(index, [&](ref::ColorReference& at) {
             return !at.explains_depth(index, id, capture_.depth[index], case_.target.depth_clear);
         });
         finding.expected = "the depth of a fragment that the colour allows";
@@ -65,9 +76,9 @@ std::optional<Finding> ColorComparison::judge(size_t index, cases::SampleId id,
 }
 
 cases::Profile ColorComparison::loosest_wrong(
-    const std::function<bool(ref::ColorReference&)>& is_wrong) {
+    size_t index, const std::function<bool(ref::ColorReference&)>& is_wrong) {
     for (const cases::Profile p : {cases::Profile::vulkan, cases::Profile::practice}) {
-        if (p < expectation_.profile && is_wrong(reference(p))) {
+        if (p < expectation_.profile && is_wrong(looser(p, index))) {
             return p;
         }
     }
@@ -79,8 +90,10 @@ Finding ColorComparison::finding_of(size_t index, cases::SampleId id,
                                     const std::optional<ref::ColorWitness>& witness) {
     Finding finding;
     set_sample(finding, case_.target, id);
-    const cases::Profile level = loosest_wrong([&](ref::ColorReference& at) {
-        return !at.explains(index, id, capture_.color[index], witness);
+    const cases::Profile level = loosest_wrong(index, [&](ref::ColorReference& at) {
+        const std::array<uint32_t, 4>& codes = capture_.color[index];
+        return !at.may_explain(index, id, codes, witness) ||
+               !at.explains(index, id, codes, witness);
     });
     switch (verdict.kind) {
         case Kind::missing:
@@ -124,19 +137,71 @@ uint8_t ColorComparison::hits_for_pictures(size_t index) {
     return is_clear ? 0 : 1;
 }
 
+namespace {
+
+// Samples of a target without instruments in which nothing is drawn.
+class EmptyPicture {
+  public:
+    EmptyPicture(const cases::Case& c, const ref::Expectation& expectation)
+        : target_(c.target), reference_(c, expectation) {
+        const ref::color::Unit unit{c.target.color->format, expectation.profile};
+        clear_ = unit.codes_of(unit.cleared(*c.target.color));
+    }
+
+    bool is_allowed(size_t index) {
+        const cases::SampleId id = cases::sample_at(target_, index);
+        return reference_.explains(index, id, clear_, std::nullopt) &&
+               (!target_.has_depth ||
+                reference_.explains_depth(index, id, target_.depth_clear, target_.depth_clear));
+    }
+
+  private:
+    const cases::Target& target_;
+    ref::ColorReference reference_;
+    std::array<uint32_t, 4> clear_{};
+};
+
+}  // namespace
+
 bool may_stay_clear(const cases::Case& c, const ref::Expectation& expectation) {
-    const ref::color::Unit unit{c.target.color->format, expectation.profile};
-    const auto clear = unit.codes_of(unit.cleared(*c.target.color));
-    ref::ColorReference reference(c, expectation);
+    EmptyPicture picture(c, expectation);
     for (size_t index = 0; index < expectation.samples.size(); ++index) {
-        const cases::SampleId id = cases::sample_at(c.target, index);
-        if (!reference.explains(index, id, clear, std::nullopt) ||
-            (c.target.has_depth &&
-             !reference.explains_depth(index, id, c.target.depth_clear, c.target.depth_clear))) {
+        if (!picture.is_allowed(index)) {
             return false;
         }
     }
     return true;
+}
+
+bool fails_if_empty(const cases::Case& c, cases::Profile profile) {
+    ref::Scene scene(c, ref::Limits{}, profile, false);
+    ref::OnDemand expected(scene);
+    const ref::Expectation& so_far = expected.at(0);
+    std::optional<EmptyPicture> picture;
+    if (!c.target.has_instruments) {
+        picture.emplace(c, so_far);
+    }
+    bool is_seen = !picture;
+    const auto tells = [&](const ref::fast::Span& span, uint32_t x) {
+        const size_t index = (size_t{span.y} * c.target.width + x) * c.target.samples + span.sample;
+        expected.at(index);
+        is_seen = is_seen || !picture->is_allowed(index);
+        return is_seen && so_far.must_samples > 0;
+    };
+    // Samples that no triangle touches tell nothing. The middles of the spans mostly do at once.
+    for (const ref::fast::Span& span : scene.spans) {
+        if (span.x0 < span.x1 && tells(span, std::midpoint(span.x0, span.x1))) {
+            return true;
+        }
+    }
+    for (const ref::fast::Span& span : scene.spans) {
+        for (uint32_t x = span.x0; x < span.x1; ++x) {
+            if (tells(span, x)) {
+                return true;
+            }
+        }
+    }
+    return false;
 }
 
 }  // namespace diff

@@ -39,13 +39,17 @@ class ColorComparison {
     uint8_t hits_for_pictures(size_t index);
     // Whether what is found of a colour depends on the sample's expectation, its codes and its
     // witness alone: every draw writes one colour.
-    bool is_uniform() { return reference(expectation_.profile).is_uniform(); }
+    bool is_uniform() { return reference().is_uniform(); }
 
   private:
-    ref::ColorReference& reference(cases::Profile profile);
+    // Of the asked profile.
+    ref::ColorReference& reference();
+    // The same of a looser one, which knows this sample and those that were asked for before.
+    ref::ColorReference& looser(cases::Profile profile, size_t index);
     // The loosest profile at which a sample is wrong that is wrong at the asked one. The loosest
     // are asked first: what is wrong there needs no expectation of the profiles in between.
-    cases::Profile loosest_wrong(const std::function<bool(ref::ColorReference&)>& is_wrong);
+    cases::Profile loosest_wrong(size_t index,
+                                 const std::function<bool(ref::ColorReference&)>& is_wrong);
     std::optional<ref::ColorWitness> witness_of(size_t index, std::optional<uint32_t> writer) const;
     Finding finding_of(size_t index, cases::SampleId id, const ref::ColorVerdict& verdict,
                        const std::optional<ref::ColorWitness>& witness);
@@ -66,5 +70,10 @@ class ColorComparison {
 // Whether a target without instruments in which nothing is drawn may pass: every sample may hold
 // the clear colour, and the clear depth if it has depth. `expectation`: that of the case.
 bool may_stay_clear(const cases::Case& c, const ref::Expectation& expectation);
+
+// Whether a device that draws nothing of a case with triangles fails at a profile: some sample must
+// be covered, and of a target without instruments one may not stay as it was. It looks at no more
+// samples than it takes to tell, so it costs less than the whole expectation.
+bool fails_if_empty(const cases::Case& c, cases::Profile profile);
 
 }  // namespace diff

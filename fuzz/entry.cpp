@@ -16,7 +16,6 @@
 #include "fuzz/reduce/neighbours.hpp"
 #include "fuzz/reduce/reduce.hpp"
 #include "ref/exercise/exercise.hpp"
-#include "ref/expectation/expectation.hpp"
 
 namespace fuzz {
 
@@ -27,12 +26,7 @@ namespace {
 
 // Whether at every profile some sample must be covered, and seen to be, as a suite's cases want it.
 bool can_fail_everywhere(const cases::Case& c) {
-    if (c.blit) {
-        return true;
-    }
-    const ref::Expectation expectation = ref::expect(c, ref::Limits{}, cases::Profile::vulkan);
-    return expectation.must_samples > 0 &&
-           (c.target.has_instruments || !diff::may_stay_clear(c, expectation));
+    return c.blit || diff::fails_if_empty(c, cases::Profile::vulkan);
 }
 
 bool is_value(const Symptom& symptom) {

@@ -46,6 +46,27 @@ std::set<std::string> without(const std::set<std::string>& words,
     return rest;
 }
 
+// What a case needs without its numbers. A constant and an attribute are two ways to write a
+// colour.
+std::set<std::string> keys_of(const Entry& entry) {
+    std::set<std::string> keys = without(entry.essentials, kNumbers);
+    if (keys.erase("draw.color.attribute") > 0) {
+        keys.erase("draw.attribute");
+        keys.insert("draw.color.value");
+    }
+    return keys;
+}
+
+// What a case needs besides numbers, samples and plain colours, however they are written.
+std::set<std::string> special_of(const Entry& entry) {
+    std::set<std::string> words = without(keys_of(entry), kThinToo);
+    for (const char* plain : {kThinTriangle, "attachments=color", "attachments=color+depth",
+                              "color", "draw.attribute", "draw.color.value"}) {
+        words.erase(plain);
+    }
+    return words;
+}
+
 // "format rgba8-unorm" of the colours that an entry's case is judged by.
 std::string format_of(const Entry& entry) {
     const std::set<std::string> facts = facts_of(entry.text);
@@ -83,7 +104,11 @@ std::set<std::string> with_implied(std::set<std::string> essentials) {
 }
 
 bool explains(const Entry& entry, const Symptom& symptom, const std::set<std::string>& facts) {
-    if (!is_within(entry.essentials, facts)) {
+    std::set<std::string> words = facts;
+    if (!special_of(entry).empty() && facts.contains("draw.color.attribute")) {
+        words.insert("draw.color.value");  // what writes the colour is not what is special
+    }
+    if (!is_within(entry.essentials, words)) {
         return false;
     }
     if (symptom.status != Status::fail || entry.symptom.status != Status::fail) {
@@ -106,17 +131,6 @@ bool explains(const Entry& entry, const Symptom& symptom, const std::set<std::st
 
 namespace {
 
-// What a case needs without its numbers. A constant and an attribute are two ways to write a
-// colour.
-std::set<std::string> keys_of(const Entry& entry) {
-    std::set<std::string> keys = without(entry.essentials, kNumbers);
-    if (keys.erase("draw.color.attribute") > 0) {
-        keys.erase("draw.attribute");
-        keys.insert("draw.color.value");
-    }
-    return keys;
-}
-
 // Whether a word says which fragments there are: a state of a draw, not what it writes.
 bool decides_hits(const std::string& word) {
     return word.starts_with("draw.color.alpha_to_coverage") ||
@@ -134,16 +148,6 @@ bool is_consequence(const Entry& earlier, const Entry& fresh) {
            is_within(keys, with_implied(fresh.essentials));
 }
 
-// What a case needs besides numbers, samples and plain colours, however they are written.
-std::set<std::string> special_of(const Entry& entry) {
-    std::set<std::string> words = without(keys_of(entry), kThinToo);
-    for (const char* plain : {kThinTriangle, "attachments=color", "attachments=color+depth",
-                              "color", "draw.attribute", "draw.color.value"}) {
-        words.erase(plain);
-    }
-    return words;
-}
-
 // Whether what is wrong was seen in a colour.
 bool is_of_color(const Entry& entry) {
     constexpr std::array<std::string_view, 6> kRules = {
@@ -153,12 +157,33 @@ bool is_of_color(const Entry& entry) {
                kRules, [&](std::string_view word) { return entry.symptom.rule.starts_with(word); });
 }
 
+// Whether an entry's case counts no hits: whichever it lacks or has too many are read from a
+// colour, which may as well be a wrong one.
+bool tells_hits_by_colors(const Entry& entry) {
+    return with_implied(entry.essentials).contains("attachments=color");
+}
+
+// Whether an earlier entry has wrong inputs by something special of an attribute, which the fresh
+// one needs, too, where hits are told by the input: it is seen in a colour alone, or the shader
+// discards by it.
+bool is_of_input(const Entry& earlier, const Entry& fresh) {
+    const std::set<std::string> special = special_of(earlier);
+    const bool is_by_input =
+        tells_hits_by_colors(fresh) || fresh.essentials.contains("draw.discard=negative");
+    return is_by_input && is_value(earlier.symptom) && !special.empty() &&
+           std::ranges::all_of(
+               special,
+               [](const std::string& word) { return word.starts_with("draw.attribute."); }) &&
+           fresh.symptom.level >= earlier.symptom.level && is_within(special, fresh.essentials);
+}
+
 // Whether an earlier entry stores wrong colours, and the fresh one shows them by another rule, as
 // write masks, logical operations and blending hand on what is stored. Those that need nothing
 // special and that only Direct3D forbids are rounded otherwise than it says, by their format.
 bool is_of_stored(const Entry& earlier, const Entry& fresh) {
-    const bool is_told_of_values =
-        is_value(fresh.symptom) || fresh.symptom.kind == diff::FindingKind::order;
+    const bool is_told_of_values = is_value(fresh.symptom) ||
+                                   fresh.symptom.kind == diff::FindingKind::order ||
+                                   tells_hits_by_colors(fresh);
     if (!is_value(earlier.symptom) || !earlier.symptom.rule.starts_with("store.") ||
         !is_told_of_values || !is_of_color(fresh)) {
         return false;
@@ -194,9 +219,12 @@ bool shows_the_same(const Entry& earlier, const Entry& fresh) {
         earlier.symptom.level != fresh.symptom.level) {
         return false;
     }
+    // All that an earlier one needs, and more.
+    const bool has_all =
+        is_special && !without(others, kSamples).empty() && is_within(others, keys);
     const bool is_one_less =
         keys.size() >= 3 && others.size() == keys.size() + 1 && is_within(keys, others);
-    return is_one_less || (keys.size() >= 2 && names_of(keys) == names_of(others));
+    return has_all || is_one_less || (keys.size() >= 2 && names_of(keys) == names_of(others));
 }
 
 }  // namespace
@@ -214,7 +242,8 @@ bool is_same_cause(const Entry& earlier, const Entry& fresh) {
         format_of(earlier) != format_of(fresh)) {
         return false;
     }
-    if (is_consequence(earlier, fresh) || is_of_stored(earlier, fresh)) {
+    if (is_consequence(earlier, fresh) || is_of_input(earlier, fresh) ||
+        is_of_stored(earlier, fresh)) {
         return true;
     }
     if (is_value(earlier.symptom) != is_value(fresh.symptom)) {

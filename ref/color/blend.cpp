@@ -133,14 +133,15 @@ struct Named {
     bool is_complement = false;
 };
 
-// Nothing for factors that are no variables. Of alpha (`k` is 3) colours are alphas.
+// Nothing for the factor that no other one is 1 minus of. Of alpha (`k` is 3) colours are alphas.
 std::optional<Named> named(BlendFactor factor, size_t k) {
     using enum BlendFactor;
     struct Row {
         BlendFactor plain, complement, alpha;
     };
-    constexpr std::array<Row, 8> kRows = {
-        {{src_color, one_minus_src_color, src_alpha},
+    constexpr std::array<Row, 9> kRows = {
+        {{one, zero, one},
+         {src_color, one_minus_src_color, src_alpha},
          {dst_color, one_minus_dst_color, dst_alpha},
          {src_alpha, one_minus_src_alpha, src_alpha},
          {dst_alpha, one_minus_dst_alpha, dst_alpha},
@@ -161,9 +162,14 @@ enum class Shared : uint8_t { nothing, factor, complement };
 
 Shared shared_by(const cases::BlendEquation& equation, size_t k) {
     const std::optional<Named> a = named(equation.source, k), b = named(equation.destination, k);
-    return !a || !b || a->of != b->of             ? Shared::nothing
-           : a->is_complement == b->is_complement ? Shared::factor
-                                                  : Shared::complement;
+    if (!a || !b || a->of != b->of) {
+        return Shared::nothing;
+    }
+    // 1 twice leaves no product to save.
+    const bool is_same = a->is_complement == b->is_complement;
+    return is_same && a->of == BlendFactor::one ? Shared::nothing
+           : is_same                            ? Shared::factor
+                                                : Shared::complement;
 }
 
 // The equation with one product of a sum, of numbers s and d: f (s + d), d + f (s - d) or s + g (d

@@ -95,12 +95,15 @@ const color::Source& ColorReference::source_of(uint32_t triangle, cases::SampleI
     }
     if (!(at_ == id)) {
         sources_.clear();
+        outer_sources_.clear();
         at_ = id;
     }
-    const auto [found, is_new] = sources_.try_emplace(triangle);
+    const auto [found, is_new] = (takes_outer_ ? outer_sources_ : sources_).try_emplace(triangle);
     if (is_new) {
-        const std::array<ValueRange, 4> ranges =
-            values_.ranges(triangle, id, static_cast<size_t>(attribute));
+        const auto which = static_cast<size_t>(attribute);
+        const std::array<ValueRange, 4> ranges = takes_outer_
+                                                     ? values_.outer_ranges(triangle, id, which)
+                                                     : values_.ranges(triangle, id, which);
         for (size_t k = 0; k < 4; ++k) {
             // Of what nothing is promised: where the value is divided by zero, it is no number.
             found->second.low[k] = ranges[k].is_promised ? ranges[k].low : -HUGE_VAL;
@@ -265,6 +268,15 @@ bool ColorReference::explains(size_t index, cases::SampleId id,
                               const std::array<uint32_t, 4>& codes,
                               const std::optional<ColorWitness>& witness) {
     return explains(allowed(index, witness), id, codes, witness);
+}
+
+bool ColorReference::may_explain(size_t index, cases::SampleId id,
+                                 const std::array<uint32_t, 4>& codes,
+                                 const std::optional<ColorWitness>& witness) {
+    takes_outer_ = true;
+    const bool may = explains(index, id, codes, witness);
+    takes_outer_ = false;
+    return may;
 }
 
 bool ColorReference::explains(const std::vector<Sequence>& sets, cases::SampleId id,

@@ -68,6 +68,10 @@ class ColorReference {
     // As judge, but says only whether an allowed set of fragments explains the codes.
     bool explains(size_t index, cases::SampleId id, const std::array<uint32_t, 4>& codes,
                   const std::optional<ColorWitness>& witness);
+    // False only if explains() is, in less time: interpolated colours may be all that lies between
+    // bounds of what is accepted.
+    bool may_explain(size_t index, cases::SampleId id, const std::array<uint32_t, 4>& codes,
+                     const std::optional<ColorWitness>& witness);
     // Codes that are allowed: of the first allowed set of fragments; of the clear colour if there
     // is none.
     std::array<uint32_t, 4> codes(size_t index, cases::SampleId id,
@@ -132,9 +136,11 @@ class ColorReference {
     color::Unit unit_;
     color::Color cleared_;
     ValueReference values_;
-    std::vector<color::Source> constants_;       // by draw, of those with a constant colour
-    std::map<uint32_t, color::Source> sources_;  // by triangle, of the sample at hand
+    std::vector<color::Source> constants_;  // by draw, of those with a constant colour
+    // By triangle, of the sample at hand: as accepted, and what may_explain() takes for them.
+    std::map<uint32_t, color::Source> sources_, outer_sources_;
     cases::SampleId at_;
+    bool takes_outer_ = false;         // in may_explain()
     color::ColorMemory memory_;        // of fragments that are_flat
     color::ColorMemory::Node beyond_;  // what it does not remember: computed last
 

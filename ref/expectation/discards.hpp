@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 
 #include "cases/model/case.hpp"
@@ -29,12 +30,23 @@ class ValueDiscards {
     }
 
     // The sign of what the shader tests, of a triangle whose draw discards so.
+    // A sample's are kept until another one is asked for, since each of its sets asks again.
     Sign at(uint32_t triangle, const cases::SampleId& sample) {
-        return values_->sign(triangle, sample, is_exact_);
+        if (!(at_ == sample)) {
+            known_.clear();
+            at_ = sample;
+        }
+        const auto [sign, is_new] = known_.try_emplace(triangle, Sign::open);
+        if (is_new) {
+            sign->second = values_->sign(triangle, sample, is_exact_);
+        }
+        return sign->second;
     }
 
   private:
     bool is_exact_;
+    cases::SampleId at_;
+    std::map<uint32_t, Sign> known_;  // by triangle, at at_
     std::optional<ValueReference> values_;
 };
 

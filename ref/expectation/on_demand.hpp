@@ -18,7 +18,7 @@ class OnDemand {
     explicit OnDemand(Scene& scene);  // keeps the reference
 
     // An expectation that says of sample `index` what expect(scene) says; of samples that were
-    // never asked for it may say that nothing hits them. Until the next call.
+    // never asked for it may say that nothing hits them. Always the same object, which grows.
     const Expectation& at(size_t index) { return with_(index); }
 
   private:

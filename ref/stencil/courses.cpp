@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <optional>
-#include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "cases/model/sample.hpp"
 #include "ref/stencil/outcome.hpp"
@@ -17,18 +19,41 @@ using cases::CompareOp;
 using cases::kStencilBits;
 using cases::StencilOp;
 
-// How a course stands after some fragments: all that its future depends on, and what is asked of
-// its past.
+// Short ones need no memory of their own.
+using Numbers = std::u32string;
+
+// How courses stand after some fragments: all that their future depends on.
 struct Course {
     uint32_t value = 0;
     int stored = kClearDepth;
-    uint32_t front = 0, back = 0;
-    int last = -1;
-    std::vector<uint32_t> in_set;   // how many of each set were there; 0 after its last member
-    std::vector<uint8_t> is_there;  // of each fragment that a later one is the twin of
+    Numbers in_set;  // how many of each set were there; 0 after its last member
+    Numbers
+        is_there;  // of each fragment that a later one is the twin of; 0 after the last of these
     friend auto operator<=>(const Course&, const Course&) = default;
 };
 
+// What is asked of the past of the courses that stand so.
+struct Past {
+    std::vector<uint64_t> hits;  // those that they have, in units of kFront and kBack, ascending
+    Numbers lasts;               // which fragments passed last, ascending
+};
+
+constexpr uint64_t kFront = uint64_t{1} << 32U, kBack = 1;
+std::pair<uint32_t, uint32_t> faces_of(uint64_t hits) {
+    return {static_cast<uint32_t>(hits / kFront), static_cast<uint32_t>(hits % kFront)};
+}
+
+// What is in either of two ascending lists.
+template <class List>
+List together(const List& a, const List& b) {
+    List out;
+    out.reserve(a.size() + b.size());
+    std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(out));
+    return out;
+}
+
+// Of courses that stand alike only their pasts are told apart, and of these only what they end in:
+// so there are few, however many fragments are open.
 class Courses {
   public:
     explicit Courses(const Question& question) : question_(question) {
@@ -37,20 +62,20 @@ class Courses {
         out_.is_last.assign(count, false);
         out_.is_stored.assign(count, false);
         left_.assign(question.sets.size(), 0);
-        is_asked_.assign(count, false);
-        for (const Fragment& fragment : question.fragments) {
+        last_twin_.assign(count, -1);
+        for (size_t m = 0; m < count; ++m) {
+            const Fragment& fragment = question.fragments[m];
             if (fragment.set >= 0) {
                 ++left_[static_cast<size_t>(fragment.set)];
             }
             if (fragment.twin >= 0) {
-                is_asked_[static_cast<size_t>(fragment.twin)] = true;
+                last_twin_[static_cast<size_t>(fragment.twin)] = static_cast<int>(m);
             }
         }
-        const bool has_twins =
-            std::find(is_asked_.begin(), is_asked_.end(), true) != is_asked_.end();
-        now_.insert({question.clear & kStencilBits, kClearDepth, 0, 0, -1,
-                     std::vector<uint32_t>(question.sets.size()),
-                     std::vector<uint8_t>(has_twins ? count : 0)});
+        const bool has_twins = std::ranges::any_of(last_twin_, [](int twin) { return twin >= 0; });
+        now_.push_back({{question.clear & kStencilBits, kClearDepth,
+                         Numbers(question.sets.size(), 0), Numbers(has_twins ? count : 0, 0)},
+                        {{0}, {}}});
     }
 
     Resolution run() {
@@ -59,12 +84,10 @@ class Courses {
             if (set >= 0) {
                 --left_[static_cast<size_t>(set)];
             }
-            std::set<Course> before;
-            std::swap(before, now_);
-            for (const Course& course : before) {
-                step(course, m);
+            for (const auto& [course, past] : now_) {
+                step(course, past, m);
             }
-            if (now_.empty() || now_.size() > kMostCourses) {
+            if (!join()) {
                 out_.is_free = true;
                 return std::move(out_);
             }
@@ -74,8 +97,33 @@ class Courses {
     }
 
   private:
+    // Makes one of the next courses that stand alike, and takes these; false if there is none, or
+    // if they and their numbers of hits are too many.
+    bool join() {
+        std::ranges::sort(next_, {}, &std::pair<Course, Past>::first);
+        now_.clear();
+        size_t count = 0;
+        for (auto& [course, past] : next_) {
+            if (now_.empty() || now_.back().first != course) {
+                count += past.hits.size();
+                now_.emplace_back(std::move(course), std::move(past));
+            } else {
+                Past& known = now_.back().second;
+                count -= known.hits.size();
+                known.hits = together(known.hits, past.hits);
+                known.lasts = together(known.lasts, past.lasts);
+                count += known.hits.size();
+            }
+            if (count > kMostCourses) {
+                return false;
+            }
+        }
+        next_.clear();
+        return !now_.empty();
+    }
+
     // Both ways for fragment m, as far as they are open.
-    void step(const Course& course, size_t m) {
+    void step(const Course& course, const Past& past, size_t m) {
         const Fragment& fragment = question_.fragments[m];
         const std::optional<bool> forced =
             fragment.twin < 0
@@ -85,17 +133,17 @@ class Courses {
             Course absent = course;
             if (count(absent, fragment, m, false)) {
                 out_.fates[m].is_absent = true;
-                now_.insert(std::move(absent));
+                next_.emplace_back(std::move(absent), past);
             }
         }
         if (forced.value_or(true)) {
             Course present = course;
-            if (count(present, fragment, m, true) && tests_within_bounds(present, m)) {
+            if (count(present, fragment, m, true) && tests_within_bounds(present, past, m)) {
                 if (fragment.can_be_front) {
-                    test(present, m, true);
+                    test(present, past, m, true);
                 }
                 if (fragment.can_be_back) {
-                    test(present, m, false);
+                    test(present, past, m, false);
                 }
             }
         }
@@ -103,15 +151,19 @@ class Courses {
 
     // Notes whether fragment m is there; false if its set cannot come out.
     bool count(Course& course, const Fragment& fragment, size_t m, bool is_there) {
-        if (is_asked_[m]) {
+        if (last_twin_[m] >= 0) {
             course.is_there[m] = is_there ? 1 : 0;
+        }
+        if (fragment.twin >= 0 &&
+            last_twin_[static_cast<size_t>(fragment.twin)] == static_cast<int>(m)) {
+            course.is_there[static_cast<size_t>(fragment.twin)] = 0;
         }
         if (fragment.set < 0) {
             return true;
         }
         const auto k = static_cast<size_t>(fragment.set);
         const FragmentSet& set = question_.sets[k];
-        uint32_t& number = course.in_set[k];
+        char32_t& number = course.in_set[k];
         number += is_there ? 1 : 0;
         const bool fits = number <= set.most && number + left_[k] >= set.least;
         number = left_[k] > 0 ? number : 0;
@@ -119,18 +171,18 @@ class Courses {
     }
 
     // The depth bounds test, which leaves everything as it is where it fails: whether it may pass.
-    bool tests_within_bounds(const Course& course, size_t m) {
+    bool tests_within_bounds(const Course& course, const Past& past, size_t m) {
         const DepthOutcome bounds = question_.bounds
                                         ? question_.bounds(course.stored, static_cast<uint32_t>(m))
                                         : DepthOutcome::passes;
         if (bounds != DepthOutcome::passes) {
             out_.fates[m].fails_bounds = true;
-            now_.insert(course);
+            next_.emplace_back(course, past);
         }
         return bounds != DepthOutcome::fails;
     }
 
-    void test(const Course& course, size_t m, bool front) {
+    void test(const Course& course, const Past& past, size_t m, bool front) {
         const Fragment& fragment = question_.fragments[m];
         const cases::StencilFace& face = front ? fragment.state->front : fragment.state->back;
         Fate& fate = out_.fates[m];
@@ -139,7 +191,7 @@ class Courses {
         if (!passes(face, course.value)) {
             fate.fails = true;
             next.value = updated(face.fail, face, course.value);
-            now_.insert(std::move(next));
+            next_.emplace_back(std::move(next), past);
             return;
         }
         const DepthOutcome depth = question_.depth
@@ -148,7 +200,7 @@ class Courses {
         if (depth != DepthOutcome::passes) {
             fate.fails_depth = true;
             next.value = updated(face.depth_fail, face, course.value);
-            now_.insert(next);
+            next_.emplace_back(next, past);
         }
         if (depth != DepthOutcome::fails) {
             const bool is_discarded =
@@ -157,24 +209,29 @@ class Courses {
             next.stored = fragment.writes_depth ? static_cast<int>(m) : course.stored;
             if (is_discarded || fragment.is_discard_open) {
                 fate.is_discarded = true;
-                now_.insert(next);
+                next_.emplace_back(next, past);
             }
             if (!is_discarded || fragment.is_discard_open) {
                 fate.passes = true;
-                next.last = static_cast<int>(m);
-                next.front += front ? 1 : 0;
-                next.back += front ? 0 : 1;
-                now_.insert(std::move(next));
+                Past hit;
+                hit.hits = past.hits;
+                for (uint64_t& hits : hit.hits) {
+                    hits += front ? kFront : kBack;
+                }
+                hit.lasts.assign(1, static_cast<char32_t>(m));
+                next_.emplace_back(std::move(next), std::move(hit));
             }
         }
     }
 
     void finish() {
         std::map<std::pair<uint32_t, uint32_t>, Values> outcomes;
-        for (const Course& course : now_) {
-            outcomes[{course.front, course.back}].set(course.value);
-            if (course.last >= 0) {
-                out_.is_last[static_cast<size_t>(course.last)] = true;
+        for (const auto& [course, past] : now_) {
+            for (const uint64_t hits : past.hits) {
+                outcomes[faces_of(hits)].set(course.value);
+            }
+            for (const char32_t last : past.lasts) {
+                out_.is_last[last] = true;
             }
             if (course.stored == kClearDepth) {
                 out_.may_be_clear = true;
@@ -189,9 +246,9 @@ class Courses {
 
     const Question& question_;
     Resolution out_;
-    std::set<Course> now_;
-    std::vector<uint32_t> left_;  // members of each set that are still to come
-    std::vector<bool> is_asked_;  // a later fragment is its twin
+    std::vector<std::pair<Course, Past>> now_, next_;  // by course; after the fragment at hand
+    std::vector<uint32_t> left_;                       // members of each set that are still to come
+    std::vector<int> last_twin_;  // the last fragment whose twin this one is, or -1
 };
 
 }  // namespace

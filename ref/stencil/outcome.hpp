@@ -100,7 +100,8 @@ struct Resolution {
 // it is not cleared to 0, or no hits are counted.
 bool is_needed(const cases::Case& c);
 
-// Courses that are followed at most, at a time.
+// Courses that are followed at most, at a time: as many as differ in what comes after them, or in
+// their hits.
 inline constexpr size_t kMostCourses = 4096;
 
 // Whether a fragment passes the stencil test.

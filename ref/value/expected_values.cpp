@@ -115,23 +115,38 @@ bool are_coord_places_single(std::span<const value::Evaluation<Ball>> places) {
 
 ValueRange ValueReference::range(uint32_t t, cases::SampleId sample, const QuantityId& id) {
     std::array<ValueRange, 4> out;
-    add_ranges(t, sample, {&id, 1}, out);
+    add_ranges(t, sample, {&id, 1}, false, out);
     return out.at(id.component);
 }
 
-std::array<ValueRange, 4> ValueReference::ranges(uint32_t t, cases::SampleId sample,
-                                                 size_t attribute) {
-    std::array<ValueRange, 4> out;
+namespace {
+
+std::array<QuantityId, 4> components_of(size_t attribute) {
     std::array<QuantityId, 4> ids;
     for (size_t k = 0; k < ids.size(); ++k) {
         ids[k] = QuantityId::of_attribute(attribute, k);
     }
-    add_ranges(t, sample, ids, out);
+    return ids;
+}
+
+}  // namespace
+
+std::array<ValueRange, 4> ValueReference::ranges(uint32_t t, cases::SampleId sample,
+                                                 size_t attribute) {
+    std::array<ValueRange, 4> out;
+    add_ranges(t, sample, components_of(attribute), false, out);
+    return out;
+}
+
+std::array<ValueRange, 4> ValueReference::outer_ranges(uint32_t t, cases::SampleId sample,
+                                                       size_t attribute) {
+    std::array<ValueRange, 4> out;
+    add_ranges(t, sample, components_of(attribute), true, out);
     return out;
 }
 
 void ValueReference::add_ranges(uint32_t t, cases::SampleId sample, std::span<const QuantityId> ids,
-                                std::array<ValueRange, 4>& out) {
+                                bool may_be_outer, std::array<ValueRange, 4>& out) {
     const value::Primitive& primitive = impl_->load(t).primitive;
     if (!primitive.is_finite) {
         return;
@@ -175,10 +190,28 @@ void ValueReference::add_ranges(uint32_t t, cases::SampleId sample, std::span<co
         return;
     }
     value::Asked asked{all, primitive.is_projectable};
+    if (may_be_outer) {
+        std::vector<ValueRange> outer;
+        for (const size_t index : only) {
+            if (const auto range = impl_->outer(t, sample, index)) {
+                outer.push_back({true, range->low, range->high});
+            }
+        }
+        if (outer.size() == only.size()) {
+            for (size_t k = 0; k < only.size(); ++k) {
+                out.at(component_of[k]) = outer[k];
+            }
+            return;
+        }
+    }
     asked.only = only;
-    const auto& balls = impl_->candidates<Ball>(t, impl_->profile);
-    const std::vector<value::AcceptedRange<Ball>> wide =
-        value::accepted_ranges(balls, impl_->places_of_range(t, sample), asked);
+    std::vector<value::AcceptedRange<Ball>> wide;
+    impl_->ask_balls(t, impl_->profile, [&](const value::CandidateSet<Ball>& set) {
+        wide = value::accepted_ranges(set, impl_->places_of_range(t, sample), asked);
+        return std::ranges::all_of(wide, &value::AcceptedRange<Ball>::is_known)
+                   ? std::optional(true)
+                   : std::nullopt;
+    });
     for (size_t k = 0; k < only.size(); ++k) {
         ValueRange& range = out.at(component_of[k]);
         if (wide[k].is_known) {
@@ -195,7 +228,8 @@ void ValueReference::add_ranges(uint32_t t, cases::SampleId sample, std::span<co
         range.is_of_places = all[only[k]].id.of == QuantityId::Of::frag_coord &&
                              are_coord_places_single(impl_->places_of_range(t, sample));
         if (range.is_promised && all[only[k]].id.is_depth()) {
-            store_depth(value::store_of(balls, all[only[k]]), primitive.depth_format, range);
+            store_depth(value::store_of(impl_->candidates<Ball>(t, impl_->profile), all[only[k]]),
+                        primitive.depth_format, range);
         }
     }
 }

@@ -144,6 +144,12 @@ const value::SetBounds& ValueReference::Impl::bounds(uint32_t t, Profile at) {
     return *slot;
 }
 
+std::optional<value::Range<double>> ValueReference::Impl::outer(uint32_t t, cases::SampleId id,
+                                                                size_t index) {
+    const value::Asked asked{quantities_of(t), load(t).primitive.is_projectable};
+    return bounds(t, profile).outer(places_of_range(t, id), asked, index);
+}
+
 bool ValueReference::Impl::are_rejected(uint32_t t, cases::SampleId id,
                                         const FragmentValues& device, Profile at,
                                         const std::vector<size_t>& suspects) {

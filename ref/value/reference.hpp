@@ -402,6 +402,8 @@ struct ValueReference::Impl {
 
     // Bounds on all that a profile admits for the triangle.
     const value::SetBounds& bounds(uint32_t t, Profile at);
+    // Values that hold all that the profile accepts of a quantity, if a bound is known.
+    std::optional<value::Range<double>> outer(uint32_t t, cases::SampleId id, size_t index);
 
     // Whether each of these values is proven to fail at the profile, whichever set-up is taken.
     bool are_rejected(uint32_t t, cases::SampleId id, const FragmentValues& device, Profile at,

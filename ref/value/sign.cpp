@@ -80,14 +80,26 @@ Sign ValueReference::sign(uint32_t t, cases::SampleId sample, bool exact_only) {
     value::Asked asked{all, primitive.is_projectable};
     asked.only = only;
     if (!exact_only) {
-        const value::CandidateSet<Ball>& balls = impl_->candidates<Ball>(t, impl_->profile);
-        const std::optional<Sign> sign = sign_of(
-            value::accepted_ranges(balls, impl_->places_of_range(t, sample), asked).front());
-        // Where Balls cannot tell a corner of a piece from one at the eye they take it for
-        // unbounded, and accept more than rationals may.
-        const bool may_be_wide =
-            std::ranges::any_of(balls.candidates, [](const auto& c) { return c.is_unbounded; });
-        if (sign && (*sign != Sign::open || !may_be_wide)) {
+        if (const auto outer = impl_->outer(t, sample, only.front())) {
+            if (outer->low >= 0) {
+                return Sign::not_negative;
+            }
+            if (outer->high <= -static_cast<double>(kLeastNormal)) {
+                return Sign::negative;
+            }
+        }
+        const std::optional<Sign> sign = impl_->ask_balls(
+            t, impl_->profile, [&](const value::CandidateSet<Ball>& set) -> std::optional<Sign> {
+                const std::optional<Sign> told = sign_of(
+                    value::accepted_ranges(set, impl_->places_of_range(t, sample), asked).front());
+                // Where Balls cannot tell a corner of a piece from one at the eye they take it for
+                // unbounded, and accept more than rationals may.
+                const bool may_be_wide =
+                    !set.exact && std::ranges::any_of(set.candidates,
+                                                      [](const auto& c) { return c.is_unbounded; });
+                return told == Sign::open && may_be_wide ? std::nullopt : told;
+            });
+        if (sign) {
             return *sign;
         }
     }

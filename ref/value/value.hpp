@@ -150,13 +150,15 @@ class ValueReference {
     ValueRange range(uint32_t t, cases::SampleId sample, const QuantityId& id);
     // The same of all components of an attribute, in less time than one after another.
     std::array<ValueRange, 4> ranges(uint32_t t, cases::SampleId sample, size_t attribute);
+    // Ranges that hold those, in much less time where a triangle has many set-ups.
+    std::array<ValueRange, 4> outer_ranges(uint32_t t, cases::SampleId sample, size_t attribute);
     // The sign of what a draw's shader discards by (cases::Discard::negative). `exact_only`: for
     // the oracle, by rationals alone.
     Sign sign(uint32_t t, cases::SampleId sample, bool exact_only = false);
 
   private:
     void add_ranges(uint32_t t, cases::SampleId sample, std::span<const QuantityId> ids,
-                    std::array<ValueRange, 4>& out);
+                    bool may_be_outer, std::array<ValueRange, 4>& out);
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

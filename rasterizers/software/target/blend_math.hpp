@@ -42,7 +42,8 @@ inline bool are_complements(BlendFactor a, BlendFactor b) {
     const auto is_of = [&](BlendFactor plain, BlendFactor complement) {
         return (a == plain && b == complement) || (b == plain && a == complement);
     };
-    return is_of(BlendFactor::src_color, BlendFactor::one_minus_src_color) ||
+    return is_of(BlendFactor::one, BlendFactor::zero) ||
+           is_of(BlendFactor::src_color, BlendFactor::one_minus_src_color) ||
            is_of(BlendFactor::dst_color, BlendFactor::one_minus_dst_color) ||
            is_of(BlendFactor::src_alpha, BlendFactor::one_minus_src_alpha) ||
            is_of(BlendFactor::dst_alpha, BlendFactor::one_minus_dst_alpha) ||

@@ -190,56 +190,99 @@ bool SetBounds::is_inside_depths(const Bound& bound) const {
            bound.high <= depths_.high + least_depth_budget_;
 }
 
+std::optional<SetBounds::Bound> SetBounds::bound_over(const Planes& planes,
+                                                      const Evaluation<Ball>& where,
+                                                      const Quantity& q) const {
+    const std::span<const Point<Ball>> points = points_at(where, place_of(q, where));
+    const double spread = spread_at(planes, points);
+    std::optional<Bound> all;
+    for (const Point<Ball>& p : points) {
+        const std::optional<Bound> one = bound_at(planes, q, p, spread);
+        if (!one || ((is_depth(q) || is_frag_coord_z(q)) && !is_inside_depths(*one))) {
+            return std::nullopt;
+        }
+        if (all) {
+            all->widen(*one);
+        } else {
+            all = one;
+        }
+    }
+    return all;
+}
+
+Range<double> SetBounds::accepted_around(Bound bound, bool has_hull, const Quantity& q,
+                                         size_t index) const {
+    if (has_hull) {
+        bound.widen({lower(hulls_[index].low), upper(hulls_[index].high), 0});
+    }
+    // A store of fixed point takes either neighbour.
+    const double step = is_depth(q) && steps_ > 0 ? 2 / steps_ : 0;
+    const double slack =
+        (bound.reach + step + (std::fabs(bound.low) + std::fabs(bound.high)) * 0x1p-48) * kUp;
+    return {bound.low - slack, bound.high + slack};
+}
+
 bool SetBounds::is_outside(std::span<const Planes> bases, bool has_unbounded,
                            const Evaluation<Ball>& where, const Asked& asked, size_t index) const {
     const Quantity& q = asked.quantities[index];
-    const bool is_depth_like = is_depth(q) || is_frag_coord_z(q);
     const double device = asked.got(index);
     std::optional<Bound> all;
-    const std::span<const Point<Ball>> points = points_at(where, place_of(q, where));
     for (const Planes& planes : bases) {
-        const double spread = spread_at(planes, points);
-        for (const Point<Ball>& p : points) {
-            const std::optional<Bound> one = bound_at(planes, q, p, spread);
-            if (!one || (is_depth_like && !is_inside_depths(*one))) {
-                return false;
-            }
-            if (all) {
-                all->widen(*one);
-            } else {
-                all = one;
-            }
-            if (device >= all->low && device <= all->high) {
-                return false;
-            }
+        const std::optional<Bound> one = bound_over(planes, where, q);
+        if (!one) {
+            return false;
+        }
+        if (all) {
+            all->widen(*one);
+        } else {
+            all = one;
+        }
+        if (device >= all->low && device <= all->high) {
+            return false;
         }
     }
     if (!all) {
         return false;
     }
-    if (has_unbounded || is_without_plane(asked, index)) {
-        all->widen({lower(hulls_[index].low), upper(hulls_[index].high), 0});
-    }
-    // A store of fixed point takes either neighbour.
-    const double step = is_depth(q) && steps_ > 0 ? 2 / steps_ : 0;
-    const double slack = all->reach + step + (std::fabs(all->low) + std::fabs(all->high)) * 0x1p-48;
-    return device < all->low - slack * kUp || device > all->high + slack * kUp;
+    const auto [low, high] =
+        accepted_around(*all, has_unbounded || is_without_plane(asked, index), q, index);
+    return device < low || device > high;
+}
+
+bool SetBounds::bounds_values_of(const Quantity& q) const {
+    return is_usable_ && is_numeric(q) && !((is_depth(q) || is_frag_coord_z(q)) && has_bias_);
 }
 
 bool SetBounds::rejects(std::span<const Evaluation<Ball>> evaluations, const Asked& asked,
                         size_t index) const {
+    return bounds_values_of(asked.quantities[index]) && !evaluations.empty() &&
+           std::all_of(evaluations.begin(), evaluations.end(), [&](const auto& where) {
+               return is_outside({&all_, 1}, has_unbounded_, where, asked, index) ||
+                      std::all_of(groups_.begin(), groups_.end(), [&](const Group& group) {
+                          return is_outside(std::span(bases_).subspan(group.first, group.size),
+                                            group.has_unbounded, where, asked, index);
+                      });
+           });
+}
+
+std::optional<Range<double>> SetBounds::outer(std::span<const Evaluation<Ball>> evaluations,
+                                              const Asked& asked, size_t index) const {
     const Quantity& q = asked.quantities[index];
-    const bool is_depth_like = is_depth(q) || is_frag_coord_z(q);
-    if (!is_usable_ || !is_numeric(q) || evaluations.empty() || (is_depth_like && has_bias_)) {
-        return false;
+    std::optional<Range<double>> out;
+    for (const Evaluation<Ball>& where : evaluations) {
+        const std::optional<Bound> bound =
+            bounds_values_of(q) ? bound_over(all_, where, q) : std::nullopt;
+        if (!bound) {
+            return std::nullopt;
+        }
+        const Range<double> one =
+            accepted_around(*bound, has_unbounded_ || is_without_plane(asked, index), q, index);
+        if (!std::isfinite(one.low) || !std::isfinite(one.high)) {
+            return std::nullopt;
+        }
+        out = out ? Range<double>{std::min(out->low, one.low), std::max(out->high, one.high)} : one;
     }
-    return std::all_of(evaluations.begin(), evaluations.end(), [&](const auto& where) {
-        return is_outside({&all_, 1}, has_unbounded_, where, asked, index) ||
-               std::all_of(groups_.begin(), groups_.end(), [&](const Group& group) {
-                   return is_outside(std::span(bases_).subspan(group.first, group.size),
-                                     group.has_unbounded, where, asked, index);
-               });
-    });
+    return out;
 }
 
 bool SetBounds::accepts(const Evaluation<Ball>& where, const Asked& asked, size_t index) const {

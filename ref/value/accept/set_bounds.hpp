@@ -39,6 +39,11 @@ class SetBounds {
     bool rejects(std::span<const Evaluation<Ball>> evaluations, const Asked& asked,
                  size_t index) const;
 
+    // Values between which lie all that some member of the set accepts of quantity `index` at any
+    // of these evaluations; nothing where rejects() never says yes.
+    std::optional<Range<double>> outer(std::span<const Evaluation<Ball>> evaluations,
+                                       const Asked& asked, size_t index) const;
+
     // Of a set at profile vulkan, where each value stands alone: whether its first basis, or the
     // hull of the vertex values where a member takes that, accepts the value at the one point where
     // it is evaluated. "No" proves nothing.
@@ -64,6 +69,14 @@ class SetBounds {
     std::optional<Bound> bound_at(const Planes& planes, const Quantity& q, const Point<Ball>& p,
                                   double spread) const;
     bool is_inside_depths(const Bound& bound) const;
+    // Of all points at which the quantity is evaluated there, and inside of the viewport's depths.
+    std::optional<Bound> bound_over(const Planes& planes, const Evaluation<Ball>& where,
+                                    const Quantity& q) const;
+    // All that is accepted around a bound; `has_hull`: and anything between the vertices' values.
+    Range<double> accepted_around(Bound bound, bool has_hull, const Quantity& q,
+                                  size_t index) const;
+    // Whether rejects() may say yes of a quantity.
+    bool bounds_values_of(const Quantity& q) const;
     // Whether the device's value lies outside of all that these bases accept.
     bool is_outside(std::span<const Planes> bases, bool has_unbounded,
                     const Evaluation<Ball>& where, const Asked& asked, size_t index) const;

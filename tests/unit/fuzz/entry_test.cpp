@@ -7,9 +7,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <tuple>
 
 #include "cases/load/loader.hpp"
+#include "cases/model/profile.hpp"
 #include "diff/color.hpp"
+#include "fuzz/generate/generator.hpp"
 #include "fuzz/ledger.hpp"
 #include "ref/expectation/expectation.hpp"
 
@@ -65,16 +69,20 @@ TEST(SameCause, WhatIsStoredWronglyRoundedIsHandedOn) {
                                            "draw.color.attribute", "draw.color.logic=equivalent"};
     for (const char* symptom :
          {"value of logic.operation [direct3d]", "order of order.primitive [direct3d]",
-          "value of blend.write-mask [direct3d]", "value of color.location [direct3d]"}) {
+          "value of blend.write-mask [direct3d]", "value of color.location [direct3d]",
+          "missing of cover.inside [direct3d]"}) {
         Entry fresh = entry(symptom, through);
         fresh.text = colored("r5g6b5-unorm");
         EXPECT_TRUE(is_same_cause(stored, fresh)) << symptom;
         fresh.text = colored("rgb10a2-unorm");
         EXPECT_FALSE(is_same_cause(stored, fresh)) << symptom;
     }
-    for (const char* symptom :
-         {"value of logic.operation [practice]", "missing of cover.inside [direct3d]"}) {
-        Entry fresh = entry(symptom, through);
+    // Hits that are counted do not come of a colour, nor does what a looser profile forbids.
+    for (const auto& [symptom, needs] :
+         {std::pair("value of logic.operation [practice]", through),
+          std::pair("missing of cover.inside [direct3d]",
+                    std::set<std::string>{"color", "draw.attribute", "draw.color.attribute"})}) {
+        Entry fresh = entry(symptom, needs);
         fresh.text = colored("r5g6b5-unorm");
         EXPECT_FALSE(is_same_cause(stored, fresh)) << symptom;
     }
@@ -108,6 +116,57 @@ TEST(SameCause, WhatIsStoredWronglyRoundedIsHandedOn) {
     const Symptom again = *parse_symptom("value of store.unorm [direct3d]");
     EXPECT_TRUE(explains(stored, again, facts_of(colored("r5g6b5-unorm"))));
     EXPECT_FALSE(explains(stored, again, facts_of(colored("rgb10a2-unorm"))));
+}
+
+// Where a case counts no hits, or discards by an input, a wrong input looks like wrong hits.
+TEST(SameCause, AWrongInputMayLookLikeWrongHits) {
+    const Entry input =
+        entry("value of interp.hull [vulkan]",
+              {"draw.attribute", "draw.attribute.interpolation=noperspective", "unequal w"});
+    const std::set<std::string> words = {"draw.attribute", "draw.color.attribute",
+                                         "draw.attribute.interpolation=noperspective"};
+    const auto also = [&](const char* word) {
+        std::set<std::string> all = words;
+        all.insert(word);
+        return all;
+    };
+    for (const char* symptom :
+         {"missing of cover.inside [vulkan]", "double of cover.outside [vulkan]",
+          "extra of discard.value [direct3d]"}) {
+        EXPECT_TRUE(is_same_cause(input, entry(symptom, also("attachments=color")))) << symptom;
+        EXPECT_TRUE(is_same_cause(input, entry(symptom, also("attachments=color+depth"))));
+        EXPECT_TRUE(is_same_cause(input, entry(symptom, also("draw.discard=negative"))));
+        // Hits that are counted, and a discard by the pixel, know no input.
+        EXPECT_FALSE(is_same_cause(input, entry(symptom, words))) << symptom;
+        EXPECT_FALSE(is_same_cause(input, entry(symptom, also("draw.discard=odd-rows"))));
+        EXPECT_FALSE(is_same_cause(input, entry(symptom, {"attachments=color", "draw.attribute"})));
+    }
+    const Entry plain = entry("value of interp.hull [vulkan]", {"draw.attribute", "unequal w"});
+    EXPECT_FALSE(
+        is_same_cause(plain, entry("missing of cover.inside [vulkan]", also("attachments=color"))));
+    const Entry looser = entry("value of interp.hull [direct3d]", input.essentials);
+    EXPECT_FALSE(is_same_cause(
+        looser, entry("missing of cover.inside [vulkan]", also("attachments=color"))));
+}
+
+TEST(SameCause, WhatNeedsMoreOfTheSameIsTheSame) {
+    const Entry known = entry("value of sample.alpha-to-one [vulkan]",
+                              {"attachments=color+depth", "color", "draw.color.alpha_to_one=true",
+                               "draw.color.value", "draw.frag_depth.value"});
+    const std::set<std::string> more = {"attachments=color+depth", "color",
+                                        "draw.attribute",          "draw.color.alpha_to_one=true",
+                                        "draw.color.attribute",    "draw.frag_depth.value",
+                                        "several samples"};
+    EXPECT_TRUE(is_same_cause(known, entry("value of sample.alpha-to-one [vulkan]", more)));
+    EXPECT_FALSE(is_same_cause(known, entry("value of sample.alpha-to-one [practice]", more)));
+    EXPECT_FALSE(is_same_cause(known, entry("value of store.unorm [vulkan]", more)));
+    std::set<std::string> less = more;
+    less.erase("draw.frag_depth.value");
+    less.insert("draw.cull=back");
+    EXPECT_FALSE(is_same_cause(known, entry("value of sample.alpha-to-one [vulkan]", less)));
+    // A failing case need not write its colour as the known one does.
+    EXPECT_TRUE(explains(known, *parse_symptom("value of sample.alpha-to-one [vulkan]"),
+                         with_implied(more)));
 }
 
 TEST(SameCause, WhatNeedsAFormatExplainsThatFormat) {
@@ -380,6 +439,51 @@ TEST(ReduceCase, KeepsATriangleThatIsSeen) {
     EXPECT_TRUE(c.target.has_instruments ||
                 !diff::may_stay_clear(c, ref::expect(c, ref::Limits{}, Profile::vulkan)))
         << entry->text;
+}
+
+// What ends at the first samples that tell says what the whole expectation does.
+TEST(FailsIfEmpty, AsTheWholeExpectationSays) {
+    std::map<std::tuple<Profile, bool, bool>, size_t> seen;
+    Poses poses(6);
+    for (uint64_t k = 0; k < 128; ++k) {
+        const Pose pose = poses.next([&](const Pose& p) { return is_case(6, p, k); });
+        for (uint64_t number = k * kGeometries; number < k * kGeometries + 2; ++number) {
+            const auto c = load_one(case_text(6, pose, k, number), "case");
+            if (!c || c->blit ||
+                size_t{c->target.width} * c->target.rows() * c->target.samples > 1024) {
+                continue;
+            }
+            for (const Profile profile : cases::kProfiles) {
+                const ref::Expectation whole = ref::expect(*c, ref::Limits{}, profile);
+                const bool fails = whole.must_samples > 0 &&
+                                   (c->target.has_instruments || !diff::may_stay_clear(*c, whole));
+                EXPECT_EQ(diff::fails_if_empty(*c, profile), fails)
+                    << case_text(6, pose, k, number);
+                ++seen[{profile, c->target.has_instruments, fails}];
+            }
+        }
+    }
+    EXPECT_EQ(seen.size(), 12U);  // each answer, at each profile, with instruments and without
+}
+
+// One sample of four pixels tells, and not in the middle of the row.
+TEST(FailsIfEmpty, OneSampleIsEnough) {
+    const auto fails = [](const std::string& target, const std::string& draw) {
+        const auto all = cases::load_text(
+            "format = 1\ndescription = \"d\"\nrules = [\"cover.inside\"]\n[target]\n"
+            "size = [4, 1]\n" +
+                target + "[[draw]]\n" + draw + "vertices = [[0, -8], [0, 8], [16, 0]]\n",
+            "one.toml", "one");
+        EXPECT_TRUE(all) << cases::to_string(all.error().front());
+        return all && diff::fails_if_empty(all->front(), Profile::vulkan);
+    };
+    EXPECT_TRUE(fails("", ""));
+    EXPECT_TRUE(fails("", "scissor = [3, 0, 1, 1]\n"));
+    EXPECT_FALSE(fails("", "scissor = [3, 0, 0, 1]\n"));
+    // Colours alone, of which the target holds one already.
+    const std::string color = "attachments = \"color\"\n[target.color]\nformat = \"rgba8-unorm\"\n";
+    EXPECT_TRUE(fails(color, "color = { value = [1, 0, 0, 0] }\nscissor = [3, 0, 1, 1]\n"));
+    EXPECT_FALSE(fails(color, "color = { value = [0, 0, 0, 0] }\n"));
 }
 
 // The same, but a depth that is not clamped breaks Direct3D's rules only.

@@ -56,6 +56,25 @@ TEST(BlendOrder, AProductOfASumIsAnotherOrder) {
     }
 }
 
+// 1 - 1 is 0, so d + 1 (s - d) is an order of s + 0 d as well, and the only one of the two in which
+// d counts. 1/4 + 2^-25 less -1 lies between 5/4 and 5/4 + 2^-23.
+TEST(BlendOrder, OneAndZeroAreAFactorAndOneMinusIt) {
+    using enum cases::BlendFactor;
+    for (const bool is_source_one : {true, false}) {
+        cases::ColorOutput output;
+        output.blend.emplace();
+        output.blend->color = {is_source_one ? one : zero, is_source_one ? zero : one,
+                               cases::BlendOp::add};
+        const double taken = 0.25 + 0x1p-25, other = -1;
+        const double s = is_source_one ? taken : other, d = is_source_one ? other : taken;
+        const Interval left = Unit{ColorFormat::r32_float, Profile::vulkan}
+                                  .write(output, color_with({s, s, s, s}), color_with({d, d, d, d}))
+                                  .front();
+        EXPECT_EQ(left.low, mpq_class(0.25));
+        EXPECT_EQ(left.high, mpq_class(0.25 + 0x1p-23));
+    }
+}
+
 TEST(BlendOrder, OfAlphaAColorIsItsAlpha) {
     using enum cases::BlendFactor;
     cases::ColorOutput output;
