@@ -152,25 +152,30 @@ bool is_consequence(const Entry& earlier, const Entry& fresh) {
 bool is_of_color(const Entry& entry) {
     constexpr std::array<std::string_view, 6> kRules = {
         "store.", "blend.", "logic.", "color.location", "order.primitive", "sample.alpha-to-one"};
-    return entry.essentials.contains("attachments=color") ||
+    return with_implied(entry.essentials).contains("attachments=color") ||
            std::ranges::any_of(
                kRules, [&](std::string_view word) { return entry.symptom.rule.starts_with(word); });
 }
 
-// Whether an entry's case counts no hits: whichever it lacks or has too many are read from a
-// colour, which may as well be a wrong one.
-bool tells_hits_by_colors(const Entry& entry) {
-    return with_implied(entry.essentials).contains("attachments=color");
+// Whether an entry lacks hits or has too many that are told by an input, which may as well be a
+// wrong one: they are read from a colour that varies, since the case counts none, or the shader
+// discards by the input. No other state may decide them.
+bool is_hit_by_input(const Entry& entry) {
+    const std::set<std::string> words = with_implied(entry.essentials);
+    const bool is_read =
+        words.contains("attachments=color") &&
+        (words.contains("draw.color.attribute") || words.contains("draw.color.value"));
+    return !is_value(entry.symptom) && (is_read || words.contains("draw.discard=negative")) &&
+           std::ranges::none_of(words, [](const std::string& word) {
+               return word != "draw.discard=negative" && decides_hits(word);
+           });
 }
 
-// Whether an earlier entry has wrong inputs by something special of an attribute, which the fresh
-// one needs, too, where hits are told by the input: it is seen in a colour alone, or the shader
-// discards by it.
+// Whether an earlier entry has wrong inputs by something special of an attribute, and hits that the
+// fresh one tells by an input are wrong by the same.
 bool is_of_input(const Entry& earlier, const Entry& fresh) {
     const std::set<std::string> special = special_of(earlier);
-    const bool is_by_input =
-        tells_hits_by_colors(fresh) || fresh.essentials.contains("draw.discard=negative");
-    return is_by_input && is_value(earlier.symptom) && !special.empty() &&
+    return is_hit_by_input(fresh) && is_value(earlier.symptom) && !special.empty() &&
            std::ranges::all_of(
                special,
                [](const std::string& word) { return word.starts_with("draw.attribute."); }) &&
@@ -183,7 +188,7 @@ bool is_of_input(const Entry& earlier, const Entry& fresh) {
 bool is_of_stored(const Entry& earlier, const Entry& fresh) {
     const bool is_told_of_values = is_value(fresh.symptom) ||
                                    fresh.symptom.kind == diff::FindingKind::order ||
-                                   tells_hits_by_colors(fresh);
+                                   is_hit_by_input(fresh);
     if (!is_value(earlier.symptom) || !earlier.symptom.rule.starts_with("store.") ||
         !is_told_of_values || !is_of_color(fresh)) {
         return false;
@@ -221,7 +226,8 @@ bool shows_the_same(const Entry& earlier, const Entry& fresh) {
     }
     // All that an earlier one needs, and more.
     const bool has_all =
-        is_special && !without(others, kSamples).empty() && is_within(others, keys);
+        is_special && !without(others, kSamples).empty() && is_within(others, keys) &&
+        (!hangs_on_format(earlier) || has_format_of(facts_of(fresh.text), earlier));
     const bool is_one_less =
         keys.size() >= 3 && others.size() == keys.size() + 1 && is_within(keys, others);
     return has_all || is_one_less || (keys.size() >= 2 && names_of(keys) == names_of(others));

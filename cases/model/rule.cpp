@@ -271,13 +271,13 @@ constexpr std::array kRules = {
          "ref/color/component.hpp"},
     Rule{rule::store_integer, Profile::vulkan, "An integer target holds what the shader wrote",
          "No conversion takes place.", "interfaces-fragmentoutput", "", "ref/color/component.hpp"},
-    Rule{
-        rule::blend_equation, Profile::vulkan, "Blending follows its equation",
-        "As if in floating point, with a precision no lower than the destination's: every "
-        "intermediate may be rounded to a neighbour in the destination's format, and of factors f "
-        "and 1 - f one product may be saved. Fixed-point targets clamp source, factors and result. "
-        "What is representable throughout is exact, but that sRGB may be decoded half a code off.",
-        "framebuffer-blending", "17.5", "ref/color/blend.hpp"},
+    Rule{rule::blend_equation, Profile::vulkan, "Blending follows its equation",
+         "As if in floating point, with a precision no lower than the destination's: every "
+         "intermediate may be rounded to a neighbour in the destination's format, and of factors f "
+         "and 1 - f, as one and zero are, one product may be saved. Fixed-point targets clamp "
+         "source, factors and result. "
+         "What is representable throughout is exact, but that sRGB may be decoded half a code off.",
+         "framebuffer-blending", "17.5", "ref/color/blend.hpp"},
     Rule{
         rule::blend_second_source, Profile::vulkan,
         "Factors of the second source are the shader's second colour",

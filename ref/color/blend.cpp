@@ -160,8 +160,26 @@ std::optional<Named> named(BlendFactor factor, size_t k) {
 // Whether the two products of an equation can be computed as one: with f twice, or f and 1 - f.
 enum class Shared : uint8_t { nothing, factor, complement };
 
-Shared shared_by(const cases::BlendEquation& equation, size_t k) {
-    const std::optional<Named> a = named(equation.source, k), b = named(equation.destination, k);
+// What state makes 1 of a factor, or 0, so that a device may take it for that: the alpha of a
+// target without one and of a source that alpha to one replaces, and the saturated alpha of an
+// alpha.
+struct KnownFactors {
+    bool is_source_alpha_one = false, is_target_alpha_one = false;
+
+    BlendFactor operator()(BlendFactor factor, size_t k) const {
+        using enum BlendFactor;
+        const std::optional<Named> name = named(factor, k);
+        if (name && ((is_source_alpha_one && name->of == src_alpha) ||
+                     (is_target_alpha_one && name->of == dst_alpha))) {
+            return name->is_complement ? zero : one;
+        }
+        return k == 3 && factor == src_alpha_saturate ? one : factor;
+    }
+};
+
+Shared shared_by(const cases::BlendEquation& equation, size_t k, const KnownFactors& known) {
+    const std::optional<Named> a = named(known(equation.source, k), k),
+                               b = named(known(equation.destination, k), k);
     if (!a || !b || a->of != b->of) {
         return Shared::nothing;
     }
@@ -209,15 +227,29 @@ mpq_class most_of(const Interval& v) {
 // What an equation may give if it is computed with one product; f and g are its factors. Of numbers
 // s and d each step is either neighbour. Of intervals the exact result is least and greatest at
 // ends, since it is of degree 1 in each variable, and rounding moves it by the sum's unit, times
-// the factor, and the product's. Nothing where a sum overflows: the dynamic range is to be that of
-// the target or more.
+// the factor, and the product's; a denormal number of binary32 may be taken for 0. Nothing where
+// the sum overflows: the dynamic range is to be that of the target or more.
 std::optional<Interval> reordered(const Component& component, const cases::BlendEquation& equation,
-                                  size_t k, const Interval& source, const Interval& destination,
-                                  const Interval& f, const Interval& g) {
-    const Shared shared = shared_by(equation, k);
-    const mpq_class most_sum = most_of(source) + most_of(destination);
-    if (shared == Shared::nothing || component.may_be_infinite(point(most_sum))) {
+                                  size_t k, const KnownFactors& known, const Interval& source,
+                                  const Interval& destination, const Interval& f,
+                                  const Interval& g) {
+    const Shared shared = shared_by(equation, k, known);
+    if (shared == Shared::nothing) {
         return std::nullopt;
+    }
+    // f s - f d and f s + (1 - f) d have s - d for a sum, the others s + d.
+    const bool is_difference = (equation.op == BlendOp::add) == (shared == Shared::complement);
+    mpq_class most_sum = 0, least_sum = -1;
+    for (const mpq_class& s : {source.low, source.high}) {
+        for (const mpq_class& d : {destination.low, destination.high}) {
+            const mpq_class sum = abs(is_difference ? mpq_class(s - d) : mpq_class(s + d));
+            most_sum = std::max(most_sum, sum);
+            least_sum = least_sum < 0 ? sum : std::min(least_sum, sum);
+        }
+    }
+    if (component.may_be_infinite(point(most_sum))) {
+        return component.may_be_infinite(point(least_sum)) ? std::nullopt
+                                                           : std::optional(Component::anything());
     }
     std::optional<Interval> all;
     const auto gather = [&](const auto& round) {
@@ -237,8 +269,11 @@ std::optional<Interval> reordered(const Component& component, const cases::Blend
     gather([](const Interval& v) { return v; });
     const mpq_class most_factor = std::max<mpq_class>(most_of(f), most_of(g));
     const mpq_class sum_unit = unit_of(component, most_sum);
-    const mpq_class lost =
+    mpq_class lost =
         most_factor * sum_unit + unit_of(component, most_factor * (most_sum + sum_unit));
+    if (component.kind() == ComponentKind::binary32) {
+        lost += (most_factor + 1) * mpq_class(0x1p-126);
+    }
     return Interval{all->low - lost, all->high + lost};
 }
 
@@ -297,6 +332,8 @@ Color Unit::write(const cases::ColorOutput& output, const Color& written,
     const Component first(cases::component_of(format, 0));
     Color s = source;
     Color second, constants, d;
+    const KnownFactors known{replaces_alpha(output, format),
+                             !Component(cases::component_of(format, 3)).exists()};
     for (uint32_t k = 0; k < 4; ++k) {
         second[k] = point(static_cast<double>(output.blend->second[static_cast<int>(k)]));
         constants[k] = point(static_cast<double>(output.blend->constants[static_cast<int>(k)]));
@@ -348,8 +385,10 @@ Color Unit::write(const cases::ColorOutput& output, const Color& written,
                                    !component.may_be_infinite(d[k]) &&
                                    !component.may_be_infinite(f) && !component.may_be_infinite(g);
             if (!component.is_fixed_point() && is_finite) {
-                const auto other = reordered(component, equation, k, s[k], d[k], f, g);
-                result = other ? hull(result, *other) : result;
+                const auto other = reordered(component, equation, k, known, s[k], d[k], f, g);
+                result = !other                           ? result
+                         : Component::is_anything(*other) ? *other
+                                                          : hull(result, *other);
             }
         }
         out[k] = Component::is_anything(before[k]) || Component::is_anything(result)

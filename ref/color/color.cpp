@@ -274,9 +274,9 @@ bool ColorReference::may_explain(size_t index, cases::SampleId id,
                                  const std::array<uint32_t, 4>& codes,
                                  const std::optional<ColorWitness>& witness) {
     takes_outer_ = true;
-    const bool may = explains(index, id, codes, witness);
-    takes_outer_ = false;
-    return may;
+    const std::unique_ptr<bool, void (*)(bool*)> until(&takes_outer_,
+                                                       [](bool* takes) { *takes = false; });
+    return explains(index, id, codes, witness);
 }
 
 bool ColorReference::explains(const std::vector<Sequence>& sets, cases::SampleId id,

@@ -27,8 +27,8 @@ struct Course {
     uint32_t value = 0;
     int stored = kClearDepth;
     Numbers in_set;  // how many of each set were there; 0 after its last member
-    Numbers
-        is_there;  // of each fragment that a later one is the twin of; 0 after the last of these
+    // Of each fragment that a later one is the twin of: 1 if it was, until the last of these.
+    std::string is_there;
     friend auto operator<=>(const Course&, const Course&) = default;
 };
 
@@ -73,9 +73,10 @@ class Courses {
             }
         }
         const bool has_twins = std::ranges::any_of(last_twin_, [](int twin) { return twin >= 0; });
-        now_.push_back({{question.clear & kStencilBits, kClearDepth,
-                         Numbers(question.sets.size(), 0), Numbers(has_twins ? count : 0, 0)},
-                        {{0}, {}}});
+        now_.push_back(
+            {Course{question.clear & kStencilBits, kClearDepth, Numbers(question.sets.size(), 0),
+                    std::string(has_twins ? count : 0, '\0')},
+             Past{{0}, {}}});
     }
 
     Resolution run() {
@@ -128,7 +129,7 @@ class Courses {
         const std::optional<bool> forced =
             fragment.twin < 0
                 ? std::nullopt
-                : std::optional(course.is_there[static_cast<size_t>(fragment.twin)] != 0);
+                : std::optional(course.is_there[static_cast<size_t>(fragment.twin)] != '\0');
         if (!fragment.is_sure && !forced.value_or(false)) {
             Course absent = course;
             if (count(absent, fragment, m, false)) {
@@ -152,11 +153,11 @@ class Courses {
     // Notes whether fragment m is there; false if its set cannot come out.
     bool count(Course& course, const Fragment& fragment, size_t m, bool is_there) {
         if (last_twin_[m] >= 0) {
-            course.is_there[m] = is_there ? 1 : 0;
+            course.is_there[m] = is_there ? '\1' : '\0';
         }
         if (fragment.twin >= 0 &&
             last_twin_[static_cast<size_t>(fragment.twin)] == static_cast<int>(m)) {
-            course.is_there[static_cast<size_t>(fragment.twin)] = 0;
+            course.is_there[static_cast<size_t>(fragment.twin)] = '\0';
         }
         if (fragment.set < 0) {
             return true;

@@ -139,8 +139,14 @@ TEST(SameCause, AWrongInputMayLookLikeWrongHits) {
         // Hits that are counted, and a discard by the pixel, know no input.
         EXPECT_FALSE(is_same_cause(input, entry(symptom, words))) << symptom;
         EXPECT_FALSE(is_same_cause(input, entry(symptom, also("draw.discard=odd-rows"))));
+        // Another state may have lost the hit.
+        std::set<std::string> culled = also("attachments=color");
+        culled.insert("draw.cull=back");
+        EXPECT_FALSE(is_same_cause(input, entry(symptom, culled)));
         EXPECT_FALSE(is_same_cause(input, entry(symptom, {"attachments=color", "draw.attribute"})));
     }
+    EXPECT_FALSE(
+        is_same_cause(input, entry("value of blend.equation [vulkan]", also("draw.color.blend"))));
     const Entry plain = entry("value of interp.hull [vulkan]", {"draw.attribute", "unequal w"});
     EXPECT_FALSE(
         is_same_cause(plain, entry("missing of cover.inside [vulkan]", also("attachments=color"))));
@@ -164,6 +170,15 @@ TEST(SameCause, WhatNeedsMoreOfTheSameIsTheSame) {
     less.erase("draw.frag_depth.value");
     less.insert("draw.cull=back");
     EXPECT_FALSE(is_same_cause(known, entry("value of sample.alpha-to-one [vulkan]", less)));
+    // But not where the known one is of its format.
+    Entry of_format = known;
+    of_format.needs = {"not with the format rgba8-unorm"};
+    of_format.text = colored("r5g6b5-unorm");
+    Entry other = entry("value of sample.alpha-to-one [vulkan]", more);
+    other.text = colored("rgba16-float");
+    EXPECT_FALSE(is_same_cause(of_format, other));
+    other.text = colored("r5g6b5-unorm");
+    EXPECT_TRUE(is_same_cause(of_format, other));
     // A failing case need not write its colour as the known one does.
     EXPECT_TRUE(explains(known, *parse_symptom("value of sample.alpha-to-one [vulkan]"),
                          with_implied(more)));

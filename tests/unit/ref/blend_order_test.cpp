@@ -75,6 +75,49 @@ TEST(BlendOrder, OneAndZeroAreAFactorAndOneMinusIt) {
     }
 }
 
+// A target without alpha has 1 for it, whatever names it, as has alpha after alpha to one, and a
+// saturated alpha of alpha.
+TEST(BlendOrder, StateMakesOneOfAFactor) {
+    using enum cases::BlendFactor;
+    const double s = 0.25 + 0x1p-25;
+    const auto left = [&](ColorFormat format, cases::BlendEquation color, bool is_one,
+                          double alpha = -1) {
+        cases::ColorOutput output;
+        output.blend.emplace();
+        output.blend->color = output.blend->alpha = color;
+        output.alpha_to_one = is_one;
+        return Unit{format, Profile::vulkan}.write(output, color_with({s, s, s, s}),
+                                                   color_with({-1, -1, -1, alpha}));
+    };
+    const auto is_open = [](const Interval& v) {
+        return v.low == mpq_class(0.25) && v.high == mpq_class(0.25 + 0x1p-23);
+    };
+    const cases::BlendEquation target{dst_alpha, zero, cases::BlendOp::add};
+    EXPECT_TRUE(is_open(left(ColorFormat::r32_float, target, false, 1)[0]));
+    EXPECT_FALSE(is_open(left(ColorFormat::rgba32_float, target, false, 1)[0]));
+    const cases::BlendEquation source{src_alpha, zero, cases::BlendOp::add};
+    EXPECT_TRUE(is_open(left(ColorFormat::rgba32_float, source, true)[0]));
+    EXPECT_FALSE(is_open(left(ColorFormat::rgba32_float, source, false)[0]));
+    const cases::BlendEquation saturated{src_alpha_saturate, zero, cases::BlendOp::add};
+    EXPECT_TRUE(is_open(left(ColorFormat::rgba32_float, saturated, false)[3]));
+}
+
+// 3e38 - 1e38 is a number, and d + (s - d) may be one beside 3e38.
+TEST(BlendOrder, DifferencesThatDoNotOverflowAreComputed) {
+    cases::ColorOutput output;
+    output.blend.emplace();
+    output.blend->color = {cases::BlendFactor::one, cases::BlendFactor::zero, cases::BlendOp::add};
+    const auto width = [&](double s, double d) {
+        const Interval v = Unit{ColorFormat::r32_float, Profile::vulkan}
+                               .write(output, color_with({s, s, s, s}), color_with({d, d, d, d}))
+                               .front();
+        return mpq_class(v.high - v.low);
+    };
+    const double s = 0x1.c00002p127, d = 0x1.4p20;
+    EXPECT_GT(width(s, d), 0);
+    EXPECT_EQ(width(0x1.fffffep127, -0x1.fffffep127), 0);  // their difference is beyond binary32
+}
+
 TEST(BlendOrder, OfAlphaAColorIsItsAlpha) {
     using enum cases::BlendFactor;
     cases::ColorOutput output;
