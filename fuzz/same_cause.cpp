@@ -47,9 +47,20 @@ std::set<std::string> without(const std::set<std::string>& words,
 }
 
 // What a case needs without its numbers. A constant and an attribute are two ways to write a
-// colour.
+// colour, and it is chance which factor takes a second source.
 std::set<std::string> keys_of(const Entry& entry) {
     std::set<std::string> keys = without(entry.essentials, kNumbers);
+    if (keys.contains("draw.color.second")) {
+        std::erase_if(
+            keys, [](const std::string& word) { return word.starts_with("draw.color.blend."); });
+    }
+    // A shader may write a depth in several ways.
+    if (std::erase_if(keys, [](const std::string& word) {
+            return word.starts_with("draw.frag_depth.") &&
+                   !word.starts_with("draw.frag_depth.layout");
+        }) > 0) {
+        keys.insert("draw.frag_depth");
+    }
     if (keys.erase("draw.color.attribute") > 0) {
         keys.erase("draw.attribute");
         keys.insert("draw.color.value");
@@ -61,7 +72,7 @@ std::set<std::string> keys_of(const Entry& entry) {
 std::set<std::string> special_of(const Entry& entry) {
     std::set<std::string> words = without(keys_of(entry), kThinToo);
     for (const char* plain : {kThinTriangle, "attachments=color", "attachments=color+depth",
-                              "color", "draw.attribute", "draw.color.value"}) {
+                              "color", "color.clear", "draw.attribute", "draw.color.value"}) {
         words.erase(plain);
     }
     return words;
@@ -157,29 +168,32 @@ bool is_of_color(const Entry& entry) {
                kRules, [&](std::string_view word) { return entry.symptom.rule.starts_with(word); });
 }
 
-// Whether an entry lacks hits or has too many that are told by an input, which may as well be a
-// wrong one: they are read from a colour that varies, since the case counts none, or the shader
-// discards by the input. No other state may decide them.
-bool is_hit_by_input(const Entry& entry) {
-    const std::set<std::string> words = with_implied(entry.essentials);
-    const bool is_read =
-        words.contains("attachments=color") &&
-        (words.contains("draw.color.attribute") || words.contains("draw.color.value"));
-    return !is_value(entry.symptom) && (is_read || words.contains("draw.discard=negative")) &&
-           std::ranges::none_of(words, [](const std::string& word) {
-               return word != "draw.discard=negative" && decides_hits(word);
-           });
+// Whether an entry lacks hits or has too many that are read from a colour that varies, since its
+// case counts none: that may as well be a wrong one. No state may decide them but these words.
+bool is_hit_by_color(const Entry& entry, const std::set<std::string>& but = {}) {
+    const std::set<std::string> words = keys_of(entry);
+    return !is_value(entry.symptom) && with_implied(words).contains("attachments=color") &&
+           std::ranges::any_of(
+               words, [](const std::string& word) { return word.starts_with("draw.color."); }) &&
+           std::ranges::none_of(without(words, but), decides_hits);
 }
 
-// Whether an earlier entry has wrong inputs by something special of an attribute, and hits that the
-// fresh one tells by an input are wrong by the same.
-bool is_of_input(const Entry& earlier, const Entry& fresh) {
+// Whether an earlier entry has wrong values by something special of an attribute or of a colour,
+// and a fresh one has wrong hits by the same that are read from a colour; or the shader discards by
+// an input.
+bool is_of_value(const Entry& earlier, const Entry& fresh) {
     const std::set<std::string> special = special_of(earlier);
-    return is_hit_by_input(fresh) && is_value(earlier.symptom) && !special.empty() &&
-           std::ranges::all_of(
-               special,
-               [](const std::string& word) { return word.starts_with("draw.attribute."); }) &&
-           fresh.symptom.level >= earlier.symptom.level && is_within(special, fresh.essentials);
+    const bool is_input = std::ranges::all_of(
+        special, [](const std::string& word) { return word.starts_with("draw.attribute."); });
+    std::set<std::string> but = special;
+    but.insert("draw.discard=negative");
+    const bool is_discard = is_input && !is_value(fresh.symptom) &&
+                            fresh.essentials.contains("draw.discard=negative") &&
+                            std::ranges::none_of(without(fresh.essentials, but), decides_hits);
+    return is_value(earlier.symptom) && !special.empty() &&
+           (is_discard ||
+            ((is_input || is_of_color(earlier)) && is_hit_by_color(fresh, special))) &&
+           fresh.symptom.level >= earlier.symptom.level && is_within(special, keys_of(fresh));
 }
 
 // Whether an earlier entry stores wrong colours, and the fresh one shows them by another rule, as
@@ -188,7 +202,7 @@ bool is_of_input(const Entry& earlier, const Entry& fresh) {
 bool is_of_stored(const Entry& earlier, const Entry& fresh) {
     const bool is_told_of_values = is_value(fresh.symptom) ||
                                    fresh.symptom.kind == diff::FindingKind::order ||
-                                   is_hit_by_input(fresh);
+                                   is_hit_by_color(fresh);
     if (!is_value(earlier.symptom) || !earlier.symptom.rule.starts_with("store.") ||
         !is_told_of_values || !is_of_color(fresh)) {
         return false;
@@ -226,7 +240,7 @@ bool shows_the_same(const Entry& earlier, const Entry& fresh) {
     }
     // All that an earlier one needs, and more.
     const bool has_all =
-        is_special && !without(others, kSamples).empty() && is_within(others, keys) &&
+        is_special && is_within(special_of(earlier), keys) &&
         (!hangs_on_format(earlier) || has_format_of(facts_of(fresh.text), earlier));
     const bool is_one_less =
         keys.size() >= 3 && others.size() == keys.size() + 1 && is_within(keys, others);
@@ -248,7 +262,7 @@ bool is_same_cause(const Entry& earlier, const Entry& fresh) {
         format_of(earlier) != format_of(fresh)) {
         return false;
     }
-    if (is_consequence(earlier, fresh) || is_of_input(earlier, fresh) ||
+    if (is_consequence(earlier, fresh) || is_of_value(earlier, fresh) ||
         is_of_stored(earlier, fresh)) {
         return true;
     }

@@ -34,6 +34,9 @@ std::string wrong_at_vulkan(const cases::Case& filed, const Rendered& drawn,
         const std::optional<cases::Case> placed = ref::with_own_samples(filed, limits);
         const cases::Case& c = placed ? *placed : filed;
         const ref::Expectation expectation = ref::expect(c, limits, cases::Profile::vulkan);
+        if (expectation.must_samples == 0) {
+            return "";  // a black picture would not be wrong, either
+        }
         const auto seen = [&](const Rendered& picture) {
             capture::CaptureView view = view_of(picture);
             view.target = c.target;

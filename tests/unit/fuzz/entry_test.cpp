@@ -155,6 +155,44 @@ TEST(SameCause, AWrongInputMayLookLikeWrongHits) {
         looser, entry("missing of cover.inside [vulkan]", also("attachments=color"))));
 }
 
+TEST(SameCause, AWrongColorMayLookLikeWrongHits) {
+    const Entry known = entry("value of sample.alpha-to-one [vulkan]",
+                              {"attachments=color+depth", "color", "draw.color.alpha_to_one=true",
+                               "draw.color.value", "draw.frag_depth.value"});
+    const std::set<std::string> words = {"attachments=color+depth", "color",
+                                         "draw.color.alpha_to_one=true", "draw.color.value",
+                                         "draw.frag_depth.value"};
+    EXPECT_TRUE(is_same_cause(known, entry("missing of cover.inside [vulkan]", words)));
+    std::set<std::string> more = words;
+    more.insert("draw.cull=back");
+    EXPECT_FALSE(is_same_cause(known, entry("missing of cover.inside [vulkan]", more)));
+    std::set<std::string> from = words;
+    from.erase("draw.frag_depth.value");
+    from.insert("draw.frag_depth.from=frag-coord");  // another way to write a depth
+    EXPECT_TRUE(is_same_cause(known, entry("missing of stencil.compare [vulkan]", from)));
+    EXPECT_TRUE(is_same_cause(known, entry("value of sample.alpha-to-one [vulkan]", from)));
+    std::set<std::string> less = words;
+    less.erase("draw.color.alpha_to_one=true");
+    EXPECT_FALSE(is_same_cause(known, entry("missing of cover.inside [vulkan]", less)));
+    std::set<std::string> counted = words;
+    counted.erase("attachments=color+depth");
+    EXPECT_FALSE(is_same_cause(known, entry("missing of cover.inside [vulkan]", counted)));
+}
+
+TEST(SameCause, WhichFactorTakesASecondSourceIsChance) {
+    const char* const symptom = "value of sample.alpha-to-one [vulkan]";
+    const Entry known =
+        entry(symptom, {"attachments=color", "color", "color.clear", "draw.color.alpha_to_one=true",
+                        "draw.color.blend.destination", "draw.color.second", "draw.color.value"});
+    EXPECT_TRUE(is_same_cause(
+        known, entry(symptom, {"attachments=color", "color", "draw.color.alpha_to_one=true",
+                               "draw.color.blend.source", "draw.color.second"})));
+    // Without a second source factors are no chance.
+    EXPECT_FALSE(is_same_cause(
+        known, entry(symptom, {"attachments=color", "color", "draw.color.alpha_to_one=true",
+                               "draw.color.blend.source"})));
+}
+
 TEST(SameCause, WhatNeedsMoreOfTheSameIsTheSame) {
     const Entry known = entry("value of sample.alpha-to-one [vulkan]",
                               {"attachments=color+depth", "color", "draw.color.alpha_to_one=true",
