@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <utility>
 
 #include "cases/load/loader.hpp"
@@ -218,9 +219,8 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
         return std::nullopt;
     }
     const bool is_sound = can_fail_everywhere(*original);
-    std::optional<CaseRecord> last;  // of the smallest text that shows it
-    std::string last_text;
-    std::set<std::string> unsupported;  // texts that the device cannot draw
+    std::map<std::string, CaseRecord> showing;  // by the text that shows it
+    std::set<std::string> unsupported;          // texts that the device cannot draw
     const Shows shown = [&](const std::vector<std::string>& texts) {
         std::vector<bool> out(texts.size(), false);
         const auto [cases, of] = load_all(texts);
@@ -231,9 +231,8 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
                 unsupported.insert(texts[of[k]]);
             }
             out[of[k]] = shows(records[k], symptom) && (!is_sound || can_fail_everywhere(cases[k]));
-            if (out[of[k]] && (!last || texts[of[k]].size() <= last_text.size())) {
-                last = records[k];
-                last_text = texts[of[k]];
+            if (out[of[k]]) {
+                showing.emplace(texts[of[k]], records[k]);
             }
         }
         return out;
@@ -244,6 +243,9 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
     ReduceOptions options;
     options.most_rounds = most_rounds;
     const Reduced reduced = reduce(*document, shown, options);
+    const auto at = showing.find(to_text(reduced.document));
+    const std::optional<CaseRecord> last =
+        at == showing.end() ? std::nullopt : std::optional(at->second);
     Entry entry;
     entry.symptom = symptom;
     // What the reducer brought in, as a constant for values, is no need of the cause.

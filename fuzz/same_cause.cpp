@@ -238,9 +238,12 @@ bool shows_the_same(const Entry& earlier, const Entry& fresh) {
         earlier.symptom.level != fresh.symptom.level) {
         return false;
     }
-    // All that an earlier one needs, and more.
+    // All that an earlier one needs, by the same words or of several keys by others, and more.
+    const std::set<std::string> special = special_of(earlier);
     const bool has_all =
-        is_special && is_within(special_of(earlier), keys) &&
+        is_special &&
+        (is_within(special, keys) ||
+         (special.size() >= 2 && is_within(names_of(special), names_of(keys)))) &&
         (!hangs_on_format(earlier) || has_format_of(facts_of(fresh.text), earlier));
     const bool is_one_less =
         keys.size() >= 3 && others.size() == keys.size() + 1 && is_within(keys, others);

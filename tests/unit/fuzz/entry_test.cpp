@@ -208,6 +208,16 @@ TEST(SameCause, WhatNeedsMoreOfTheSameIsTheSame) {
     less.erase("draw.frag_depth.value");
     less.insert("draw.cull=back");
     EXPECT_FALSE(is_same_cause(known, entry("value of sample.alpha-to-one [vulkan]", less)));
+    // Of several keys the words may be others.
+    const Entry query = entry("value of query.occlusion [practice]",
+                              {"draw.discard=odd-columns", "draw.early_tests=true",
+                               "draw.query=occlusion", "several draws"});
+    EXPECT_TRUE(is_same_cause(query, entry("value of query.occlusion [practice]",
+                                           {"draw.discard=odd-rows", "draw.early_tests=true",
+                                            "draw.query=occlusion-precise", "several samples"})));
+    EXPECT_FALSE(is_same_cause(query, entry("value of query.occlusion [practice]",
+                                            {"draw.discard=odd-rows",
+                                             "draw.query=occlusion-precise", "several samples"})));
     // But not where the known one is of its format.
     Entry of_format = known;
     of_format.needs = {"not with the format rgba8-unorm"};
