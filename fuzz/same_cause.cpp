@@ -86,6 +86,14 @@ std::string format_of(const Entry& entry) {
     return at == facts.end() ? "" : *at;
 }
 
+// Whether a rule is one of what a colour attachment holds.
+bool is_color_rule(std::string_view rule) {
+    constexpr std::array<std::string_view, 6> kRules = {
+        "store.", "blend.", "logic.", "color.location", "order.primitive", "sample.alpha-to-one"};
+    return std::ranges::any_of(kRules,
+                               [&](std::string_view word) { return rule.starts_with(word); });
+}
+
 // Whether an entry stores colours wrongly rounded: those of other formats are another cause.
 bool is_of_rounding(const Entry& entry) {
     return is_value(entry.symptom) && entry.symptom.rule.starts_with("store.") &&
@@ -115,6 +123,14 @@ std::set<std::string> with_implied(std::set<std::string> essentials) {
 }
 
 bool explains(const Entry& entry, const Symptom& symptom, const std::set<std::string>& facts) {
+    // Whatever is done with colours that are rounded otherwise is wrong as they are (is_of_stored);
+    // a reduction would say no more.
+    const bool is_of_values = is_value(symptom) || symptom.kind == diff::FindingKind::order;
+    if (symptom.status == Status::fail && is_of_rounding(entry) && special_of(entry).empty() &&
+        symptom.level == cases::Profile::direct3d && is_of_values && is_color_rule(symptom.rule) &&
+        has_format_of(facts, entry)) {
+        return true;
+    }
     std::set<std::string> words = facts;
     if (!special_of(entry).empty() && facts.contains("draw.color.attribute")) {
         words.insert("draw.color.value");  // what writes the colour is not what is special
@@ -161,11 +177,8 @@ bool is_consequence(const Entry& earlier, const Entry& fresh) {
 
 // Whether what is wrong was seen in a colour.
 bool is_of_color(const Entry& entry) {
-    constexpr std::array<std::string_view, 6> kRules = {
-        "store.", "blend.", "logic.", "color.location", "order.primitive", "sample.alpha-to-one"};
     return with_implied(entry.essentials).contains("attachments=color") ||
-           std::ranges::any_of(
-               kRules, [&](std::string_view word) { return entry.symptom.rule.starts_with(word); });
+           is_color_rule(entry.symptom.rule);
 }
 
 // Whether an entry lacks hits or has too many that are read from a colour that varies, since its
@@ -267,6 +280,12 @@ bool is_same_cause(const Entry& earlier, const Entry& fresh) {
     }
     if (is_consequence(earlier, fresh) || is_of_value(earlier, fresh) ||
         is_of_stored(earlier, fresh)) {
+        return true;
+    }
+    // What is gravest in the fresh one's own reduced case is the earlier one's: what else is wrong
+    // there follows from it, since no smaller case shows that without it.
+    if (const std::optional<Symptom> first = parse_symptom(fresh.shown_first);
+        first && explains(earlier, *first, facts_of(fresh.text))) {
         return true;
     }
     if (is_value(earlier.symptom) != is_value(fresh.symptom)) {

@@ -77,6 +77,16 @@ TEST(SameCause, WhatIsStoredWronglyRoundedIsHandedOn) {
         fresh.text = colored("rgb10a2-unorm");
         EXPECT_FALSE(is_same_cause(stored, fresh)) << symptom;
     }
+    // A failing case need not be reduced for it.
+    const std::set<std::string> facts = {"attachments=color", "draw.cull=back",
+                                         "format r5g6b5-unorm"};
+    EXPECT_TRUE(explains(stored, *parse_symptom("value of logic.operation [direct3d]"), facts));
+    EXPECT_TRUE(explains(stored, *parse_symptom("order of order.primitive [direct3d]"), facts));
+    EXPECT_FALSE(explains(stored, *parse_symptom("value of logic.operation [practice]"), facts));
+    EXPECT_FALSE(explains(stored, *parse_symptom("missing of cover.inside [direct3d]"), facts));
+    EXPECT_FALSE(explains(stored, *parse_symptom("value of depth.linear [direct3d]"), facts));
+    EXPECT_FALSE(explains(stored, *parse_symptom("value of logic.operation [direct3d]"),
+                          {"attachments=color", "format rgb10a2-unorm"}));
     // Hits that are counted do not come of a colour, nor does what a looser profile forbids.
     for (const auto& [symptom, needs] :
          {std::pair("value of logic.operation [practice]", through),
@@ -177,6 +187,23 @@ TEST(SameCause, AWrongColorMayLookLikeWrongHits) {
     std::set<std::string> counted = words;
     counted.erase("attachments=color+depth");
     EXPECT_FALSE(is_same_cause(known, entry("missing of cover.inside [vulkan]", counted)));
+}
+
+// A stencil that differs because of a depth that is biased otherwise: the reduced case shows both.
+TEST(SameCause, WhatAReducedCaseTellsFirstIsItsCause) {
+    const Entry known =
+        entry("value of depth.linear [practice]", {"draw.depth.bias.constant", "sloping depth"});
+    Entry fresh = entry("value of stencil.operation [direct3d]",
+                        {"draw.depth.bias.constant", "draw.stencil.front.pass=increment-wrap"});
+    fresh.text =
+        "format = 1\ndescription = \"d\"\nrules = [\"cover.inside\"]\n[target]\nsize = [4, 4]\n"
+        "stencil = true\n[[draw]]\nstencil = { front = { pass = \"increment-wrap\" } }\n"
+        "depth = { bias = { constant = -65536 } }\nvertices = [[0, 0, 0.25], [4, 0], [0, 4]]\n";
+    EXPECT_FALSE(is_same_cause(known, fresh));
+    fresh.shown_first = "value of depth.linear [practice]";
+    EXPECT_TRUE(is_same_cause(known, fresh));
+    fresh.shown_first = "value of interp.perspective [practice]";
+    EXPECT_FALSE(is_same_cause(known, fresh));
 }
 
 TEST(SameCause, WhichFactorTakesASecondSourceIsChance) {
