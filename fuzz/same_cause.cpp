@@ -240,10 +240,14 @@ std::set<std::string> names_of(const std::set<std::string>& words) {
 // Whether a fresh entry shows the very same by the same keys with other words, or by all but one of
 // several: that one was needed for the earlier case's numbers alone.
 bool shows_the_same(const Entry& earlier, const Entry& fresh) {
-    // What is stored wrongly, and not by its rounding, is so whatever writes it and in each format
-    // of the sort that the rule is of.
+    // What is stored wrongly, and not by its rounding, is so in each format of the sort that the
+    // rule is of. An attribute may be interpolated wrongly instead.
+    const auto is_interpolated = [](const Entry& entry) {
+        return entry.essentials.contains("draw.color.attribute");
+    };
     if (earlier.symptom == fresh.symptom && earlier.symptom.rule.starts_with("store.") &&
-        !is_of_rounding(earlier) && special_of(earlier).empty() && special_of(fresh).empty()) {
+        is_interpolated(earlier) == is_interpolated(fresh) && !is_of_rounding(earlier) &&
+        special_of(earlier).empty() && special_of(fresh).empty()) {
         return true;
     }
     // Where nothing but colours is needed, a constant and an attribute are two things: one of them
