@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <map>
 #include <utility>
 
 #include "cases/load/loader.hpp"
@@ -219,8 +218,7 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
         return std::nullopt;
     }
     const bool is_sound = can_fail_everywhere(*original);
-    std::map<std::string, CaseRecord> showing;  // by the text that shows it
-    std::set<std::string> unsupported;          // texts that the device cannot draw
+    std::set<std::string> unsupported;  // texts that the device cannot draw
     const Shows shown = [&](const std::vector<std::string>& texts) {
         std::vector<bool> out(texts.size(), false);
         const auto [cases, of] = load_all(texts);
@@ -231,9 +229,6 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
                 unsupported.insert(texts[of[k]]);
             }
             out[of[k]] = shows(records[k], symptom) && (!is_sound || can_fail_everywhere(cases[k]));
-            if (out[of[k]]) {
-                showing.emplace(texts[of[k]], records[k]);
-            }
         }
         return out;
     };
@@ -243,9 +238,9 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
     ReduceOptions options;
     options.most_rounds = most_rounds;
     const Reduced reduced = reduce(*document, shown, options);
-    const auto at = showing.find(to_text(reduced.document));
-    const std::optional<CaseRecord> last =
-        at == showing.end() ? std::nullopt : std::optional(at->second);
+    // Once more, for what it shows is told.
+    const std::optional<cases::Case> smallest = load_one(to_text(reduced.document), "reduced");
+    const CaseRecord last = smallest ? draw({*smallest}).front() : CaseRecord();
     Entry entry;
     entry.symptom = symptom;
     // What the reducer brought in, as a constant for values, is no need of the cause.
@@ -272,21 +267,19 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
     entry.is_minimal = reduced.is_minimal;
     entry.count = 1;
     entry.also.insert({symptom.kind, symptom.rule});
-    if (last && !last->findings.empty()) {
+    if (!last.findings.empty()) {
         // A run's line begins with the first finding of the gravest level.
         const diff::Finding& leading =
-            *std::min_element(last->findings.begin(), last->findings.end(),
+            *std::min_element(last.findings.begin(), last.findings.end(),
                               [](const auto& a, const auto& b) { return a.level < b.level; });
         const Symptom first{Status::fail, leading.kind, leading.rule, leading.level, {}};
         entry.shown_first = first == symptom ? "" : to_text(first);
     }
-    if (last) {
-        const auto shown_by = std::ranges::find_if(last->findings, [&](const diff::Finding& f) {
-            return f.kind == symptom.kind && f.rule == symptom.rule;
-        });
-        entry.seen = shown_by == last->findings.end() ? "" : seen_text(*shown_by);
-    }
-    for (const Symptom& other : last ? symptoms_of(*last) : std::vector<Symptom>()) {
+    const auto shown_by = std::ranges::find_if(last.findings, [&](const diff::Finding& f) {
+        return f.kind == symptom.kind && f.rule == symptom.rule;
+    });
+    entry.seen = shown_by == last.findings.end() ? "" : seen_text(*shown_by);
+    for (const Symptom& other : symptoms_of(last)) {
         entry.also.insert({other.kind, other.rule});
     }
     return entry;

@@ -240,29 +240,28 @@ std::set<std::string> names_of(const std::set<std::string>& words) {
 // Whether a fresh entry shows the very same by the same keys with other words, or by all but one of
 // several: that one was needed for the earlier case's numbers alone.
 bool shows_the_same(const Entry& earlier, const Entry& fresh) {
+    if (!(earlier.symptom == fresh.symptom)) {
+        return false;
+    }
+    const std::set<std::string> special = special_of(earlier);
+    const bool is_special = !special.empty() && !special_of(fresh).empty();
     // What is stored wrongly, and not by its rounding, is so in each format of the sort that the
     // rule is of. An attribute may be interpolated wrongly instead.
     const auto is_interpolated = [](const Entry& entry) {
         return entry.essentials.contains("draw.color.attribute");
     };
-    if (earlier.symptom == fresh.symptom && earlier.symptom.rule.starts_with("store.") &&
-        is_interpolated(earlier) == is_interpolated(fresh) && !is_of_rounding(earlier) &&
-        special_of(earlier).empty() && special_of(fresh).empty()) {
+    if (earlier.symptom.rule.starts_with("store.") && !is_of_rounding(earlier) &&
+        is_interpolated(earlier) == is_interpolated(fresh) && special.empty() &&
+        special_of(fresh).empty()) {
         return true;
     }
     // Where nothing but colours is needed, a constant and an attribute are two things: one of them
     // is interpolated.
-    const bool is_special = !special_of(fresh).empty() && !special_of(earlier).empty();
     const std::set<std::string> keys =
         is_special ? keys_of(fresh) : without(fresh.essentials, kNumbers);
     const std::set<std::string> others =
         is_special ? keys_of(earlier) : without(earlier.essentials, kNumbers);
-    if (earlier.symptom.kind != fresh.symptom.kind || earlier.symptom.rule != fresh.symptom.rule ||
-        earlier.symptom.level != fresh.symptom.level) {
-        return false;
-    }
     // All that an earlier one needs, by the same words or of several keys by others, and more.
-    const std::set<std::string> special = special_of(earlier);
     const bool has_all =
         is_special &&
         (is_within(special, keys) ||
