@@ -1,0 +1,443 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which failures are told as one cause (fuzz/same_cause.cpp).
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+#include <utility>
+
+#include "fuzz/entry.hpp"
+#include "fuzz/ledger.hpp"
+
+namespace fuzz {
+namespace {
+
+using diff::FindingKind;
+
+Entry entry(const std::string& symptom, std::set<std::string> essentials) {
+    Entry entry;
+    entry.symptom = *parse_symptom(symptom);
+    entry.essentials = std::move(essentials);
+    entry.also = {{entry.symptom.kind, entry.symptom.rule}};
+    entry.text = symptom;
+    entry.count = 1;
+    return entry;
+}
+
+TEST(SameCause, NeedsTheSameToFailInALikeWay) {
+    const Entry clamped = entry("value of depth.clamp [practice]", {"several samples"});
+    EXPECT_TRUE(is_same_cause(clamped, entry("value of depth.bias [vulkan]", {"several samples"})));
+    EXPECT_FALSE(is_same_cause(clamped, entry("value of depth.bias [vulkan]", {"draw.cull=back"})));
+    EXPECT_FALSE(is_same_cause(
+        clamped, entry("value of depth.bias [vulkan]", {"several samples", "draw.cull=back"})));
+    // Values, and who is hit, are two things.
+    const Entry hits = entry("extra of cover.outside [practice]", {"several samples"});
+    EXPECT_FALSE(is_same_cause(clamped, hits));
+    EXPECT_TRUE(is_same_cause(hits, entry("order of tie.top-left [vulkan]", {"several samples"})));
+}
+
+TEST(SameCause, NothingSpecialIsNoLikeness) {
+    const Entry plain = entry("value of depth.linear [practice]", {});
+    EXPECT_FALSE(is_same_cause(plain, entry("value of fragcoord.w [practice]", {})));
+    Entry both = entry("value of fragcoord.w [practice]", {});
+    both.also.insert({FindingKind::value, "depth.linear"});
+    EXPECT_TRUE(is_same_cause(plain, both));
+}
+
+std::string colored(const std::string& format) {
+    return "format = 1\ndescription = \"d\"\nrules = [\"cover.inside\"]\n[target]\nsize = [4, 4]\n"
+           "[target.color]\nformat = \"" +
+           format +
+           "\"\n[[draw]]\ncolor = { value = [1, 0, 0, 0] }\nvertices = [[0, 0], [4, 0], [0, 4]]\n";
+}
+
+TEST(SameCause, WhatIsStoredWronglyRoundedIsHandedOn) {
+    Entry stored = entry("value of store.unorm [direct3d]", {"color", "draw.color.value"});
+    stored.text = colored("r5g6b5-unorm");
+    const std::set<std::string> through = {"attachments=color", "color", "draw.attribute",
+                                           "draw.color.attribute", "draw.color.logic=equivalent"};
+    for (const char* symptom :
+         {"value of logic.operation [direct3d]", "order of order.primitive [direct3d]",
+          "value of blend.write-mask [direct3d]", "value of color.location [direct3d]",
+          "missing of cover.inside [direct3d]"}) {
+        Entry fresh = entry(symptom, through);
+        fresh.text = colored("r5g6b5-unorm");
+        EXPECT_TRUE(is_same_cause(stored, fresh)) << symptom;
+        fresh.text = colored("rgb10a2-unorm");
+        EXPECT_FALSE(is_same_cause(stored, fresh)) << symptom;
+    }
+    // A failing case need not be reduced for it.
+    const std::set<std::string> facts = {"attachments=color", "draw.cull=back",
+                                         "format r5g6b5-unorm"};
+    EXPECT_TRUE(explains(stored, *parse_symptom("value of logic.operation [direct3d]"), facts));
+    EXPECT_TRUE(explains(stored, *parse_symptom("order of order.primitive [direct3d]"), facts));
+    EXPECT_FALSE(explains(stored, *parse_symptom("value of logic.operation [practice]"), facts));
+    EXPECT_FALSE(explains(stored, *parse_symptom("missing of cover.inside [direct3d]"), facts));
+    EXPECT_FALSE(explains(stored, *parse_symptom("value of depth.linear [direct3d]"), facts));
+    EXPECT_FALSE(explains(stored, *parse_symptom("value of logic.operation [direct3d]"),
+                          {"attachments=color", "format rgb10a2-unorm"}));
+    // Hits that are counted do not come of a colour, nor does what a looser profile forbids.
+    for (const auto& [symptom, needs] :
+         {std::pair("value of logic.operation [practice]", through),
+          std::pair("missing of cover.inside [direct3d]",
+                    std::set<std::string>{"color", "draw.attribute", "draw.color.attribute"})}) {
+        Entry fresh = entry(symptom, needs);
+        fresh.text = colored("r5g6b5-unorm");
+        EXPECT_FALSE(is_same_cause(stored, fresh)) << symptom;
+    }
+    // Where more than colours is delivered it is another thing.
+    Entry depth = entry("value of depth.linear [direct3d]", {"draw.cull=back"});
+    depth.text = colored("r5g6b5-unorm");
+    EXPECT_FALSE(is_same_cause(stored, depth));
+    // What is stored wrongly by something special is that, by any rule of a colour.
+    Entry clipped = entry("value of store.unorm [practice]",
+                          {"draw.attribute", "draw.attribute.interpolation=noperspective"});
+    std::set<std::string> also = through;
+    also.insert("draw.attribute.interpolation=noperspective");
+    EXPECT_TRUE(is_same_cause(clipped, entry("value of stencil.compare [practice]", also)));
+    EXPECT_FALSE(is_same_cause(clipped, entry("value of stencil.compare [vulkan]", also)));
+    EXPECT_FALSE(is_same_cause(clipped, entry("value of stencil.compare [practice]", through)));
+    Entry special = entry("value of store.unorm [direct3d]", {"color", "draw.cull=back"});
+    special.text = colored("r5g6b5-unorm");
+    Entry fresh = entry("value of logic.operation [direct3d]", through);
+    fresh.text = colored("r5g6b5-unorm");
+    EXPECT_FALSE(is_same_cause(special, fresh));
+    // Of another format, or a hit, it is another cause, however alike they are.
+    Entry other = entry("value of store.unorm [direct3d]", {"color", "draw.color.value"});
+    other.text = colored("rgb10a2-unorm");
+    EXPECT_FALSE(is_same_cause(stored, other));
+    Entry samples = entry("value of store.unorm [vulkan]",
+                          {"color", "draw.attribute", "draw.color.attribute", "several samples"});
+    samples.text = colored("r5g6b5-unorm");
+    EXPECT_FALSE(is_same_cause(samples, entry("missing of cover.inside [vulkan]",
+                                              {"attachments=color", "color", "several samples"})));
+    // Of other cases it explains those with its format.
+    const Symptom again = *parse_symptom("value of store.unorm [direct3d]");
+    EXPECT_TRUE(explains(stored, again, facts_of(colored("r5g6b5-unorm"))));
+    EXPECT_FALSE(explains(stored, again, facts_of(colored("rgb10a2-unorm"))));
+}
+
+TEST(SameCause, WhatIsStoredWronglyIsSoInEachFormatOfItsSort) {
+    const Entry known = entry("value of store.half [vulkan]", {"color", "draw.color.value"});
+    const std::set<std::string> attribute = {"color", "draw.attribute", "draw.color.attribute"};
+    EXPECT_FALSE(is_same_cause(known, entry("value of store.half [vulkan]", attribute)));
+    EXPECT_TRUE(is_same_cause(
+        entry("value of store.half [vulkan]", attribute),
+        entry("value of store.half [vulkan]", {"draw.attribute", "draw.color.attribute"})));
+    EXPECT_TRUE(is_same_cause(known, entry("value of store.half [vulkan]", {"draw.color.value"})));
+    EXPECT_FALSE(is_same_cause(known, entry("value of store.half [practice]", attribute)));
+    EXPECT_FALSE(is_same_cause(known, entry("value of store.float [vulkan]", attribute)));
+    EXPECT_FALSE(is_same_cause(known, entry("value of store.half [vulkan]",
+                                            {"color", "draw.attribute", "draw.cull=back"})));
+}
+
+// Where a case counts no hits, or discards by an input, a wrong input looks like wrong hits.
+TEST(SameCause, AWrongInputMayLookLikeWrongHits) {
+    const Entry input =
+        entry("value of interp.hull [vulkan]",
+              {"draw.attribute", "draw.attribute.interpolation=noperspective", "unequal w"});
+    const std::set<std::string> words = {"draw.attribute", "draw.color.attribute",
+                                         "draw.attribute.interpolation=noperspective"};
+    const auto also = [&](const char* word) {
+        std::set<std::string> all = words;
+        all.insert(word);
+        return all;
+    };
+    for (const char* symptom :
+         {"missing of cover.inside [vulkan]", "double of cover.outside [vulkan]",
+          "extra of discard.value [direct3d]"}) {
+        EXPECT_TRUE(is_same_cause(input, entry(symptom, also("attachments=color")))) << symptom;
+        EXPECT_TRUE(is_same_cause(input, entry(symptom, also("attachments=color+depth"))));
+        EXPECT_TRUE(is_same_cause(input, entry(symptom, also("draw.discard=negative"))));
+        // Hits that are counted, and a discard by the pixel, know no input.
+        EXPECT_FALSE(is_same_cause(input, entry(symptom, words))) << symptom;
+        EXPECT_FALSE(is_same_cause(input, entry(symptom, also("draw.discard=odd-rows"))));
+        // Another state may have lost the hit.
+        std::set<std::string> culled = also("attachments=color");
+        culled.insert("draw.cull=back");
+        EXPECT_FALSE(is_same_cause(input, entry(symptom, culled)));
+        EXPECT_FALSE(is_same_cause(input, entry(symptom, {"attachments=color", "draw.attribute"})));
+    }
+    EXPECT_FALSE(
+        is_same_cause(input, entry("value of blend.equation [vulkan]", also("draw.color.blend"))));
+    const Entry plain = entry("value of interp.hull [vulkan]", {"draw.attribute", "unequal w"});
+    EXPECT_FALSE(
+        is_same_cause(plain, entry("missing of cover.inside [vulkan]", also("attachments=color"))));
+    const Entry looser = entry("value of interp.hull [direct3d]", input.essentials);
+    EXPECT_FALSE(is_same_cause(
+        looser, entry("missing of cover.inside [vulkan]", also("attachments=color"))));
+}
+
+TEST(SameCause, AWrongColorMayLookLikeWrongHits) {
+    const Entry known = entry("value of sample.alpha-to-one [vulkan]",
+                              {"attachments=color+depth", "color", "draw.color.alpha_to_one=true",
+                               "draw.color.value", "draw.frag_depth.value"});
+    const std::set<std::string> words = {"attachments=color+depth", "color",
+                                         "draw.color.alpha_to_one=true", "draw.color.value",
+                                         "draw.frag_depth.value"};
+    EXPECT_TRUE(is_same_cause(known, entry("missing of cover.inside [vulkan]", words)));
+    std::set<std::string> more = words;
+    more.insert("draw.cull=back");
+    EXPECT_FALSE(is_same_cause(known, entry("missing of cover.inside [vulkan]", more)));
+    std::set<std::string> from = words;
+    from.erase("draw.frag_depth.value");
+    from.insert("draw.frag_depth.from=frag-coord");  // another way to write a depth
+    EXPECT_TRUE(is_same_cause(known, entry("missing of stencil.compare [vulkan]", from)));
+    EXPECT_TRUE(is_same_cause(known, entry("value of sample.alpha-to-one [vulkan]", from)));
+    std::set<std::string> less = words;
+    less.erase("draw.color.alpha_to_one=true");
+    EXPECT_FALSE(is_same_cause(known, entry("missing of cover.inside [vulkan]", less)));
+    std::set<std::string> counted = words;
+    counted.erase("attachments=color+depth");
+    EXPECT_FALSE(is_same_cause(known, entry("missing of cover.inside [vulkan]", counted)));
+}
+
+// A stencil that differs because of a depth that is biased otherwise: the reduced case shows both.
+TEST(SameCause, WhatAReducedCaseTellsFirstIsItsCause) {
+    const Entry known =
+        entry("value of depth.linear [practice]", {"draw.depth.bias.constant", "sloping depth"});
+    Entry fresh = entry("value of stencil.operation [direct3d]",
+                        {"draw.depth.bias.constant", "draw.stencil.front.pass=increment-wrap"});
+    fresh.text =
+        "format = 1\ndescription = \"d\"\nrules = [\"cover.inside\"]\n[target]\nsize = [4, 4]\n"
+        "stencil = true\n[[draw]]\nstencil = { front = { pass = \"increment-wrap\" } }\n"
+        "depth = { bias = { constant = -65536 } }\nvertices = [[0, 0, 0.25], [4, 0], [0, 4]]\n";
+    EXPECT_FALSE(is_same_cause(known, fresh));
+    fresh.shown_first = "value of depth.linear [practice]";
+    EXPECT_TRUE(is_same_cause(known, fresh));
+    fresh.shown_first = "value of interp.perspective [practice]";
+    EXPECT_FALSE(is_same_cause(known, fresh));
+}
+
+TEST(SameCause, WhichFactorTakesASecondSourceIsChance) {
+    const char* const symptom = "value of sample.alpha-to-one [vulkan]";
+    const Entry known =
+        entry(symptom, {"attachments=color", "color", "color.clear", "draw.color.alpha_to_one=true",
+                        "draw.color.blend.destination", "draw.color.second", "draw.color.value"});
+    EXPECT_TRUE(is_same_cause(
+        known, entry(symptom, {"attachments=color", "color", "draw.color.alpha_to_one=true",
+                               "draw.color.blend.source", "draw.color.second"})));
+    // Without a second source factors are no chance.
+    EXPECT_FALSE(is_same_cause(
+        known, entry(symptom, {"attachments=color", "color", "draw.color.alpha_to_one=true",
+                               "draw.color.blend.source"})));
+}
+
+TEST(SameCause, WhatNeedsMoreOfTheSameIsTheSame) {
+    const Entry known = entry("value of sample.alpha-to-one [vulkan]",
+                              {"attachments=color+depth", "color", "draw.color.alpha_to_one=true",
+                               "draw.color.value", "draw.frag_depth.value"});
+    const std::set<std::string> more = {"attachments=color+depth", "color",
+                                        "draw.attribute",          "draw.color.alpha_to_one=true",
+                                        "draw.color.attribute",    "draw.frag_depth.value",
+                                        "several samples"};
+    EXPECT_TRUE(is_same_cause(known, entry("value of sample.alpha-to-one [vulkan]", more)));
+    EXPECT_FALSE(is_same_cause(known, entry("value of sample.alpha-to-one [practice]", more)));
+    EXPECT_FALSE(is_same_cause(known, entry("value of store.unorm [vulkan]", more)));
+    std::set<std::string> less = more;
+    less.erase("draw.frag_depth.value");
+    less.insert("draw.cull=back");
+    EXPECT_FALSE(is_same_cause(known, entry("value of sample.alpha-to-one [vulkan]", less)));
+    // Of several keys the words may be others.
+    const Entry query = entry("value of query.occlusion [practice]",
+                              {"draw.discard=odd-columns", "draw.early_tests=true",
+                               "draw.query=occlusion", "several draws"});
+    EXPECT_TRUE(is_same_cause(query, entry("value of query.occlusion [practice]",
+                                           {"draw.discard=odd-rows", "draw.early_tests=true",
+                                            "draw.query=occlusion-precise", "several samples"})));
+    EXPECT_FALSE(is_same_cause(query, entry("value of query.occlusion [practice]",
+                                            {"draw.discard=odd-rows",
+                                             "draw.query=occlusion-precise", "several samples"})));
+    // But not where the known one is of its format.
+    Entry of_format = known;
+    of_format.needs = {"not with the format rgba8-unorm"};
+    of_format.text = colored("r5g6b5-unorm");
+    Entry other = entry("value of sample.alpha-to-one [vulkan]", more);
+    other.text = colored("rgba16-float");
+    EXPECT_FALSE(is_same_cause(of_format, other));
+    other.text = colored("r5g6b5-unorm");
+    EXPECT_TRUE(is_same_cause(of_format, other));
+    // A failing case need not write its colour as the known one does.
+    EXPECT_TRUE(explains(known, *parse_symptom("value of sample.alpha-to-one [vulkan]"),
+                         with_implied(more)));
+}
+
+TEST(SameCause, WhatNeedsAFormatExplainsThatFormat) {
+    Entry integers = entry("value of sample.alpha-to-one [vulkan]", {"color"});
+    integers.text = colored("rgba8-uint");
+    integers.needs = {"not without a colour target", "not with the format rgba8-unorm"};
+    const Symptom again = *parse_symptom("value of sample.alpha-to-one [vulkan]");
+    EXPECT_TRUE(explains(integers, again, facts_of(colored("rgba8-uint"))));
+    EXPECT_FALSE(explains(integers, again, facts_of(colored("rgba8-unorm"))));
+    // What was reduced of another one, and is the same, is explained from then on.
+    Entry other = entry("value of sample.alpha-to-one [vulkan]", {"color"});
+    other.text = colored("r32-uint");
+    EXPECT_FALSE(explains(integers, again, facts_of(colored("r32-uint"))));
+    merge(integers, other);
+    EXPECT_TRUE(explains(integers, again, facts_of(colored("r32-uint"))));
+    EXPECT_FALSE(explains(integers, again, facts_of(colored("rgba8-unorm"))));
+    integers.needs = {"not without a colour target"};
+    EXPECT_TRUE(explains(integers, again, facts_of(colored("rgba8-unorm"))));
+}
+
+TEST(SameCause, AlphaToCoverageDecidesWhoIsHit) {
+    const Entry integers = entry(
+        "missing of sample.alpha-to-coverage [vulkan]",
+        {"attachments=color", "color", "draw.color.alpha_to_coverage=true", "draw.color.value"});
+    const std::set<std::string> beside = {"attachments=color+depth", "color",
+                                          "draw.color.attribute",
+                                          "draw.color.alpha_to_coverage=true", "several samples"};
+    EXPECT_TRUE(is_same_cause(integers, entry("order of order.primitive [vulkan]", beside)));
+    EXPECT_TRUE(is_same_cause(integers, entry("missing of cover.inside [vulkan]", beside)));
+    EXPECT_FALSE(is_same_cause(
+        integers, entry("missing of cover.inside [vulkan]", {"attachments=color+depth", "color"})));
+}
+
+TEST(SameCause, AConstantAndAnAttributeAreTwoWaysToWriteAColor) {
+    const Entry constant =
+        entry("value of sample.alpha-to-one [vulkan]",
+              {"attachments=color+depth", "color", "draw.color.alpha_to_one=true",
+               "draw.color.value", "draw.shader_mask"});
+    std::set<std::string> words = {"attachments=color",    "color",
+                                   "draw.attribute",       "draw.color.alpha_to_one=true",
+                                   "draw.color.attribute", "draw.shader_mask"};
+    EXPECT_TRUE(is_same_cause(constant, entry("value of sample.alpha-to-one [vulkan]", words)));
+    // Where nothing else is needed an attribute may be interpolated wrongly.
+    EXPECT_FALSE(
+        is_same_cause(entry("value of store.unorm [vulkan]", {"color", "draw.color.value"}),
+                      entry("value of store.unorm [vulkan]",
+                            {"color", "draw.attribute", "draw.color.attribute"})));
+    words.erase("draw.shader_mask");
+    words.insert("draw.cull=back");
+    EXPECT_FALSE(is_same_cause(constant, entry("value of sample.alpha-to-one [vulkan]", words)));
+}
+
+TEST(SameCause, WhatElseAThinTriangleNeedsIsChance) {
+    const Entry thin = entry("value of interp.hull [vulkan]", {kThinTriangle});
+    const Entry more = entry("value of depth.linear [vulkan]", {kThinTriangle, "unequal w"});
+    EXPECT_TRUE(is_same_cause(thin, more));
+    EXPECT_TRUE(is_same_cause(more, thin));
+    EXPECT_FALSE(is_same_cause(more, entry("value of depth.linear [vulkan]", {"unequal w"})));
+}
+
+TEST(SameCause, TwoThinTrianglesMayNeedWhateverNumbers) {
+    const Entry samples =
+        entry("value of interp.hull [vulkan]", {kThinTriangle, "several samples"});
+    const Entry slope = entry("value of depth.linear [practice]", {kThinTriangle, "sloping depth"});
+    EXPECT_TRUE(is_same_cause(samples, slope));
+    EXPECT_FALSE(
+        is_same_cause(entry("value of interp.hull [vulkan]", {kThinTriangle, "color"}),
+                      entry("value of interp.hull [vulkan]", {kThinTriangle, "draw.cull=back"})));
+}
+
+TEST(SameCause, NumbersAreChanceBesideAKey) {
+    const Entry linear = entry("value of interp.linear [practice]", {"draw.attribute"});
+    EXPECT_TRUE(is_same_cause(
+        linear, entry("value of interp.hull [vulkan]", {"draw.attribute", "unequal w"})));
+    // Less grave by far, it is another thing.
+    EXPECT_FALSE(is_same_cause(
+        linear, entry("value of interp.hull [direct3d]", {"draw.attribute", "unequal w"})));
+    // Several samples alone are no key.
+    EXPECT_FALSE(
+        is_same_cause(entry("value of depth.linear [vulkan]", {"several samples", "sloping depth"}),
+                      entry("value of fragcoord.w [vulkan]", {"several samples", "unequal w"})));
+}
+
+TEST(SameCause, WhatFollowsFromWrongHitsIsNoNews) {
+    const Entry scissor =
+        entry("extra of scissor.half-open [vulkan]", {"draw.scissor", "several samples"});
+    const std::set<std::string> needs = {"draw.scissor", "draw.stencil.pass", "several samples"};
+    EXPECT_TRUE(is_same_cause(scissor, entry("value of stencil.operation [vulkan]", needs)));
+    EXPECT_TRUE(is_same_cause(scissor, entry("value of discard.fragment [direct3d]", needs)));
+    // Without the scissor, or with one sample, it is another thing.
+    EXPECT_FALSE(is_same_cause(scissor, entry("value of stencil.operation [vulkan]",
+                                              {"draw.stencil.pass", "several samples"})));
+    EXPECT_FALSE(is_same_cause(scissor, entry("value of stencil.operation [vulkan]",
+                                              {"draw.scissor", "draw.stencil.pass"})));
+    // Of wrong values, and of hits with nothing to blame, nothing follows.
+    EXPECT_FALSE(is_same_cause(entry("value of depth.linear [vulkan]", {"draw.scissor"}),
+                               entry("value of stencil.operation [vulkan]", needs)));
+    EXPECT_FALSE(is_same_cause(entry("extra of cover.outside [vulkan]", {"several samples"}),
+                               entry("value of stencil.operation [vulkan]", needs)));
+    EXPECT_FALSE(is_same_cause(
+        entry("missing of cover.inside [vulkan]", {"draw.color.value", "draw.attribute"}),
+        entry("value of blend.equation [vulkan]",
+              {"draw.color.value", "draw.attribute", "color"})));
+}
+
+TEST(SameCause, OtherWordsOfTheSameKeysAreTheSame) {
+    const Entry back =
+        entry("value of query.occlusion [practice]",
+              {"draw.discard=back", "draw.early_tests=true", "draw.query=occlusion"});
+    std::set<std::string> odd = {"draw.discard=odd-rows", "draw.early_tests=true",
+                                 "draw.query=occlusion-precise"};
+    EXPECT_TRUE(is_same_cause(back, entry("value of query.occlusion [practice]", odd)));
+    EXPECT_FALSE(is_same_cause(back, entry("value of query.occlusion [vulkan]", odd)));
+    odd.erase("draw.early_tests=true");
+    EXPECT_FALSE(is_same_cause(back, entry("value of query.occlusion [practice]", odd)));
+}
+
+TEST(SameCause, OneKeyLessOfSeveralIsTheSame) {
+    const std::set<std::string> keys = {"draw.attribute", "draw.attribute.auxiliary=centroid",
+                                        "draw.depth.compare", "draw.sample_mask"};
+    const Entry masked = entry("value of interp.centroid [direct3d]", keys);
+    std::set<std::string> fewer = keys;
+    fewer.erase("draw.sample_mask");
+    fewer.insert("sloping depth");
+    EXPECT_TRUE(is_same_cause(masked, entry("value of interp.centroid [direct3d]", fewer)));
+    EXPECT_FALSE(is_same_cause(masked, entry("value of interp.centroid [practice]", fewer)));
+    EXPECT_FALSE(is_same_cause(masked, entry("value of interp.sample [direct3d]", fewer)));
+    fewer.erase("draw.depth.compare");
+    EXPECT_FALSE(is_same_cause(masked, entry("value of interp.centroid [direct3d]", fewer)));
+}
+
+TEST(SameCause, AKnownOneThatIsGraverIsNews) {
+    Entry known = entry("value of depth.linear [practice]", {"several samples"});
+    known.is_known = true;
+    EXPECT_FALSE(is_same_cause(known, entry("value of depth.linear [vulkan]", known.essentials)));
+    EXPECT_TRUE(is_same_cause(known, entry("value of depth.bias [direct3d]", known.essentials)));
+}
+
+TEST(SameCause, DeathsAreOfTheSameSignal) {
+    const Entry crash = entry("crash by SIGSEGV", {"draw.scissor"});
+    EXPECT_TRUE(is_same_cause(crash, entry("crash by SIGSEGV", {"draw.scissor"})));
+    EXPECT_FALSE(is_same_cause(crash, entry("crash by SIGABRT", {"draw.scissor"})));
+    EXPECT_FALSE(is_same_cause(crash, entry("crash by SIGSEGV", {})));
+    EXPECT_FALSE(is_same_cause(crash, entry("extra of cover.outside [vulkan]", {"draw.scissor"})));
+}
+
+TEST(Merge, KeepsTheGraverCase) {
+    Entry earlier = entry("value of depth.linear [practice]", {kThinTriangle});
+    earlier.file = "found/001-depth.linear.toml";
+    earlier.count = 7;
+    merge(earlier, entry("value of interp.hull [practice]", {kThinTriangle, "unequal w"}));
+    EXPECT_EQ(earlier.text, "value of depth.linear [practice]");
+    EXPECT_EQ(earlier.file, "found/001-depth.linear.toml");
+    EXPECT_THAT(earlier.also, testing::SizeIs(2));
+    merge(earlier, entry("value of interp.hull [vulkan]", {kThinTriangle, "unequal w"}));
+    EXPECT_EQ(earlier.text, "value of interp.hull [vulkan]");
+    EXPECT_EQ(to_text(earlier.symptom), earlier.text);
+    EXPECT_EQ(earlier.file, "");
+    EXPECT_EQ(earlier.stale_file, "found/001-depth.linear.toml");
+    EXPECT_THAT(earlier.essentials, testing::ElementsAre(kThinTriangle));
+    EXPECT_THAT(earlier.also, testing::SizeIs(2));
+    EXPECT_EQ(earlier.count, 7U);
+    // A second one before it was kept: the file that is there is still the one to go.
+    merge(earlier, entry("value of depth.linear [vulkan]", {kThinTriangle}));
+    EXPECT_EQ(earlier.stale_file, "found/001-depth.linear.toml");
+}
+
+TEST(Merge, LeavesAKnownCauseAsItIs) {
+    Entry known = entry("value of depth.linear [practice]", {kThinTriangle, "color"});
+    known.is_known = true;
+    known.file = "known/001.toml";
+    merge(known, entry("value of depth.bias [practice]", {kThinTriangle}));
+    EXPECT_EQ(known.file, "known/001.toml");
+    EXPECT_THAT(known.essentials, testing::SizeIs(2));
+    EXPECT_THAT(known.also, testing::SizeIs(2));
+}
+
+}  // namespace
+}  // namespace fuzz
