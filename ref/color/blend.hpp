@@ -8,12 +8,10 @@
 // no lower than that used to represent destination components". So every intermediate (source,
 // factor, product, sum) may be rounded to either neighbour in the destination's format, or not at
 // all; what the format holds exactly stays exact, which covers factors 0 and 1 and sums that are
-// representable. What an sRGB target holds is decoded first (Component::read). The text does not
-// order the computation, and Direct3D 11.3, 17.5, permits reordering: where the factors are f and 1
-// - f, or f twice, drivers save a product, as d + f (s - d), which then is what stays exact, too.
-// With fixed-point targets that is within what neighbours allow (UNORM), or done in binary32
-// (sRGB). With fixed-point targets source, destination,
-// constants, factors and the result are clamped to [0, 1].
+// representable. What an sRGB target holds is decoded first (Component::read). The computation may
+// be done in another order (blend_order.hpp), of which then stays exact what is exact in both. With
+// fixed-point targets that is within what neighbours allow (UNORM), or done in binary32 (sRGB);
+// source, destination, constants, factors and the result are clamped to [0, 1].
 //
 // Logical operations (ref/color/logic.hpp) take the place of blending.
 #pragma once

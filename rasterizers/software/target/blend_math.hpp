@@ -53,6 +53,31 @@ inline bool are_complements(BlendFactor a, BlendFactor b) {
            is_of(BlendFactor::src1_alpha, BlendFactor::one_minus_src1_alpha);
 }
 
+// The blend with one and zero by these names where state makes factors so: the alpha of a source
+// that alpha to one replaces, and of a target that has none.
+inline cases::Blend with_known_factors(cases::Blend blend, bool is_source_alpha_one,
+                                       bool is_target_alpha_one) {
+    const auto know = [&](BlendFactor& factor, bool is_alpha) {
+        const bool is_source =
+            factor == BlendFactor::src_alpha || (is_alpha && factor == BlendFactor::src_color);
+        const bool is_less_source = factor == BlendFactor::one_minus_src_alpha ||
+                                    (is_alpha && factor == BlendFactor::one_minus_src_color);
+        if ((is_source && is_source_alpha_one) ||
+            (factor == BlendFactor::dst_alpha && is_target_alpha_one) ||
+            (factor == BlendFactor::src_alpha_saturate && is_alpha)) {
+            factor = BlendFactor::one;
+        } else if ((is_less_source && is_source_alpha_one) ||
+                   (factor == BlendFactor::one_minus_dst_alpha && is_target_alpha_one)) {
+            factor = BlendFactor::zero;
+        }
+    };
+    for (cases::BlendEquation* equation : {&blend.color, &blend.alpha}) {
+        know(equation->source, equation == &blend.alpha);
+        know(equation->destination, equation == &blend.alpha);
+    }
+    return blend;
+}
+
 // s f + d g and the like with f + g = 1: whichever of them is the complement is not used.
 inline float with_one_product(BlendOp op, float s, float f, float d, float g, bool is_by_source) {
     const float sum = op == BlendOp::add ? (is_by_source ? s - d : d - s) : s + d;

@@ -160,7 +160,10 @@ Texel BlendUnit::write(const cases::ColorOutput& output, const glm::vec4& writte
     } else {
         glm::vec4 s = source;
         glm::vec4 d(0, 0, 0, 1);
-        cases::Blend clamped = *equation;
+        cases::Blend clamped =
+            device_.blend == BlendMath::one_product
+                ? with_known_factors(*equation, output.alpha_to_one, channels[3].bits == 0)
+                : *equation;
         if (output.alpha_to_one && device_.fault == Fault::alpha_to_one_of_second) {
             clamped.second.w = 1;
         }
