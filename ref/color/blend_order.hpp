@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a blend unit may compute in place of the equation as the text has it: where the factors are f
-// and 1 - f, as one and zero are, or f twice, drivers save a product, as d + f (s - d). Source: Vulkan
-// specification, "Blending", which does not order the computation; Direct3D 11.3 functional
+// What a blend unit may compute in place of the equation as the text has it: where the factors are
+// f and 1 - f, as one and zero are, or f twice, drivers save a product, as d + f (s - d). Source:
+// Vulkan specification, "Blending", which does not order the computation; Direct3D 11.3 functional
 // specification, 17.5, "operations are considered to be fused, and reordering is permitted". All
 // numbers are rationals.
 #pragma once
@@ -21,8 +21,9 @@ namespace ref::color {
 // takes such sources for 0.
 Interval held(const Component& component, const Interval& v);
 
-// What state makes 1 of a factor, or 0, so that a device may take it for that: the alpha of a target
-// without one and of a source that alpha to one replaces, and the saturated alpha of an alpha.
+// What state makes 1 of a factor, or 0, so that a device may take it for that: the alpha of a
+// target without one and of a source that alpha to one replaces, and the saturated alpha of an
+// alpha.
 struct KnownFactors {
     bool is_source_alpha_one = false, is_target_alpha_one = false;
 

@@ -78,6 +78,11 @@ inline cases::Blend with_known_factors(cases::Blend blend, bool is_source_alpha_
     return blend;
 }
 
+// Whether of two complements the first one is no complement by its name.
+inline bool is_plain_first(BlendFactor first, BlendFactor second) {
+    return first == BlendFactor::one || (first != BlendFactor::zero && first < second);
+}
+
 // s f + d g and the like with f + g = 1: whichever of them is the complement is not used.
 inline float with_one_product(BlendOp op, float s, float f, float d, float g, bool is_by_source) {
     const float sum = op == BlendOp::add ? (is_by_source ? s - d : d - s) : s + d;
@@ -235,7 +240,8 @@ std::array<typename Math::Value, 4> blend_all(const cases::Blend& blend, Operand
         if constexpr (std::is_same_v<Math, FloatMath>) {
             if (math.has_one_product && op != BlendOp::min && op != BlendOp::max &&
                 are_complements(equation.source, equation.destination)) {
-                out[k] = with_one_product(op, s, f, d, g, equation.source < equation.destination);
+                out[k] = with_one_product(op, s, f, d, g,
+                                          is_plain_first(equation.source, equation.destination));
                 continue;
             }
         }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "cases/load/loader.hpp"
 #include "diff/color.hpp"
@@ -85,6 +86,30 @@ TEST(ReduceCase, TellsWhatTheDeviceLeft) {
     EXPECT_THAT(found_text(*entry, ledger),
                 testing::HasSubstr("\n# Seen: pixel (3, 1), sample 2: depth: expected 0.5, "
                                    "got 0.75; it is another sample's.\n"));
+}
+
+// What is told is of the entry's own case, not of a larger one that showed it, too.
+TEST(ReduceCase, TellsWhatItsOwnCaseShows) {
+    const auto size_of = [](const cases::Case& c) {
+        return std::to_string(c.target.width * c.target.height);
+    };
+    const Draw draw = [&](const std::vector<cases::Case>& all) {
+        std::vector<CaseRecord> records = draw_sample_depth(all);
+        for (size_t k = 0; k < all.size(); ++k) {
+            for (const auto& group : records[k].groups) {
+                records[k].findings.push_back({group.kind, group.rule, group.level, 0, 0, 0, "",
+                                               "none", size_of(all[k]) + " pixels", "so"});
+            }
+        }
+        return records;
+    };
+    const auto entry =
+        reduce_case(kClamped, *parse_symptom("value of depth.clamp [vulkan]"), draw, 400);
+    ASSERT_TRUE(entry);
+    const auto loaded = cases::load_text(entry->text, "reduced.toml", "reduced");
+    ASSERT_TRUE(loaded) << entry->text;
+    EXPECT_THAT(entry->seen, testing::HasSubstr("got " + size_of(loaded->front()) + " pixels"));
+    EXPECT_NE(size_of(loaded->front()), size_of(*load_one(kClamped, "drawn")));
 }
 
 // A picture of colours alone, in which every sample may keep the clear colour, proves nothing.
