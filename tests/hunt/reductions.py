@@ -104,6 +104,10 @@ def main():
     parser.add_argument("--count", type=int, default=100)
     parser.add_argument("--page", action="store_true", help="write the table into docs/fuzzing.md")
     options = parser.parse_args()
+    if not pathlib.Path(PROGRAM).is_file() or not pathlib.Path(LAYER).is_dir():
+        parser.error(f"{PROGRAM} or {LAYER} is missing; build them with 'scripts/build release --tests breaking_layer'")
+    if options.count < 1:
+        parser.error("--count: write a whole number from 1 on")
     rows = []
     for fault, number in chosen(2 * options.count):
         with tempfile.TemporaryDirectory() as folder:
