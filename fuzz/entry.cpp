@@ -228,8 +228,7 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
     if (!document || !original) {
         return std::nullopt;
     }
-    // A reduced case is as sound as the one that was drawn: what no picture is wrong of fails by
-    // chance alone, as by what the memory held.
+    // A reduced case is as sound as the one that was drawn.
     const std::optional<cases::Profile> sound_at = loosest_sound(*original);
     std::set<std::string> unsupported;  // texts that the device cannot draw
     const Shows shown = [&](const std::vector<std::string>& texts) {

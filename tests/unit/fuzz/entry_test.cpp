@@ -113,8 +113,7 @@ TEST(ReduceCase, TellsWhatItsOwnCaseShows) {
 }
 
 // At vulkan this sliver need not cover its sample, so that no picture is wrong there; at direct3d
-// it has to, and to be seen. A hunt of the fault clear-color-lost reduced such a case to one that
-// no run can judge.
+// it has to, and to be seen.
 TEST(ReduceCase, StaysAsSoundAsTheDrawnCase) {
     const std::string text =
         "format = 1\ndescription = \"D\"\nrules = [\"cover.inside\"]\n[target]\nsize = [1, 1]\n"
