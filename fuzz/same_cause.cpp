@@ -158,11 +158,12 @@ bool explains(const Entry& entry, const Symptom& symptom, const std::set<std::st
 
 namespace {
 
-// Whether a word says which fragments there are: a state of a draw, not what it writes.
+// Whether a word says which fragments there are: a state of a draw, not what it writes, nor where
+// in a pixel that is evaluated.
 bool decides_hits(const std::string& word) {
     return word.starts_with("draw.color.alpha_to_coverage") ||
            (word.starts_with("draw.") && !word.starts_with("draw.attribute") &&
-            !word.starts_with("draw.color"));
+            !word.starts_with("draw.color") && !word.starts_with("draw.min_sample_shading"));
 }
 
 // Whether an earlier entry hits too much or too little by something special that the fresh one
@@ -226,6 +227,16 @@ bool is_of_stored(const Entry& earlier, const Entry& fresh) {
     }
     return is_of_rounding(earlier) && fresh.symptom.level == cases::Profile::direct3d &&
            format_of(earlier) == format_of(fresh);
+}
+
+// Whether an entry has values at a wrong centroid that some test moves: one that leaves samples of
+// a fragment, as those of depth and stencil and the sample mask do.
+bool is_moved_centroid(const Entry& entry) {
+    return is_value(entry.symptom) &&
+           (entry.symptom.rule == "interp.centroid" ||
+            entry.symptom.rule == "interp.at-centroid") &&
+           entry.essentials.contains("several samples") &&
+           std::ranges::any_of(entry.essentials, decides_hits);
 }
 
 // "draw.discard" of "draw.discard=front".
@@ -300,7 +311,10 @@ bool is_same_cause(const Entry& earlier, const Entry& fresh) {
     if (is_value(earlier.symptom) != is_value(fresh.symptom)) {
         return false;
     }
-    if (shows_the_same(earlier, fresh)) {
+    // Which test leaves those samples, and whether the input or the shader asks for the centroid,
+    // is chance.
+    if (shows_the_same(earlier, fresh) || (is_moved_centroid(earlier) && is_moved_centroid(fresh) &&
+                                           earlier.symptom.level <= fresh.symptom.level)) {
         return true;
     }
     const bool is_same_rule =

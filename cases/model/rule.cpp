@@ -498,7 +498,7 @@ constexpr std::array kRules = {
     Rule{rule::lod_query, Profile::vulkan, "A level of detail follows from the quad's differences",
          "log2 rho with max(m) <= rho <= sqrt(2) sum(m), to mipmapPrecisionBits bits, of the "
          "differences of any row and column of the quad; those within the binary32 budget from "
-         "profile practice on.",
+         "profile practice on. Out of range, where no bias selects a level, it may end earlier.",
          "textures-lod-and-scale-factor", "7.18.11", "ref/value/accept/probe.hpp"},
     Rule{rule::stencil_count, Profile::vulkan, "The stencil counts as the fragments do",
          "Where stencil and depth test pass, front faces add one and back faces subtract one, "

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -13,20 +14,91 @@
 
 namespace fuzz {
 
+namespace {
+
+template <class Predicate>
+bool any_draw(const cases::Case& c, Predicate holds) {
+    return std::ranges::any_of(c.draws, holds);
+}
+
+bool is_restarted(const cases::Case& c) {
+    return any_draw(c, [](const cases::Draw& draw) { return draw.primitive_restart; });
+}
+
+bool has_bare_strip(const cases::Case& c) {
+    return any_draw(c, [](const cases::Draw& draw) {
+        return draw.topology != cases::Topology::triangle_list && !draw.indices;
+    });
+}
+
+// State that a pipeline may hold, and that few draws have.
+bool has_rare_state(const cases::Case& c) {
+    return any_draw(c, [](const cases::Draw& draw) {
+        return draw.rasterizer_discard || draw.depth.bias || draw.cull != cases::CullMode::none ||
+               draw.front_face != cases::FrontFace::counter_clockwise;
+    });
+}
+
+bool has_rare_output(const cases::Case& c) {
+    return any_draw(c, [](const cases::Draw& draw) {
+        return draw.color.alpha_to_coverage || draw.color.alpha_to_one;
+    });
+}
+
+bool is_any(const cases::Case&) {
+    return true;
+}
+
+// What shows what a door may get wrong, and what is seldom drawn together with it by chance.
+struct Suited {
+    cases::Door door;
+    bool (*suits)(const cases::Case&);
+};
+constexpr std::array<Suited, 14> kSuited = {{
+    {cases::Door::index_8, is_restarted},
+    {cases::Door::index_8_largest, is_restarted},
+    {cases::Door::index_16, is_restarted},
+    {cases::Door::index_16_largest, is_restarted},
+    {cases::Door::restart_extra, is_restarted},
+    {cases::Door::state_unused, has_bare_strip},
+    {cases::Door::clear_draw, has_bare_strip},
+    {cases::Door::state_static, has_rare_state},
+    {cases::Door::state_output, has_rare_output},
+    {cases::Door::instance_rate, is_any},  // these take few cases
+    {cases::Door::instance_divisor, is_any},
+    {cases::Door::instance_divisor_zero, is_any},
+    {cases::Door::exact_formats, is_any},
+    {cases::Door::target_last_tile, is_any},
+}};
+
+}  // namespace
+
 std::string through_doors(std::string text, Dice dice) {
     const auto c = cases::load_text(text, "fuzz", "fuzz");
     if (!c || c->size() != 1) {
         return text;
     }
+    const cases::Case& test = c->front();
     std::vector<std::string> words;
-    for (uint64_t k = 0; k < 2; ++k) {
-        const std::span<const cases::DoorRow> rows = cases::all_doors();
-        const cases::DoorRow& row = rows[dice.below(rows.size())];
+    const auto add = [&](const cases::DoorRow& row) {
         const std::string word = fmt::format("\"{}\"", row.word);
-        if (cases::can_take(row.door, c->front()) &&
+        if (cases::can_take(row.door, test) &&
             std::find(words.begin(), words.end(), word) == words.end()) {
             words.push_back(word);
         }
+    };
+    for (uint64_t k = 0; k < 2; ++k) {
+        const std::span<const cases::DoorRow> rows = cases::all_doors();
+        add(rows[dice.below(rows.size())]);
+    }
+    std::vector<cases::Door> suited;
+    for (const auto& [door, suits] : kSuited) {
+        if (cases::can_take(door, test) && suits(test)) {
+            suited.push_back(door);
+        }
+    }
+    if (!suited.empty() && dice.one_in(2)) {
+        add(cases::row_of(suited[dice.below(suited.size())]));
     }
     if (!words.empty()) {
         text.insert(text.find("\n[target]"),

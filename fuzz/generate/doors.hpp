@@ -10,7 +10,7 @@
 
 namespace fuzz {
 
-// A case's text with the relation that it goes through one or two doors, if it can take them. The
+// A case's text with the relation that it goes through one to three doors, if it can take them. The
 // dice are a turn's, so that its cases take the same.
 std::string through_doors(std::string text, Dice dice);
 

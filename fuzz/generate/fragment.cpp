@@ -69,6 +69,33 @@ double StoredDepths::near(Dice& dice) const {
     return normal(static_cast<float>(std::clamp(depth, 0.0, 1.0)));
 }
 
+std::string bias_of(const Pose& pose, Dice& turn, Dice& control) {
+    std::vector<std::string> parts;
+    const bool has_constant = !pose.is("bias", "slope");
+    if (has_constant) {
+        // Few steps are lost in what interpolated depths may differ by.
+        const int64_t scale = int64_t{1} << (turn.one_in(2) ? 0 : turn.below(17));
+        parts.push_back(fmt::format("constant = {}", turn.between(-9, 9) * scale));
+    }
+    if (!pose.is("bias", "constant")) {
+        parts.push_back(fmt::format("slope = {}", turn.fraction(-8, 8, 4)));
+    }
+    if (pose.is("bias", "clamped")) {
+        parts.push_back(fmt::format("clamp = {}", turn.fraction(-8, 8, 64)));
+    }
+    if (has_constant && control.one_in(4)) {
+        constexpr std::array<std::string_view, 3> kOfR = {"format", "force-unorm", "float"};
+        const std::string_view representation = control.of(kOfR);
+        if (representation != "format") {
+            parts.push_back(fmt::format("representation = \"{}\"", representation));
+        }
+        if (representation == "format" || control.one_in(2)) {
+            parts.emplace_back("exact = true");
+        }
+    }
+    return fmt::format("{{ {} }}", fmt::join(parts, ", "));
+}
+
 std::string bounds_of(const Pose& pose, size_t number, size_t draws, const StoredDepths& stored,
                       Dice& dice) {
     // Early draws mostly store what later ones test.

@@ -31,6 +31,10 @@ class StoredDepths {
     std::vector<double> depths_;
 };
 
+// `{ constant = 3, slope = 0.5 }`. What r is, which few devices let a draw say, is said in some
+// cases by `control` alone: the others of such a pose are drawn everywhere.
+std::string bias_of(const Pose& pose, Dice& turn, Dice& control);
+
 // `[minimum, maximum]` of draw `number` of `draws`; empty without a test.
 std::string bounds_of(const Pose& pose, size_t number, size_t draws, const StoredDepths& stored,
                       Dice& dice);

@@ -30,7 +30,7 @@ namespace {
 
 // Streams of the dice (dice.hpp): poses take 1.
 constexpr uint64_t kStateStream = 2, kGeometryStream = 3, kTurnStream = 7, kDoorStream = 8,
-                   kBesideStream = 9;
+                   kBesideStream = 9, kControlStream = 10;
 // State with many words, as the factors of blending, has several turns in a pose, one for so many
 // geometries.
 constexpr uint64_t kGeometriesOfTurn = 16;
@@ -41,8 +41,9 @@ std::string joined(const std::vector<std::string>& words) {
 
 class CaseWriter {
   public:
-    CaseWriter(const Pose& pose, const Dice& state, const Dice& turn, const Dice& geometry)
-        : pose_(pose), state_(state), turn_(turn), dice_(geometry) {
+    CaseWriter(const Pose& pose, const Dice& state, const Dice& turn, const Dice& geometry,
+               const Dice& control)
+        : pose_(pose), state_(state), turn_(turn), dice_(geometry), control_(control) {
         constexpr std::array<uint32_t, 2> kLarge = {264, 260};  // more than 2^16 samples
         struct Size {
             std::string_view word;
@@ -233,20 +234,7 @@ class CaseWriter {
             key("write = false");
         }
         if (!pose_.is_default("bias")) {
-            const std::string_view bias = pose_.value("bias");
-            std::vector<std::string> parts;
-            if (bias != "slope") {
-                // Few steps are lost in what interpolated depths may differ by.
-                const int64_t scale = int64_t{1} << (turn_.one_in(2) ? 0 : turn_.below(17));
-                parts.push_back(fmt::format("constant = {}", turn_.between(-9, 9) * scale));
-            }
-            if (bias != "constant") {
-                parts.push_back(fmt::format("slope = {}", turn_.fraction(-8, 8, 4)));
-            }
-            if (bias == "clamped") {
-                parts.push_back(fmt::format("clamp = {}", turn_.fraction(-8, 8, 64)));
-            }
-            key(fmt::format("bias = {{ {} }}", fmt::join(parts, ", ")));
+            key("bias = " + bias_of(pose_, turn_, control_));
         }
         if (!pose_.is_default("depth-clamp")) {
             key("clamp = true");
@@ -386,6 +374,7 @@ class CaseWriter {
 
     const Pose& pose_;
     Dice state_, turn_, dice_;  // of the pose, of a turn, of the case
+    Dice control_;              // of the case: what a bias is made of
     std::string text_;
     size_t draws_ = 1;
     uint32_t width_ = 16, height_ = 16, samples_ = 1, layers_ = 1, stencil_clear_ = 0;
@@ -400,7 +389,7 @@ std::string case_text(uint64_t seed, const Pose& pose, uint64_t pose_number, uin
     const uint64_t turn = number / kGeometriesOfTurn;
     std::string text =
         CaseWriter(pose, Dice(seed, kStateStream, pose_number), Dice(seed, kTurnStream, turn),
-                   Dice(seed, kGeometryStream, number))
+                   Dice(seed, kGeometryStream, number), Dice(seed, kControlStream, number))
             .write();
     Dice beside(seed, kBesideStream, turn);
     // These are of one target alone.

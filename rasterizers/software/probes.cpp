@@ -44,7 +44,10 @@ class Prober {
             rho = device_.fault == Fault::lod_norm && !along_x ? std::min(rho, length)
                                                                : std::max(rho, length);
         }
-        const float lambda = std::log2(rho) - (device_.fault == Fault::lod_one_less ? 1.0F : 0.0F);
+        float lambda = std::log2(rho) - (device_.fault == Fault::lod_one_less ? 1.0F : 0.0F);
+        if (device_.short_levels) {
+            lambda = std::clamp(lambda, -16.0F, 31.0F);
+        }
         const auto levels =
             std::bit_width(std::max(attribute.texture_size[0], attribute.texture_size[1]));
         return {std::clamp(lambda, 0.0F, static_cast<float>(levels - 1)), lambda, 0, 0};

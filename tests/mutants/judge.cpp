@@ -147,6 +147,8 @@ std::vector<LegalDevice> legal_devices() {
             d.resolve_truncates = true;
             d.srgb_resolved_encoded = true;
         });
+    add("short_levels_of_detail", "levels of detail are kept from -16 to 31", Profile::direct3d,
+        [](Device& d) { d.short_levels = true; });
     add("blit_clamped_at_the_region", "a linear blit reads nothing beyond its region",
         Profile::direct3d, [](Device& d) { d.blit_edge = BlitEdge::region; });
     add("blit_in_steps", "coordinates of a blit are summed up from texel to texel",

@@ -20,8 +20,8 @@ namespace {
                                   counts_borders, mitres_corners, covers_by_piece,
                                   rasterizes_degenerates, unorm, narrow_through_eight, blend,
                                   multiply, alpha_mask, half_toward_zero, resolve_truncates,
-                                  srgb_resolved_encoded, blit_edge, blit_steps, counts_most, fault,
-                                  place_x, place_y] = device;
+                                  srgb_resolved_encoded, short_levels, blit_edge, blit_steps,
+                                  counts_most, fault, place_x, place_y] = device;
 }
 
 template <auto Field>
@@ -92,6 +92,7 @@ const std::vector<Choice>& all_choices() {
         flag<&Device::half_toward_zero>("half-toward-zero"),
         flag<&Device::resolve_truncates>("resolve-truncates"),
         flag<&Device::srgb_resolved_encoded>("srgb-resolved-encoded"),
+        flag<&Device::short_levels>("short-levels"),
         {"blit-edge", {"image", "region"}, set_word<&Device::blit_edge>},
         flag<&Device::blit_steps>("blit-steps"),
         flag<&Device::counts_most>("counts-most"),

@@ -101,6 +101,7 @@ struct Device {
     bool half_toward_zero = false;       // binary16 is rounded towards zero
     bool resolve_truncates = false;      // averages of codes are rounded down
     bool srgb_resolved_encoded = false;  // averages of sRGB are taken of the codes
+    bool short_levels = false;           // levels of detail are kept from -16 to 31
     BlitEdge blit_edge = BlitEdge::image;
     bool blit_steps = false;  // coordinates of a blit are summed up from texel to texel
     // Pipeline statistics: vertices of incomplete primitives, each vertex of each primitive, whole

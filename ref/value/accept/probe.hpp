@@ -64,6 +64,11 @@ Range<double> lod_bounds(const std::array<std::array<double, 2>, 2>& low,
 // Whether the device's number may be a texture's level of detail: component 1 lambda' itself,
 // component 0 the levels that are accessed, clamped to 0 .. levels - 1. At profile vulkan they may
 // also be clamped to 0 alone: the text clamps where it selects levels, and says less of queries.
+// lambda' may also be the end of what a device holds, where it is beyond: "These values may be
+// subject to implementation-specific maxima and minima for very large, out-of-range values" (Vulkan
+// specification, "LOD Query"). What is out of range Direct3D says (7.18.11): no bias, of -16 to
+// 15.99, may bring such an end back to where it selects a level. So a least one is at most -15.99,
+// a largest one at least 16 above the texture's last level.
 bool is_lod(const Range<double>& lambda, uint32_t component, uint32_t levels,
             const ProbePlace& place, double device);
 

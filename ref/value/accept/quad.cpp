@@ -85,6 +85,15 @@ std::vector<Difference> differences_of(const Quad& quad, int axis, bool is_coars
     return out;
 }
 
+namespace {
+
+// The least level of detail that a device holds is this or less, the largest one this or more above
+// a texture's last level (Direct3D 11.3 functional specification, 7.18.11).
+constexpr double kLeastLevelEnd = -15.99;
+constexpr double kLargestLevelEnd = 16;
+
+}  // namespace
+
 Range<double> lod_bounds(const std::array<std::array<double, 2>, 2>& low,
                          const std::array<std::array<double, 2>, 2>& high, int mipmap_bits) {
     double least = 0;
@@ -102,11 +111,13 @@ bool is_lod(const Range<double>& lambda, uint32_t component, uint32_t levels,
     if (std::isnan(device)) {
         return false;
     }
+    const double last = levels - 1;
     if (component == 1) {
-        return device >= lambda.low && device <= lambda.high;
+        return (device >= lambda.low && device <= lambda.high) ||
+               (device <= kLeastLevelEnd && device >= lambda.low) ||
+               (device >= last + kLargestLevelEnd && device <= lambda.high);
     }
     // d' = clamp(lambda, 0, levels - 1), to mipmap_bits again.
-    const double last = levels - 1;
     const double most =
         place.profile == cases::Profile::vulkan ? std::max(lambda.high, last) : last;
     const double slack = std::ldexp(1.0, -place.limits.mipmap_bits);

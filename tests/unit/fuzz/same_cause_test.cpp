@@ -78,6 +78,11 @@ TEST(SameCause, WhatIsStoredWronglyRoundedIsHandedOn) {
     EXPECT_FALSE(explains(stored, *parse_symptom("value of depth.linear [direct3d]"), facts));
     EXPECT_FALSE(explains(stored, *parse_symptom("value of logic.operation [direct3d]"),
                           {"attachments=color", "format rgb10a2-unorm"}));
+    // Where an input is evaluated decides no hit.
+    Entry shaded = entry("double of snap.nearest [direct3d]", through);
+    shaded.essentials.insert({"draw.min_sample_shading", "several samples"});
+    shaded.text = colored("r5g6b5-unorm");
+    EXPECT_TRUE(is_same_cause(stored, shaded));
     // Hits that are counted do not come of a colour, nor does what a looser profile forbids.
     for (const auto& [symptom, needs] :
          {std::pair("value of logic.operation [practice]", through),
@@ -391,6 +396,29 @@ TEST(SameCause, OneKeyLessOfSeveralIsTheSame) {
     EXPECT_FALSE(is_same_cause(masked, entry("value of interp.sample [direct3d]", fewer)));
     fewer.erase("draw.depth.compare");
     EXPECT_FALSE(is_same_cause(masked, entry("value of interp.centroid [direct3d]", fewer)));
+}
+
+// A test that leaves two of four samples: the centroid goes to one of them, in whatever way it is
+// asked for and whichever test it is.
+TEST(SameCause, WhichTestMovesACentroidIsChance) {
+    const Entry moved =
+        entry("value of interp.centroid [direct3d]",
+              {"draw.attribute", "draw.attribute.auxiliary=centroid", "draw.depth.compare",
+               "draw.sample_mask", "several draws", "several samples"});
+    const std::set<std::string> needs = {"draw.attribute", "draw.attribute.probe=at-centroid",
+                                         "draw.stencil.front.compare", "several samples",
+                                         "stencil=true"};
+    EXPECT_TRUE(is_same_cause(moved, entry("value of interp.at-centroid [direct3d]", needs)));
+    // Graver, at another place, or where nothing takes samples away, it is another thing.
+    EXPECT_FALSE(is_same_cause(moved, entry("value of interp.at-centroid [practice]", needs)));
+    EXPECT_FALSE(is_same_cause(moved, entry("value of interp.at-sample [direct3d]", needs)));
+    EXPECT_FALSE(is_same_cause(moved, entry("value of interp.at-centroid [direct3d]",
+                                            {"draw.attribute", "draw.attribute.probe=at-centroid",
+                                             "several samples", "unequal w"})));
+    EXPECT_FALSE(is_same_cause(entry("value of interp.centroid [direct3d]",
+                                     {"draw.attribute", "draw.attribute.auxiliary=centroid",
+                                      "several samples", "unequal w"}),
+                               entry("value of interp.at-centroid [direct3d]", needs)));
 }
 
 TEST(SameCause, AKnownOneThatIsGraverIsNews) {

@@ -294,6 +294,50 @@ TEST(ValueProbe, LevelsOfDetailLieInTheSpecifiedRange) {
     EXPECT_FALSE(accepts_lod(0, -3));
 }
 
+TEST(ValueProbe, LevelsOfDetailMayEndWhereNoBiasSelectsALevel) {
+    // s = x scale on a texture of 4 x 4: m = 4 scale, so lambda' is log2(scale) + 2, to 1/2 more.
+    cases::Case c = hyperbola();
+    c.draws[0].positions[1] = value_test::clip_of(8, 0, 0.5, 1, 8);
+    const auto accepts_lod = [&](float scale, double level, double lambda) {
+        c.draws[0].attributes.clear();
+        value_test::add_attribute(c, Interpolation::smooth, 2,
+                                  {glm::vec4(0), glm::vec4(8 * scale, 0, 0, 0), glm::vec4(0)});
+        cases::Attribute& a = c.draws[0].attributes.back();
+        a.probe = Probe::lod;
+        a.texture_size = {4, 4};
+        ref::ValueReference reference(c, ref::Limits{}, Profile::direct3d);
+        const cases::SampleId id{1, 1, 0};
+        ref::FragmentValues device = value_test::rounded(reference.expected(0, id));
+        device.attributes[0] = {static_cast<float>(level), static_cast<float>(lambda), 0, 0};
+        const bool ok = reference.judge(0, id, device).ok;
+        EXPECT_EQ(reference.judge_exact(0, id, device).ok, ok);
+        return ok;
+    };
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    // Nothing differs: log2 of 0.
+    EXPECT_TRUE(accepts_lod(0, 0, -kInfinity));
+    EXPECT_TRUE(accepts_lod(0, 0, -63.5));
+    EXPECT_TRUE(accepts_lod(0, 0, -16));
+    EXPECT_FALSE(accepts_lod(0, 0, -15.9));
+    EXPECT_FALSE(accepts_lod(0, 0, 0));
+    EXPECT_FALSE(accepts_lod(0, 0, kInfinity));
+    // lambda' = -58: no end may be below it.
+    EXPECT_TRUE(accepts_lod(0x1p-60F, 0, -58));
+    EXPECT_TRUE(accepts_lod(0x1p-60F, 0, -31.75));
+    EXPECT_FALSE(accepts_lod(0x1p-60F, 0, -63.5));
+    EXPECT_FALSE(accepts_lod(0x1p-60F, 0, -15));
+    EXPECT_FALSE(accepts_lod(0x1p-60F, 1, -58));
+    // lambda' = 62, the texture's last level is 2.
+    EXPECT_TRUE(accepts_lod(0x1p60F, 2, 62));
+    EXPECT_TRUE(accepts_lod(0x1p60F, 2, 18));
+    EXPECT_FALSE(accepts_lod(0x1p60F, 2, 17.9));
+    EXPECT_FALSE(accepts_lod(0x1p60F, 2, 64));
+    EXPECT_FALSE(accepts_lod(0x1p60F, 3, 62));
+    // What is in range has no other end.
+    EXPECT_FALSE(accepts_lod(0x1p-10F, 0, -16));
+    EXPECT_FALSE(accepts_lod(0x1p10F, 2, 18));
+}
+
 TEST(ValueProbe, BarycentricOrderByTopologyAndProvokingVertex) {
     // The expected component of each vertex of the second triangle, whose own vertices are 1, 2, 3
     // (strip: primitive {1,3,2}; fan: {2,3,0}). Vulkan, tables of "Barycentric Interpolation".
