@@ -220,6 +220,7 @@ report::Run make_header(const Program& program, const DiffOptions& options,
     header.device.type = "other";
     header.device.subpixel_bits = options.judged.subpixel_bits;
     header.device.sample_locations = options.judged.sample_locations;
+    header.device.depth_beside_stencil = options.judged.depth_beside_stencil;
     header.device.has_primitive_id = true;
     for (const cases::Case& c : selection.cases) {
         header.cases.push_back(run::make_record(c));

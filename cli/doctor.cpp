@@ -326,6 +326,7 @@ Json to_json(const Diagnosis& d) {
                            {"max_color_attachments", device.max_color_attachments},
                            {"has_primitive_id", r.has_primitive_id},
                            {"hit_counting", device.hit_counting},
+                           {"depth_beside_stencil", device.depth_beside_stencil},
                            {"has_dynamic_rendering", device.has_dynamic_rendering},
                            {"has_dynamic_state", device.has_dynamic_state},
                            {"suite", share_json(d.shares[k])},
@@ -366,7 +367,8 @@ void print(const Diagnosis& d, const DeviceOptions& options) {
              std::to_string(device.max_target_size) + ", " +
              std::to_string(device.max_color_attachments) +
              " colour attachments, gl_PrimitiveID: " + (r.has_primitive_id ? "yes" : "no") +
-             ", hits counted in " + device.hit_counting +
+             ", hits counted in " + device.hit_counting + ", depth beside a stencil " +
+             device.depth_beside_stencil +
              (device.has_dynamic_rendering ? "" : ", rendered by render pass objects") +
              (device.has_dynamic_state ? "" : ", state held by pipelines") + ", UUID " + r.uuid);
         for (const std::string& missing : device.missing) {

@@ -167,7 +167,7 @@ int explain_command(const Program& program, const ExplainOptions& options) {
             {report::kExitUsage, {"'" + c->id + "' is a blit: name one of its texels by --pixel"}});
     }
     const ref::Limits limits = limits_of(options.judged);
-    if (auto placed = ref::with_own_samples(*c, limits)) {
+    if (auto placed = ref::as_drawn(*c, limits)) {
         *c = std::move(*placed);
     }
     const std::string text =

@@ -256,7 +256,7 @@ int render_command(const Program& program, const RenderOptions& options) {
     if (!c) {
         return report_stop(c.error());
     }
-    if (auto placed = ref::with_own_samples(*c, limits_of(options.judged))) {
+    if (auto placed = ref::as_drawn(*c, limits_of(options.judged))) {
         *c = std::move(*placed);
     }
     const std::string extension = std::filesystem::path(options.output).extension().string();

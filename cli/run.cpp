@@ -64,7 +64,8 @@ OrStop<std::monostate> check_required_device(const RunOptions& options,
 
 bool is_same_device(const report::Device& a, const report::Device& b) {
     return a.name == b.name && a.uuid == b.uuid && a.driver_version == b.driver_version &&
-           a.subpixel_bits == b.subpixel_bits && a.sample_locations == b.sample_locations;
+           a.subpixel_bits == b.subpixel_bits && a.sample_locations == b.sample_locations &&
+           a.depth_beside_stencil == b.depth_beside_stencil;
 }
 
 // One case, drawn once, by a worker that a person looks at.
@@ -132,7 +133,8 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
     if (auto applied = apply_expectations(p); !applied) {
         return stopped(options, applied.error());
     }
-    const JudgedDevice judged{device.subpixel_bits, device.sample_locations};
+    const JudgedDevice judged{device.subpixel_bits, device.sample_locations,
+                              device.depth_beside_stencil};
     for (run::PlannedCase& c : p.plan) {
         c.selector = shell_quote(selector_of(options, c.data.id));
         std::vector<std::string> doors;

@@ -33,7 +33,8 @@ class Diagnoser {
   public:
     Diagnoser(const report::Run& run, const CaseOf& case_of, const Bound& bound)
         : bound_(bound),
-          limits_(ref::limits_of(run.device.subpixel_bits, run.device.sample_locations)),
+          limits_(ref::limits_of(run.device.subpixel_bits, run.device.sample_locations,
+                                 run.device.depth_beside_stencil)),
           profile_(run.profile) {
         // A known failure that fails otherwise, too, shows two errors at once: such cases are
         // looked at where there are no others.

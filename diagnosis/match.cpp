@@ -100,7 +100,7 @@ std::optional<Subject> make_subject(const cases::Case& filed, const report::Case
     Subject out;
     out.data = &filed;
     out.record = &record;
-    const std::optional<cases::Case> placed = ref::with_own_samples(filed, limits);
+    const std::optional<cases::Case> placed = ref::as_drawn(filed, limits);
     const cases::Case& c = placed ? *placed : filed;
     const bool is_whole = record.is_delivered && !c.blit && !c.target.has_instruments;
     if (placed || is_whole) {

@@ -25,7 +25,7 @@ namespace diff {
 namespace {
 
 // What somebody wants to know of a capture.
-enum class Wanted : uint8_t { all, findings_without_ratios, first_finding };
+enum class Wanted : uint8_t { all, findings_without_ratios, symptoms, first_finding };
 
 // One comparison's state; the phases of a sample stand in judge_sample().
 class Comparison {
@@ -52,6 +52,9 @@ class Comparison {
           run_judge_(c, expectation, capture_, values_) {
         values_.judge_only(selection);
         last_fragment_.need_ratios(wanted == Wanted::all);
+        if (wanted == Wanted::symptoms) {
+            values_.tell_loosest_levels();
+        }
         values_.tell_only(
             [this](const ref::ValueMismatch& m) { return last_fragment_.is_told(m, verdict_); });
         if (c.target.color) {
@@ -433,6 +436,11 @@ Verdict compare_without_ratios(const cases::Case& c, const ref::Expectation& exp
                                const capture::CaptureView& capture) {
     return Comparison(c, expectation, capture, {}, false, {}, {}, Wanted::findings_without_ratios)
         .run();
+}
+
+Verdict compare_symptoms(const cases::Case& c, const ref::Expectation& expectation,
+                         const capture::CaptureView& capture) {
+    return Comparison(c, expectation, capture, {}, false, {}, {}, Wanted::symptoms).run();
 }
 
 Verdict compare_by_sample(const cases::Case& c, const ref::Expectation& expectation,

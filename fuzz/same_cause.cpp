@@ -239,6 +239,26 @@ bool is_moved_centroid(const Entry& entry) {
            std::ranges::any_of(entry.essentials, decides_hits);
 }
 
+bool is_stencil_word(const std::string& word) {
+    return word.starts_with("draw.stencil") || word == "stencil=true";
+}
+
+// Whether two entries show the same state beside a stencil in what the stencil holds: by which rule
+// depends on its operations, and whether it compares, which are chance.
+bool is_of_stencil_beside(const Entry& earlier, const Entry& fresh) {
+    const auto holds_wrong = [](const Entry& entry) {
+        return is_value(entry.symptom) && entry.essentials.contains("stencil=true") &&
+               (entry.symptom.rule.starts_with("stencil.") || entry.symptom.rule == "depth.bounds");
+    };
+    const auto beside = [](const Entry& entry) {
+        std::set<std::string> words = special_of(entry);
+        std::erase_if(words, is_stencil_word);
+        return words;
+    };
+    return holds_wrong(earlier) && holds_wrong(fresh) && !beside(earlier).empty() &&
+           beside(earlier) == beside(fresh) && earlier.symptom.level <= fresh.symptom.level;
+}
+
 // "draw.discard" of "draw.discard=front".
 std::set<std::string> names_of(const std::set<std::string>& words) {
     std::set<std::string> names;
@@ -259,7 +279,8 @@ bool shows_the_same(const Entry& earlier, const Entry& fresh) {
     // What is stored wrongly, and not by its rounding, is so in each format of the sort that the
     // rule is of. An attribute may be interpolated wrongly instead.
     const auto is_interpolated = [](const Entry& entry) {
-        return entry.essentials.contains("draw.color.attribute");
+        return entry.essentials.contains("draw.color.attribute") &&
+               entry.text.find("\nconstant = ") == std::string::npos;
     };
     if (earlier.symptom.rule.starts_with("store.") && !is_of_rounding(earlier) &&
         is_interpolated(earlier) == is_interpolated(fresh) && special.empty() &&
@@ -313,8 +334,9 @@ bool is_same_cause(const Entry& earlier, const Entry& fresh) {
     }
     // Which test leaves those samples, and whether the input or the shader asks for the centroid,
     // is chance.
-    if (shows_the_same(earlier, fresh) || (is_moved_centroid(earlier) && is_moved_centroid(fresh) &&
-                                           earlier.symptom.level <= fresh.symptom.level)) {
+    if (shows_the_same(earlier, fresh) || is_of_stencil_beside(earlier, fresh) ||
+        (is_moved_centroid(earlier) && is_moved_centroid(fresh) &&
+         earlier.symptom.level <= fresh.symptom.level)) {
         return true;
     }
     const bool is_same_rule =

@@ -80,10 +80,9 @@ void try_viewport_grid(const cases::Case& c, const ref::Limits& limits,
     }
     for (const cases::Case& kept : ref::on_viewport_grids(c, limits)) {
         ref::Expectation other = ref::expect(kept, limits, verdict.profile);
-        diff::Verdict found = diff::compare(kept, other, capture);
-        if (found.ok()) {
+        if (diff::compare_to_first(kept, other, capture).ok()) {
+            verdict = diff::compare(kept, other, capture);
             expectation = std::move(other);
-            verdict = std::move(found);
             return;
         }
     }
@@ -117,7 +116,7 @@ void judge(CaseRecord& record, const cases::Case& filed, const capture::CaptureV
            const WorkerFindings& found, const ref::Limits& limits, cases::Profile profile,
            KeepPictures pictures) {
     try {
-        const std::optional<cases::Case> placed = ref::with_own_samples(filed, limits);
+        const std::optional<cases::Case> placed = ref::as_drawn(filed, limits);
         const cases::Case& c = placed ? *placed : filed;
         capture::CaptureView capture = drawn;
         if (placed) {
@@ -126,7 +125,9 @@ void judge(CaseRecord& record, const cases::Case& filed, const capture::CaptureV
         ref::Expectation expectation =
             c.blit ? ref::Expectation{} : ref::expect(c, limits, profile);
         diff::Verdict verdict = c.blit ? diff::compare_blit(c, profile, capture)
-                                       : diff::compare(c, expectation, capture);
+                                : pictures == KeepPictures::symptoms
+                                    ? diff::compare_symptoms(c, expectation, capture)
+                                    : diff::compare(c, expectation, capture);
         try_viewport_grid(c, limits, capture, expectation, verdict);
         if (verdict.ok() && !c.blit && !c.target.has_instruments &&
             diff::may_stay_clear(c, expectation)) {
@@ -147,7 +148,7 @@ void judge(CaseRecord& record, const cases::Case& filed, const capture::CaptureV
         }
         if (keep_verdict(record, verdict, pictures)) {
             keep_evidence(record, c, verdict, expectation, capture, limits);
-        } else if (pictures != KeepPictures::none) {
+        } else if (pictures > KeepPictures::none) {
             keep_reference(record, c, verdict, expectation, limits);
         }
         if (record.status == Status::pass && !lacking.empty()) {
@@ -164,7 +165,7 @@ void judge_delivered(CaseRecord& record, const cases::Case& filed, const capture
                      const ref::Limits& limits, cases::Profile profile, KeepPictures pictures) {
     record.is_delivered = true;
     try {
-        const std::optional<cases::Case> placed = ref::with_own_samples(filed, limits);
+        const std::optional<cases::Case> placed = ref::as_drawn(filed, limits);
         const cases::Case& c = placed ? *placed : filed;
         diff::Verdict verdict;
         ref::Expectation expectation;

@@ -17,7 +17,9 @@
 
 namespace run {
 
-enum class KeepPictures { none, failed, all };
+// What is kept of a judged case; with `symptoms` no pictures, and neither how often a rule is
+// broken at which level nor by how much.
+enum class KeepPictures { symptoms, none, failed, all };
 
 // The record of a case before it has run: what the file says of it.
 report::CaseRecord make_record(const cases::Case& c);

@@ -344,9 +344,28 @@ void BatchRenderer::run_chunk(std::vector<CasePlan>& plans, bool read_back,
     pipelines_.trim(kKeptPipelines);
 }
 
-std::vector<Rendered> BatchRenderer::render(std::span<const cases::Case> batch, bool read_back,
+std::vector<cases::Case> BatchRenderer::with_own_depth(std::span<const cases::Case> batch) const {
+    const cases::DepthFormat own = device_->capabilities().beside_stencil;
+    std::vector<cases::Case> out;
+    if (std::ranges::none_of(batch, [&](const cases::Case& c) {
+            return cases::takes_depth_beside_stencil(c.target, own);
+        })) {
+        return out;
+    }
+    for (const cases::Case& c : batch) {
+        out.push_back(c);
+        if (cases::takes_depth_beside_stencil(c.target, own)) {
+            out.back().target.depth_format = own;
+        }
+    }
+    return out;
+}
+
+std::vector<Rendered> BatchRenderer::render(std::span<const cases::Case> filed, bool read_back,
                                             const std::function<void(std::string_view)>& step,
                                             const PlaneStore& store) {
+    const std::vector<cases::Case> own = with_own_depth(filed);
+    const std::span<const cases::Case> batch = own.empty() ? filed : own;
     std::vector<Rendered> results(batch.size());
     std::vector<CasePlan> plans;
     VkDeviceSize bytes = 0;
@@ -388,6 +407,9 @@ std::vector<Rendered> BatchRenderer::render(std::span<const cases::Case> batch, 
         append(result.messages, instance_.messages().take());
     }
     run_chunk(plans, read_back, results, step, store);
+    for (size_t slot = 0; slot < own.size(); ++slot) {
+        results[slot].capture.target = filed[slot].target;  // which is what was asked for
+    }
     return results;
 }
 
@@ -444,7 +466,9 @@ const DeviceInfo& Renderer::device() const {
 }
 
 std::string Renderer::lacking(const cases::Case& c) const {
-    const std::optional<Rejection> rejection = check_case(impl_->body.device().capabilities(), c);
+    const std::vector<cases::Case> own = impl_->body.with_own_depth({&c, 1});
+    const std::optional<Rejection> rejection =
+        check_case(impl_->body.device().capabilities(), own.empty() ? c : own.front());
     return rejection ? rejection->reason : std::string();
 }
 

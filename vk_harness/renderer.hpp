@@ -79,9 +79,12 @@ class BatchRenderer {
     ~BatchRenderer();
 
     // As Renderer::render, or render_bare if not `read_back`.
-    std::vector<Rendered> render(std::span<const cases::Case> batch, bool read_back,
+    std::vector<Rendered> render(std::span<const cases::Case> filed, bool read_back,
                                  const std::function<void(std::string_view)>& step,
                                  const PlaneStore& store = {});
+
+    // The cases with the depth that the device has beside a stencil, if it lacks D32S8.
+    std::vector<cases::Case> with_own_depth(std::span<const cases::Case> batch) const;
 
     // Where the device's samples are, if it does not promise the standard locations: into its
     // DeviceInfo, or why it could not be asked.

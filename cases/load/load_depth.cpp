@@ -70,6 +70,7 @@ void read_face(LeafContext& context, const TomlValue& table, StencilFace& face) 
 
 void read_depth_target(LeafContext& context, const TomlValue& table, Target& target) {
     context.read(table, "depth", target.depth_format);
+    target.names_depth = table.find("depth") != nullptr;
     context.read_fraction(table, "depth_clear", target.depth_clear,
                           ", which Vulkan does not allow");
 }

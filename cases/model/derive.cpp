@@ -86,6 +86,11 @@ uint64_t tile_count(const Target& target, const Relation& relation) {
     return along(target.width, relation.tile[0]) * along(target.height, relation.tile[1]);
 }
 
+bool takes_depth_beside_stencil(const Target& target, DepthFormat beside_stencil) {
+    return target.has_depth && target.has_stencil && !target.names_depth &&
+           target.depth_format == DepthFormat::d32_float && target.depth_format != beside_stencil;
+}
+
 uint32_t attributes_of(const Case& c) {
     size_t count = 0;
     for (const Draw& draw : c.draws) {

@@ -30,6 +30,10 @@ bool claims_doors_alone(const Case& c);
 // What is drawn for one of them: the case with the variation, without relations.
 Case derive(const Case& c, const Derivation& derivation);
 
+// Whether a device draws the target with another depth: binary32 beside a stencil, in a file that
+// names no format. Vulkan asks of D24S8 and D32S8 for one alone ("Required Format Support").
+bool takes_depth_beside_stencil(const Target& target, DepthFormat beside_stencil);
+
 // The largest number of attributes among the draws.
 uint32_t attributes_of(const Case& c);
 

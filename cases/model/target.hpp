@@ -27,6 +27,7 @@ struct Target {
     uint32_t samples = 1;
     uint32_t layers = 1;  // 1..kMaxLayers, all of one size
     DepthFormat depth_format = DepthFormat::d32_float;
+    bool names_depth = false;  // the format is what the case is about: no other stands for it
     // Custom sample locations in 1/16 pixel, one a sample; empty: the standard ones.
     std::vector<std::array<uint8_t, 2>> sample_locations = {};
     std::optional<ColorTarget> color = {};  // that is judged
@@ -61,6 +62,7 @@ struct Target {
         visit("sample_locations", t.sample_locations...);
         visit("depth", t.has_depth...);
         visit("depth_format", t.depth_format...);
+        visit({"names_depth", kNotExported}, t.names_depth...);
         visit("depth_clear", t.depth_clear...);
         visit("color", t.color...);
         // What is judged does not depend on them, and nothing else is delivered.

@@ -94,7 +94,9 @@ std::string target_text(const Target& t) {
     table.add("size", fmt::format("[{}, {}]", t.width, t.height));
     add_number("samples", t.samples, usual.samples);
     add_number("layers", t.layers, usual.layers);
-    add_word("depth", t.depth_format, usual.depth_format);
+    if (t.names_depth || t.depth_format != usual.depth_format) {
+        table.add("depth", string_toml(word_of(t.depth_format)));
+    }
     if (!same_bits(t.depth_clear, usual.depth_clear)) {
         table.add("depth_clear", number_toml(t.depth_clear, Reading::nearest));
     }

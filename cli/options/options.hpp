@@ -51,6 +51,7 @@ struct JudgedDevice {
     uint32_t subpixel_bits = 8;
     std::string
         sample_locations;  // as cases::parse_sample_locations takes them; "": the standard ones
+    std::string depth_beside_stencil = "d32-float";  // or d24-unorm; where a case names none
 };
 
 struct RunOptions {

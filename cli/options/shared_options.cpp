@@ -12,6 +12,8 @@ const std::map<std::string, cases::Profile> kProfileNames = {
     {"vulkan", cases::Profile::vulkan},
     {"practice", cases::Profile::practice},
     {"direct3d", cases::Profile::direct3d}};
+const std::map<std::string, std::string> kBesideStencil = {{"d32-float", "d32-float"},
+                                                           {"d24-unorm", "d24-unorm"}};
 const std::map<std::string, std::optional<cases::Profile>> kLevelNames = {
     {"vulkan", cases::Profile::vulkan},
     {"practice", cases::Profile::practice},
@@ -91,6 +93,9 @@ void add_judged_device(CLI::App* app, JudgedDevice& device) {
             const auto lists = cases::parse_sample_locations(text);
             return lists ? std::string() : lists.error().message;
         });
+    add_choice(app, "--depth-beside-stencil", device.depth_beside_stencil, kBesideStencil,
+               "the depth beside a stencil where a case names none [d32-float]")
+        ->group("Judging");
 }
 
 void add_driver(CLI::App* app, DeviceOptions& o) {

@@ -36,7 +36,8 @@ void set_limits(run::LoopConfig& config, const vk_harness::DeviceInfo& device) {
 }
 
 ref::Limits limits_of(const JudgedDevice& device) {
-    return ref::limits_of(device.subpixel_bits, device.sample_locations);
+    return ref::limits_of(device.subpixel_bits, device.sample_locations,
+                          device.depth_beside_stencil);
 }
 
 OrStop<ReadyWorker> ready_first_worker(run::LoopConfig& config, run::SignalFd& signals) {

@@ -236,6 +236,9 @@ void add_judged_device(std::vector<std::string>& words, const JudgedDevice& devi
         words.insert(words.end(), {"--subpixel-bits", std::to_string(device.subpixel_bits)});
     }
     add_given(words, "--sample-locations", device.sample_locations);
+    if (device.depth_beside_stencil != JudgedDevice().depth_beside_stencil) {
+        words.insert(words.end(), {"--depth-beside-stencil", device.depth_beside_stencil});
+    }
 }
 
 void add_suite_and_profile(std::vector<std::string>& words, const RunOptions& options) {

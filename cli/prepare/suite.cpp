@@ -378,9 +378,10 @@ OrStop<cases::Case> load_one_case(const Program& program, const SuiteOptions& op
 OrStop<cases::Case> load_one_case(const Program& program, const SuiteOptions& options,
                                   const JudgedDevice& device) {
     OrStop<cases::Case> c = load_one_case(program, options);
-    const ref::Limits limits = ref::limits_of(device.subpixel_bits, device.sample_locations);
+    const ref::Limits limits = limits_of(device);
     if (c && c->target.samples > 1 && c->target.sample_locations.empty() &&
-        !limits.sample_locations.empty() && !ref::with_own_samples(*c, limits)) {
+        !limits.sample_locations.empty() &&
+        ref::as_drawn(*c, limits).value_or(*c).target.sample_locations.empty()) {
         return tl::unexpected(
             Stop{report::kExitUsage,
                  {fmt::format("--sample-locations has no list of {} locations, and '{}' has {} "

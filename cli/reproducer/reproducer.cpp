@@ -200,7 +200,7 @@ cases::Expected<std::string> reproducer(const cases::Case& filed, const ref::Lim
             "output of 'edgecase run' instead",
             filed.id, missing));
     }
-    const cases::Case c = ref::with_own_samples(filed, limits).value_or(filed);
+    const cases::Case c = ref::as_drawn(filed, limits).value_or(filed);
     const cases::Expected<std::string> expected = expected_tables(c, limits, profile);
     if (!expected) {
         return expected;

@@ -100,6 +100,23 @@ Together applied_together(const Document& document, const std::vector<const Step
     return out;
 }
 
+std::span<const Stage> on_from(Stage stage) {
+    return std::span(kStages).subspan(static_cast<size_t>(stage));
+}
+
+std::span<const Stage> only(Stage stage) {
+    return on_from(stage).first(1);
+}
+
+bool has_large_target(const Document& document) {
+    constexpr uint64_t kLarge = 4096;  // samples
+    const Measure m = measure(document);
+    constexpr size_t kSamplesAt = 3, kLayersAt = 4, kPixelsAt = 5;
+    return m[kPixelsAt] * std::max<uint64_t>(m[kSamplesAt], 1) *
+               std::max<uint64_t>(m[kLayersAt], 1) >
+           kLarge;
+}
+
 class Reducer {
   public:
     Reducer(const Shows& shows, const ReduceOptions& options) : shows_(shows), options_(options) {
@@ -109,11 +126,14 @@ class Reducer {
     Reduced reduce(Document document) {
         out_.document = std::move(document);
         answers_.emplace(key_of(to_text(out_.document)), true);
+        // Every question about a large target is dear.
+        while (!is_spent() && has_large_target(out_.document) && take_some(only(Stage::target))) {
+        }
         // After a success the search goes on where it was; what was refused before is tried again
         // in the end, when everything else has been.
         Stage from = kStages.front();
         while (!is_spent()) {
-            if (const std::optional<Stage> found = take_some(from)) {
+            if (const std::optional<Stage> found = take_some(on_from(from))) {
                 from = *found;
             } else if (from == kStages.front() && !is_spent()) {
                 out_.is_minimal = true;
@@ -157,15 +177,12 @@ class Reducer {
         }
     }
 
-    // Goes through the steps of the stages from `from` on until some show the finding, and takes as
+    // Goes through the steps of some stages until some show the finding, and takes as
     // many of these as do so together. The stage where to go on, or nothing if no step showed it.
-    std::optional<Stage> take_some(Stage from) {
+    std::optional<Stage> take_some(std::span<const Stage> stages) {
         std::deque<std::vector<Step>> kept;  // candidates point to them
         std::vector<Candidate> batch;
-        for (const Stage stage : kStages) {
-            if (stage < from) {
-                continue;
-            }
+        for (const Stage stage : stages) {
             const std::span<const Step> steps = kept.emplace_back(steps_of(out_.document, stage));
             for (size_t at = 0; at < steps.size() && !is_spent(); at += options_.batch) {
                 const size_t count = std::min(options_.batch, steps.size() - at);

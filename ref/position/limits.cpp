@@ -4,28 +4,57 @@
 
 #include <utility>
 
+#include "cases/model/derive.hpp"
+#include "cases/model/words.hpp"
+
 namespace ref {
 
-Limits limits_of(uint32_t subpixel_bits, std::string_view sample_locations) {
+namespace {
+
+// Nothing if the case has its own locations, or the device has the standard ones.
+const cases::SampleLocations* own_locations(const cases::Target& target, const Limits& limits) {
+    if (!target.sample_locations.empty()) {
+        return nullptr;
+    }
+    for (const cases::SampleLocations& own : limits.sample_locations) {
+        if (own.size() == target.samples) {
+            return &own;
+        }
+    }
+    return nullptr;
+}
+
+}  // namespace
+
+cases::DepthFormat depth_beside_stencil(std::string_view word) {
+    using enum cases::DepthFormat;
+    return word == cases::word_of(d24_unorm) ? d24_unorm : d32_float;
+}
+
+Limits limits_of(uint32_t subpixel_bits, std::string_view sample_locations,
+                 std::string_view beside_stencil) {
     Limits limits{static_cast<int>(subpixel_bits)};
     if (auto lists = cases::parse_sample_locations(sample_locations)) {
         limits.sample_locations = std::move(*lists);
     }
+    limits.beside_stencil = depth_beside_stencil(beside_stencil);
     return limits;
 }
 
-std::optional<cases::Case> with_own_samples(const cases::Case& c, const Limits& limits) {
-    if (!c.target.sample_locations.empty()) {
+std::optional<cases::Case> as_drawn(const cases::Case& c, const Limits& limits) {
+    const cases::SampleLocations* own = own_locations(c.target, limits);
+    const bool has_other_depth = cases::takes_depth_beside_stencil(c.target, limits.beside_stencil);
+    if (own == nullptr && !has_other_depth) {
         return std::nullopt;
     }
-    for (const cases::SampleLocations& own : limits.sample_locations) {
-        if (own.size() == c.target.samples) {
-            cases::Case placed = c;
-            placed.target.sample_locations = own;
-            return placed;
-        }
+    cases::Case drawn = c;
+    if (own != nullptr) {
+        drawn.target.sample_locations = *own;
     }
-    return std::nullopt;
+    if (has_other_depth) {
+        drawn.target.depth_format = limits.beside_stencil;
+    }
+    return drawn;
 }
 
 }  // namespace ref

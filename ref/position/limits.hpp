@@ -26,14 +26,22 @@ struct Limits {
     bool rasterizes_degenerates = true;
     // Without standardSampleLocations: what gl_SamplePosition says, one entry a sample count.
     std::vector<cases::SampleLocations> sample_locations = {};
+    // The depth that shares an image with a stencil, where a case names none: what D32S8 holds, or
+    // what D24S8 holds of a device that has no other.
+    cases::DepthFormat beside_stencil = cases::DepthFormat::d32_float;
     friend bool operator==(const Limits&, const Limits&) = default;
 };
 
-// Of a device of which only this is known; `sample_locations` as cases::parse_sample_locations
-// takes them, none if it does not.
-Limits limits_of(uint32_t subpixel_bits, std::string_view sample_locations);
+// Limits::beside_stencil of the word "d24-unorm", or of any other.
+cases::DepthFormat depth_beside_stencil(std::string_view word);
 
-// The case with the device's own sample locations; nothing if it has its own, or the standard ones.
-std::optional<cases::Case> with_own_samples(const cases::Case& c, const Limits& limits);
+// Of a device of which only this is known; `sample_locations` as cases::parse_sample_locations
+// takes them, none if it does not; `beside_stencil` as depth_beside_stencil takes it.
+Limits limits_of(uint32_t subpixel_bits, std::string_view sample_locations,
+                 std::string_view beside_stencil = {});
+
+// The case as the device draws it: with its own sample locations, if it does not have the standard
+// ones, and its own depth beside a stencil. Nothing if it draws the case as it is.
+std::optional<cases::Case> as_drawn(const cases::Case& c, const Limits& limits);
 
 }  // namespace ref

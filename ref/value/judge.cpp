@@ -201,6 +201,10 @@ void ValueReference::tell_ratios(bool are_told) {
     impl_->tells_ratios = are_told;
 }
 
+void ValueReference::tell_loosest_levels() {
+    impl_->loosest_levels.emplace();
+}
+
 FragmentVerdict ValueReference::judge(uint32_t t, cases::SampleId sample,
                                       const FragmentValues& device, FragmentPart part) {
     impl_->part = part;

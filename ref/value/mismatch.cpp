@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -227,9 +228,9 @@ std::vector<size_t> ValueReference::Impl::failing_at(uint32_t t, cases::SampleId
 // The loosest profile at which each failing value is wrong, given that one basis has to explain all
 // values of the fragment. A looser profile may blame values that this one does not (they fit the
 // basis that explains most); if it blames none of those that are left, they share its level.
-std::vector<Profile> ValueReference::Impl::levels_of(uint32_t t, cases::SampleId id,
-                                                     const FragmentValues& device,
-                                                     const std::vector<size_t>& failing) {
+std::vector<Profile> ValueReference::Impl::ask_levels(uint32_t t, cases::SampleId id,
+                                                      const FragmentValues& device,
+                                                      const std::vector<size_t>& failing) {
     std::vector<Profile> levels(failing.size(), profile);
     std::vector<size_t> blamed;  // by a looser profile
     for (const Profile p : cases::kProfiles) {
@@ -265,6 +266,30 @@ std::vector<Profile> ValueReference::Impl::levels_of(uint32_t t, cases::SampleId
             }
         }
         blamed.insert(blamed.end(), wrong.begin(), wrong.end());
+    }
+    return levels;
+}
+
+std::vector<Profile> ValueReference::Impl::levels_of(uint32_t t, cases::SampleId id,
+                                                     const FragmentValues& device,
+                                                     const std::vector<size_t>& failing,
+                                                     const std::vector<ReasonKind>& reasons) {
+    if (!loosest_levels) {
+        return ask_levels(t, id, device, failing);
+    }
+    std::vector<Asked*> asked;
+    for (size_t k = 0; k < failing.size(); ++k) {
+        asked.push_back(&(*loosest_levels)[{triangles[t].draw, failing[k], reasons[k]}]);
+    }
+    std::vector<Profile> levels;
+    if (std::ranges::all_of(asked, [](const Asked* one) { return one->is_enough(); })) {
+        std::ranges::transform(asked, std::back_inserter(levels), &Asked::loosest);
+        return levels;
+    }
+    levels = ask_levels(t, id, device, failing);
+    for (size_t k = 0; k < failing.size(); ++k) {
+        ++asked[k]->values;
+        asked[k]->loosest = std::min(asked[k]->loosest, levels[k]);
     }
     return levels;
 }
@@ -354,13 +379,16 @@ std::string ValueReference::Impl::expected_text(uint32_t t, cases::SampleId id, 
 
 void ValueReference::Impl::describe(uint32_t t, cases::SampleId id, const FragmentValues& device,
                                     const value::CandidateVerdict& verdict, FragmentVerdict& out) {
-    const std::vector<Profile> levels = levels_of(t, id, device, verdict.failing);
-    for (size_t k = 0; k < verdict.failing.size(); ++k) {
-        const size_t index = verdict.failing[k];
-        const Quantity& q = quantities_of(t)[index];
+    std::vector<ReasonKind> reasons;
+    for (const size_t index : verdict.failing) {
         std::optional<ReasonKind> reason = reason_of<Ball>(t, id, device, index);
         reason = reason ? reason : reason_of<mpq_class>(t, id, device, index);
-        ValueMismatch m = value::mismatch_of(q, reason.value(), levels[k]);
+        reasons.push_back(reason.value());
+    }
+    const std::vector<Profile> levels = levels_of(t, id, device, verdict.failing, reasons);
+    for (size_t k = 0; k < verdict.failing.size(); ++k) {
+        const Quantity& q = quantities_of(t)[verdict.failing[k]];
+        ValueMismatch m = value::mismatch_of(q, reasons[k], levels[k]);
         m.ratio = verdict.ratios[k];
         add_mismatch(
             std::move(m), q.get(device), [&] { return expected_text(t, id, q); }, out);

@@ -15,6 +15,7 @@
 #include <deque>
 #include <functional>
 #include <limits>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -158,6 +159,17 @@ struct ValueReference::Impl {
     FragmentPart part = FragmentPart::all;              // of the fragment being judged
     std::function<bool(const ValueMismatch&)> is_told;  // tell_only(); empty: all
     bool tells_ratios = true;                           // tell_ratios()
+    // tell_loosest_levels(): of a quantity of a draw that is wrong for some reason, how many values
+    // have been asked, and the loosest level of them.
+    struct Asked {
+        size_t values = 0;
+        Profile loosest = Profile::direct3d;
+        bool is_enough() const {
+            constexpr size_t kOfVulkan = 16, kOfOthers = 256;
+            return values >= (loosest == Profile::vulkan ? kOfVulkan : kOfOthers);
+        }
+    };
+    std::optional<std::map<std::tuple<uint32_t, size_t, ReasonKind>, Asked>> loosest_levels;
     ValueSelection selection;
     std::vector<std::vector<Quantity>> selected;  // the quantities of it, by draw
 
@@ -435,7 +447,11 @@ struct ValueReference::Impl {
     void judge_coord_depth(uint32_t t, const FragmentValues& device, FragmentVerdict& out);
     void judge_sign(uint32_t t, const FragmentValues& device, FragmentVerdict& out);
     std::vector<Profile> levels_of(uint32_t t, cases::SampleId id, const FragmentValues& device,
-                                   const std::vector<size_t>& failing);
+                                   const std::vector<size_t>& failing,
+                                   const std::vector<ReasonKind>& reasons);
+    // levels_of() of a fragment, whatever is known of others.
+    std::vector<Profile> ask_levels(uint32_t t, cases::SampleId id, const FragmentValues& device,
+                                    const std::vector<size_t>& failing);
     void describe(uint32_t t, cases::SampleId id, const FragmentValues& device,
                   const value::CandidateVerdict& verdict, FragmentVerdict& out);
     template <class T>

@@ -130,6 +130,12 @@ class ValueReference {
     // vulkan; true until it is said.
     void tell_ratios(bool are_told);
 
+    // From now on the level of a wrong value is only asked as long as it may be news: after 16
+    // values of a quantity, one of which breaks vulkan, or after 256, others take the loosest of
+    // them. A picture that is wrong everywhere breaks the same rules, each at the same level at
+    // loosest, for a fraction of the time; how often at which level is not known then.
+    void tell_loosest_levels();
+
     // Judges what triangle `t` (index into assemble(c)) wrote at a sample that it may cover.
     FragmentVerdict judge(uint32_t t, cases::SampleId sample, const FragmentValues& device,
                           FragmentPart part = FragmentPart::all);

@@ -112,6 +112,9 @@ std::string header(const Run& run) {
     text += fact("edgecase", run.tool_version);
     text += fact("ended with", exit_text(run));
     text += fact("sample locations, 1/16 pixel", d.sample_locations);
+    text +=
+        fact("depth beside a stencil, where a case names none",
+             d.depth_beside_stencil == Device().depth_beside_stencil ? "" : d.depth_beside_stencil);
     if (const CaseRecord* worst = worst_case(run)) {
         text += fact("largest accepted error",
                      fmt::format("{}, {}", accepted_text(run, *worst), worst->id));

@@ -62,6 +62,8 @@ struct Device {
     uint32_t subpixel_bits = 0, viewport_subpixel_bits = 0;
     bool has_primitive_id = false;
     std::string sample_locations;  // its own, cases::to_text; "": the standard ones
+    // Where a case names none: d24-unorm of a device that lacks D32S8.
+    std::string depth_beside_stencil = "d32-float";
     static void fields(auto&& visit, auto&... d) {
         visit("name", d.name...);
         visit("driver_name", d.driver_name...);
@@ -77,6 +79,7 @@ struct Device {
         visit("viewport_subpixel_bits", d.viewport_subpixel_bits...);
         visit("has_primitive_id", d.has_primitive_id...);
         visit("sample_locations", d.sample_locations...);
+        visit("depth_beside_stencil", d.depth_beside_stencil...);
     }
 };
 

@@ -31,7 +31,7 @@ std::string wrong_at_vulkan(const cases::Case& filed, const Rendered& drawn,
                             const vk_harness::DeviceInfo& device, const Rendered* plain) {
     try {
         const ref::Limits limits = limits_of(device);
-        const std::optional<cases::Case> placed = ref::with_own_samples(filed, limits);
+        const std::optional<cases::Case> placed = ref::as_drawn(filed, limits);
         const cases::Case& c = placed ? *placed : filed;
         const ref::Expectation expectation = ref::expect(c, limits, cases::Profile::vulkan);
         if (expectation.must_samples == 0) {
@@ -116,6 +116,7 @@ ref::Limits limits_of(const vk_harness::DeviceInfo& device) {
     limits.overestimation_step = device.overestimation_step;
     limits.rasterizes_degenerates = device.rasterizes_degenerates;
     limits.sample_locations = device.sample_locations;
+    limits.beside_stencil = ref::depth_beside_stencil(device.depth_beside_stencil);
     return limits;
 }
 

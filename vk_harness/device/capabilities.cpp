@@ -9,6 +9,8 @@
 #include <cstring>
 #include <utility>
 
+#include "cases/model/words.hpp"
+
 namespace vk_harness {
 
 bool has_features(const Capabilities& c, VkFormat format, VkFormatFeatureFlags needed) {
@@ -368,10 +370,11 @@ void query_depth_formats(Capabilities& c) {
             VK_SAMPLE_COUNT_1_BIT |
             (read.samples & l.framebufferDepthSampleCounts & l.sampledImageDepthSampleCounts);
     }
-    if (!has_features(c, depth_stencil_format(c.beside_lone_stencil),
+    if (!has_features(c, depth_stencil_format(c.beside_stencil),
                       VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT)) {
-        c.beside_lone_stencil = cases::DepthFormat::d24_unorm;
+        c.beside_stencil = cases::DepthFormat::d24_unorm;
     }
+    c.info.depth_beside_stencil = cases::word_of(c.beside_stencil);
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ struct Capabilities {
     std::array<VkSampleCountFlags, 3> depth_sample_counts{VK_SAMPLE_COUNT_1_BIT};
     // What a stencil without depth lies beside: every device draws to D32_SFLOAT_S8_UINT or to
     // D24_UNORM_S8_UINT ("Required Format Support").
-    cases::DepthFormat beside_lone_stencil = cases::DepthFormat::d32_float;
+    cases::DepthFormat beside_stencil = cases::DepthFormat::d32_float;
     bool depth_clamp = false, depth_bias_clamp = false, depth_clip_enable = false;
     bool depth_bounds = false;
     bool logic_op = false;

@@ -41,6 +41,8 @@ struct DeviceInfo {
     std::vector<cases::SampleLocations> sample_locations = {};
     std::string sample_locations_error;  // why it could not be asked, though it promises to answer
     std::string hit_counting = "binary32";  // the numbers in which hits are added up, or binary16
+    // The depth that stands beside a stencil where a case names no format: of D32S8, or of D24S8.
+    std::string depth_beside_stencil = "d32-float";
     // Without the first, cases are rendered by render pass objects; without the second, pipelines
     // hold the state that Vulkan 1.0 does not set between draws.
     bool has_dynamic_rendering = true, has_dynamic_state = true;
@@ -74,6 +76,7 @@ struct DeviceInfo {
         visit("sample_locations", d.sample_locations...);
         visit("sample_locations_error", d.sample_locations_error...);
         visit("hit_counting", d.hit_counting...);
+        visit("depth_beside_stencil", d.depth_beside_stencil...);
         visit("has_dynamic_rendering", d.has_dynamic_rendering...);
         visit("has_dynamic_state", d.has_dynamic_state...);
         visit("missing", d.missing...);

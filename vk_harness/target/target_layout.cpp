@@ -135,7 +135,7 @@ VkFormat TargetLayout::attribute_format(uint32_t attribute) const {
 }
 
 cases::DepthFormat depth_beside_stencil(const Capabilities& c, const cases::Target& target) {
-    return target.has_depth ? target.depth_format : c.beside_lone_stencil;
+    return target.has_depth ? target.depth_format : c.beside_stencil;
 }
 
 TargetLayout target_layout(const Capabilities& c, const cases::Case& test) {

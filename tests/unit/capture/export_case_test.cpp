@@ -57,9 +57,11 @@ cases::Attribute& attribute(Case& c) {
 }
 
 std::vector<Change> target_changes() {
-    [[maybe_unused]] const auto& [width, height, samples, layers, depth_format, sample_locations,
-                                  color, other_colors, judged_color,  // not told
-                                  instruments,                        // no part of the picture
+    [[maybe_unused]] const auto& [width, height, samples, layers, depth_format,
+                                  names_depth,  // not told
+                                  sample_locations, color, other_colors,
+                                  judged_color,  // not told
+                                  instruments,   // no part of the picture
                                   has_depth, depth_clear, color_resolve, depth_resolve, has_stencil,
                                   stencil_clear] = cases::Target{};
     [[maybe_unused]] const auto& [format, clear] = cases::ColorTarget{};

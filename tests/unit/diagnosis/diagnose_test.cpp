@@ -74,7 +74,7 @@ report::Run run_of(const Hypothesis& h, cases::Profile profile = cases::Profile:
     Hypothesis right;
     for (const cases::Case& c : small_suite()) {
         report::CaseRecord record = run::make_record(c);
-        const cases::Case placed = ref::with_own_samples(c, limits).value_or(c);
+        const cases::Case placed = ref::as_drawn(c, limits).value_or(c);
         std::optional<capture::Capture> drawn = diagnosis::draw(h, placed);
         if (!drawn) {
             drawn = diagnosis::draw(right, placed);

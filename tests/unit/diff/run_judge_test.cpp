@@ -8,8 +8,10 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <random>
 #include <string>
+#include <utility>
 
 #include "capture/runs.hpp"
 #include "diff/verdict.hpp"
@@ -180,6 +182,16 @@ void expect_same(const diff::Verdict& runs, const diff::Verdict& samples, int n)
     ASSERT_EQ(runs.error_ratios, samples.error_ratios) << n;
 }
 
+// Kinds and rules, each with the loosest level.
+std::map<std::pair<diff::FindingKind, std::string>, Profile> symptoms_of(const diff::Verdict& v) {
+    std::map<std::pair<diff::FindingKind, std::string>, Profile> out;
+    for (const diff::FindingGroup& g : v.groups) {
+        const auto [at, is_new] = out.try_emplace({g.kind, g.rule}, g.level);
+        at->second = std::min(at->second, g.level);
+    }
+    return out;
+}
+
 // What shorter comparisons leave out is the size of errors, or all behind the first finding.
 void expect_same_of_shorter(const cases::Case& c, const ref::Expectation& e,
                             const capture::Capture& capture, diff::Verdict whole, int n) {
@@ -193,6 +205,7 @@ void expect_same_of_shorter(const cases::Case& c, const ref::Expectation& e,
     ASSERT_EQ(text_of(bare), text_of(whole)) << n;
     ASSERT_EQ(bare.groups, whole.groups) << n;
     ASSERT_EQ(bare.marks, whole.marks) << n;
+    ASSERT_EQ(symptoms_of(diff::compare_symptoms(c, e, capture)), symptoms_of(whole)) << n;
     diff::Verdict first = diff::compare_to_first(c, e, capture);
     ASSERT_EQ(first.findings.empty(), whole.findings.empty()) << n;
     whole.findings.resize(std::min(whole.findings.size(), size_t{1}));
@@ -201,6 +214,37 @@ void expect_same_of_shorter(const cases::Case& c, const ref::Expectation& e,
         f.ratio = 0;
     }
     ASSERT_EQ(text_of(first), text_of(whole)) << n;
+}
+
+// A picture that is wrong everywhere, by errors of all sizes.
+TEST(ExhaustiveRunJudge, SymptomsAreThoseOfTheWholeComparison) {
+    Random rng(43);
+    size_t wrong = 0, shorter = 0;
+    for (int n = 0; n < 200; ++n) {
+        const cases::Case c = random_case(rng);
+        const ref::Expectation e = ref::expect(c, ref::Limits{8}, Profile::direct3d);
+        if (e.must_samples == 0) {
+            continue;
+        }
+        capture::Capture capture = right_capture(c, e);
+        const float scale = 1 + std::ldexp(1.0F, -static_cast<int>(rng() % 20));
+        for (size_t k = 0; k < capture.frag_coord.size(); ++k) {
+            if (capture::sample_state(capture, k) == capture::SampleState::drawn) {
+                capture.frag_coord[k].w *= scale;
+                for (uint32_t a = 0; a < capture.attribute_count; ++a) {
+                    capture.attributes[a][k].x *= scale;
+                }
+            }
+        }
+        const diff::Verdict whole = diff::compare(c, e, capture);
+        const diff::Verdict symptoms = diff::compare_symptoms(c, e, capture);
+        ASSERT_EQ(symptoms_of(symptoms), symptoms_of(whole)) << n;
+        ASSERT_EQ(symptoms.marks, whole.marks) << n;
+        wrong += whole.ok() ? 0U : 1U;
+        shorter += symptoms.groups == whole.groups ? 0U : 1U;
+    }
+    EXPECT_GT(wrong, 60U);
+    EXPECT_GT(shorter, 0U);  // where levels were not asked
 }
 
 TEST(ExhaustiveRunJudge, SaysWhatSamplesSayOneByOne) {

@@ -421,6 +421,37 @@ TEST(SameCause, WhichTestMovesACentroidIsChance) {
                                entry("value of interp.at-centroid [direct3d]", needs)));
 }
 
+TEST(SameCause, ByWhichRuleAStencilShowsAStateIsChance) {
+    const Entry outside = entry(
+        "value of stencil.operation [vulkan]",
+        {"draw.depth.bounds", "draw.stencil.depth_fail=invert", "several draws", "stencil=true"});
+    for (const auto& [symptom, word] :
+         {std::pair("value of depth.bounds [vulkan]", "draw.stencil.depth_fail=increment-clamp"),
+          std::pair("value of stencil.compare [vulkan]", "draw.stencil.depth_fail=increment-wrap"),
+          std::pair("value of depth.bounds [practice]", "draw.stencil.fail=increment-clamp")}) {
+        EXPECT_TRUE(is_same_cause(
+            outside,
+            entry(symptom, {"draw.depth.bounds", word, "draw.stencil.compare", "stencil=true"})))
+            << symptom;
+    }
+    // Other state, hits, depths, or a stencil alone are other things.
+    const std::set<std::string> bounds = {"draw.depth.bounds", "draw.stencil.pass=invert",
+                                          "stencil=true"};
+    EXPECT_FALSE(is_same_cause(
+        outside, entry("value of stencil.compare [vulkan]",
+                       {"draw.discard=front", "draw.stencil.pass=invert", "stencil=true"})));
+    EXPECT_FALSE(is_same_cause(outside, entry("missing of cover.inside [vulkan]", bounds)));
+    EXPECT_FALSE(is_same_cause(outside, entry("value of frag-depth.value [vulkan]",
+                                              {"draw.depth.bounds", "draw.frag_depth.value"})));
+    EXPECT_FALSE(is_same_cause(
+        entry("value of stencil.operation [vulkan]", {"draw.stencil.fail=invert", "stencil=true"}),
+        entry("value of stencil.compare [vulkan]", {"draw.stencil.compare", "stencil=true"})));
+    const Entry lesser = entry("value of stencil.operation [practice]", bounds);
+    EXPECT_FALSE(is_same_cause(
+        lesser, entry("value of stencil.compare [vulkan]",
+                      {"draw.depth.bounds", "draw.stencil.compare", "stencil=true"})));
+}
+
 TEST(SameCause, AKnownOneThatIsGraverIsNews) {
     Entry known = entry("value of depth.linear [practice]", {"several samples"});
     known.is_known = true;

@@ -89,15 +89,15 @@ TEST(OwnSamples, ThoseOfACaseAreItsOwn) {
     cases::Case c;
     c.target.samples = 4;
     ref::Limits limits;
-    EXPECT_FALSE(ref::with_own_samples(c, limits).has_value());
+    EXPECT_FALSE(ref::as_drawn(c, limits).has_value());
     limits.sample_locations = {{{4, 4}, {12, 12}}};
-    EXPECT_FALSE(ref::with_own_samples(c, limits).has_value());
+    EXPECT_FALSE(ref::as_drawn(c, limits).has_value());
     limits.sample_locations.push_back(kOwn);
-    EXPECT_EQ(ref::with_own_samples(c, limits)->target.sample_locations, kOwn);
+    EXPECT_EQ(ref::as_drawn(c, limits)->target.sample_locations, kOwn);
     c.target.sample_locations = {{0, 0}, {1, 1}, {2, 2}, {3, 3}};
-    EXPECT_FALSE(ref::with_own_samples(c, limits).has_value());
+    EXPECT_FALSE(ref::as_drawn(c, limits).has_value());
     c.target = {};
-    EXPECT_FALSE(ref::with_own_samples(c, limits).has_value());
+    EXPECT_FALSE(ref::as_drawn(c, limits).has_value());
 }
 
 }  // namespace
