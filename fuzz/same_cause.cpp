@@ -253,10 +253,17 @@ bool is_of_stencil_beside(const Entry& earlier, const Entry& fresh) {
     const auto beside = [](const Entry& entry) {
         std::set<std::string> words = special_of(entry);
         std::erase_if(words, is_stencil_word);
+        words.erase("depth_clear");
         return words;
     };
     return holds_wrong(earlier) && holds_wrong(fresh) && !beside(earlier).empty() &&
            beside(earlier) == beside(fresh) && earlier.symptom.level <= fresh.symptom.level;
+}
+
+// Whether what was seen is a colour beyond the range of binary16: its bounds begin or end at 65504.
+bool is_beyond_half(const Entry& entry) {
+    return is_of_color(entry) && (entry.seen.find("65504 to ") != std::string::npos ||
+                                  entry.seen.find(" to -65504") != std::string::npos);
 }
 
 // "draw.discard" of "draw.discard=front".
@@ -319,8 +326,12 @@ bool is_same_cause(const Entry& earlier, const Entry& fresh) {
         format_of(earlier) != format_of(fresh)) {
         return false;
     }
+    // A colour beyond the range may be drawn, masked or cleared to.
+    const bool is_of_overflow = earlier.symptom.rule.starts_with("store.") &&
+                                is_beyond_half(earlier) && is_beyond_half(fresh) &&
+                                earlier.symptom.level <= fresh.symptom.level;
     if (is_consequence(earlier, fresh) || is_of_value(earlier, fresh) ||
-        is_of_stored(earlier, fresh)) {
+        is_of_stored(earlier, fresh) || is_of_overflow) {
         return true;
     }
     // What is gravest in the fresh one's own reduced case is the earlier one's: what else is wrong

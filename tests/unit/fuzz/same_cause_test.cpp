@@ -425,6 +425,9 @@ TEST(SameCause, ByWhichRuleAStencilShowsAStateIsChance) {
     const Entry outside = entry(
         "value of stencil.operation [vulkan]",
         {"draw.depth.bounds", "draw.stencil.depth_fail=invert", "several draws", "stencil=true"});
+    EXPECT_TRUE(
+        is_same_cause(outside, entry("value of stencil.operation [vulkan]",
+                                     {"depth_clear", "draw.depth.bounds", "stencil=true"})));
     for (const auto& [symptom, word] :
          {std::pair("value of depth.bounds [vulkan]", "draw.stencil.depth_fail=increment-clamp"),
           std::pair("value of stencil.compare [vulkan]", "draw.stencil.depth_fail=increment-wrap"),
@@ -450,6 +453,22 @@ TEST(SameCause, ByWhichRuleAStencilShowsAStateIsChance) {
     EXPECT_FALSE(is_same_cause(
         lesser, entry("value of stencil.compare [vulkan]",
                       {"draw.depth.bounds", "draw.stencil.compare", "stencil=true"})));
+}
+
+TEST(SameCause, AColorBeyondTheRangeMayBeDrawnMaskedOrClearedTo) {
+    Entry known = entry("value of store.half [vulkan]", {"color", "draw.color.value"});
+    known.seen = "pixel (0, 0), sample 0: color: expected r 65504 to 131072, got r NaN (0x7fff)";
+    Entry fresh = entry("extra of cover.outside [vulkan]",
+                        {"attachments=color", "color", "color.clear", "draw.color.value"});
+    fresh.seen = "pixel (0, 2), sample 0: color: expected a 65504 to 81920, got a NaN (0x7d00)";
+    EXPECT_TRUE(is_same_cause(known, fresh));
+    fresh.seen = "pixel (0, 2), sample 0: color: expected a -81920 to -65504, got a NaN (0xfd00)";
+    EXPECT_TRUE(is_same_cause(known, fresh));
+    fresh.seen = "pixel (0, 2), sample 0: color: expected a 1, got a NaN (0x7d00)";
+    EXPECT_FALSE(is_same_cause(known, fresh));
+    known.seen = fresh.seen;
+    fresh.seen = "pixel (0, 2), sample 0: color: expected a 65504 to 81920, got a 1";
+    EXPECT_FALSE(is_same_cause(known, fresh));
 }
 
 TEST(SameCause, AKnownOneThatIsGraverIsNews) {
