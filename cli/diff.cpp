@@ -56,7 +56,8 @@ void judge_folder(CaseRecord& record, std::vector<std::string>& skipped, const c
         say(Status::error, wrong);
         return;
     }
-    const cases::Expected<capture::ReadPlanes> read = capture::read_planes(folder, c);
+    const cases::Expected<capture::ReadPlanes> read =
+        capture::read_planes(folder, ref::as_drawn(c, work.limits).value_or(c));
     record.attempts = 1;
     if (!read) {
         say(Status::error, read.error().message);

@@ -204,8 +204,8 @@ Verdict compare_colors(const cases::Case& c, const ref::Expectation& expectation
 // is that of compare().
 Verdict compare_without_ratios(const cases::Case& c, const ref::Expectation& expectation,
                                const capture::CaptureView& capture);
-// The same for those who only want to know what is broken: kinds, rules and loosest levels are
-// those of compare(), how often at which level is not (ValueReference::tell_loosest_levels).
+// The same for those who only want to know what is broken: kinds and rules, with the loosest levels
+// of the first values of each quantity (ValueReference::tell_loosest_levels).
 Verdict compare_symptoms(const cases::Case& c, const ref::Expectation& expectation,
                          const capture::CaptureView& capture);
 // The same up to the first finding: `error` and that finding are those of compare(), but for its

@@ -229,14 +229,37 @@ bool is_of_stored(const Entry& earlier, const Entry& fresh) {
            format_of(earlier) == format_of(fresh);
 }
 
-// Whether an entry has values at a wrong centroid that some test moves: one that leaves samples of
-// a fragment, as those of depth and stencil and the sample mask do.
-bool is_moved_centroid(const Entry& entry) {
-    return is_value(entry.symptom) &&
-           (entry.symptom.rule == "interp.centroid" ||
-            entry.symptom.rule == "interp.at-centroid") &&
-           entry.essentials.contains("several samples") &&
-           std::ranges::any_of(entry.essentials, decides_hits);
+// Whether a word is of a test that leaves some samples of a fragment: depth, stencil, masks,
+// discards.
+bool takes_samples(const std::string& word) {
+    constexpr std::array<std::string_view, 6> kTests = {
+        "draw.depth.compare", "draw.depth.bounds", "draw.stencil",
+        "draw.sample_mask",   "draw.discard",      "draw.color.alpha_to_coverage"};
+    return std::ranges::any_of(kTests,
+                               [&](std::string_view test) { return word.starts_with(test); });
+}
+
+// What an entry needs besides such tests, and how it asks for a centroid; nothing if it has no
+// values at a wrong centroid, or no test moves it.
+std::optional<std::set<std::string>> beside_moved_centroid(const Entry& entry) {
+    const bool is_centroid =
+        entry.symptom.rule == "interp.centroid" || entry.symptom.rule == "interp.at-centroid";
+    if (!is_value(entry.symptom) || !is_centroid || !entry.essentials.contains("several samples") ||
+        std::ranges::none_of(entry.essentials, takes_samples)) {
+        return std::nullopt;
+    }
+    std::set<std::string> words = special_of(entry);
+    std::erase_if(words, [](const std::string& word) {
+        return takes_samples(word) || word.starts_with("draw.attribute.") ||
+               word == "stencil=true" || word == "depth_clear";
+    });
+    return words;
+}
+
+bool is_of_moved_centroid(const Entry& earlier, const Entry& fresh) {
+    const auto words = beside_moved_centroid(earlier);
+    return words && words == beside_moved_centroid(fresh) &&
+           earlier.symptom.level <= fresh.symptom.level;
 }
 
 bool is_stencil_word(const std::string& word) {
@@ -256,14 +279,23 @@ bool is_of_stencil_beside(const Entry& earlier, const Entry& fresh) {
         words.erase("depth_clear");
         return words;
     };
-    return holds_wrong(earlier) && holds_wrong(fresh) && !beside(earlier).empty() &&
-           beside(earlier) == beside(fresh) && earlier.symptom.level <= fresh.symptom.level;
+    return holds_wrong(earlier) && holds_wrong(fresh) &&
+           std::ranges::any_of(beside(earlier), decides_hits) && beside(earlier) == beside(fresh) &&
+           earlier.symptom.level <= fresh.symptom.level;
 }
 
-// Whether what was seen is a colour beyond the range of binary16: its bounds begin or end at 65504.
+// Whether what was seen is no number where a colour lies beyond the range of binary16: its bounds
+// begin at 65504, or end at -65504.
 bool is_beyond_half(const Entry& entry) {
-    return is_of_color(entry) && (entry.seen.find("65504 to ") != std::string::npos ||
-                                  entry.seen.find(" to -65504") != std::string::npos);
+    const size_t got = entry.seen.find(", got ");
+    if (!is_of_color(entry) || got == std::string::npos) {
+        return false;
+    }
+    const std::string expected = entry.seen.substr(0, got) + ",";
+    const std::string found = entry.seen.substr(got);
+    return (expected.find(" 65504 to ") != std::string::npos ||
+            expected.find(" to -65504,") != std::string::npos) &&
+           (found.find("NaN") != std::string::npos || found.find("infinity") != std::string::npos);
 }
 
 // "draw.discard" of "draw.discard=front".
@@ -286,8 +318,11 @@ bool shows_the_same(const Entry& earlier, const Entry& fresh) {
     // What is stored wrongly, and not by its rounding, is so in each format of the sort that the
     // rule is of. An attribute may be interpolated wrongly instead.
     const auto is_interpolated = [](const Entry& entry) {
+        // The only attribute may be the same everywhere.
+        const size_t attribute = entry.text.find("[[draw.attribute]]");
         return entry.essentials.contains("draw.color.attribute") &&
-               entry.text.find("\nconstant = ") == std::string::npos;
+               (attribute != entry.text.rfind("[[draw.attribute]]") ||
+                entry.text.find("\nconstant = ") == std::string::npos);
     };
     if (earlier.symptom.rule.starts_with("store.") && !is_of_rounding(earlier) &&
         is_interpolated(earlier) == is_interpolated(fresh) && special.empty() &&
@@ -346,8 +381,7 @@ bool is_same_cause(const Entry& earlier, const Entry& fresh) {
     // Which test leaves those samples, and whether the input or the shader asks for the centroid,
     // is chance.
     if (shows_the_same(earlier, fresh) || is_of_stencil_beside(earlier, fresh) ||
-        (is_moved_centroid(earlier) && is_moved_centroid(fresh) &&
-         earlier.symptom.level <= fresh.symptom.level)) {
+        is_of_moved_centroid(earlier, fresh)) {
         return true;
     }
     const bool is_same_rule =

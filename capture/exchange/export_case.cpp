@@ -346,7 +346,8 @@ std::vector<std::string> needs_of(const cases::Case& c) {
     needs.add(c.target.samples > 1, "samples");
     needs.add(!c.target.sample_locations.empty(), "sample-locations");
     needs.add(c.target.layers > 1, "layers");
-    needs.add(c.target.has_depth && c.target.depth_format != cases::DepthFormat::d32_float,
+    needs.add(c.target.has_depth && (c.target.depth_format != cases::DepthFormat::d32_float ||
+                                     (c.target.has_stencil && c.target.names_depth)),
               "depth-format");
     needs.add(c.target.has_stencil, "stencil");
     needs.add(c.target.color.has_value(), "color");

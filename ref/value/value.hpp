@@ -132,8 +132,9 @@ class ValueReference {
 
     // From now on the level of a wrong value is only asked as long as it may be news: after 16
     // values of a quantity, one of which breaks vulkan, or after 256, others take the loosest of
-    // them. A picture that is wrong everywhere breaks the same rules, each at the same level at
-    // loosest, for a fraction of the time; how often at which level is not known then.
+    // them. That takes a fraction of the time where a picture is wrong everywhere; how often a rule
+    // is broken at which level is not known then, and one that 256 values break more strictly may
+    // be broken more loosely by a later one.
     void tell_loosest_levels();
 
     // Judges what triangle `t` (index into assemble(c)) wrote at a sample that it may cover.

@@ -128,7 +128,9 @@ std::vector<RenderedCase> render_with_derived(
     Round beside;
     Round later;
     for (const cases::Case& c : batch) {
-        derivations.push_back(cases::derivations(c));
+        // What a derivation changes follows from the case as it is drawn, as for who judges it.
+        derivations.push_back(
+            cases::derivations(ref::as_drawn(c, limits_of(backend.device())).value_or(c)));
     }
     // Doors come last: not many of them are in one submission, and others are to be in that of the
     // cases themselves.

@@ -66,9 +66,10 @@ Range<double> lod_bounds(const std::array<std::array<double, 2>, 2>& low,
 // also be clamped to 0 alone: the text clamps where it selects levels, and says less of queries.
 // lambda' may also be the end of what a device holds, where it is beyond: "These values may be
 // subject to implementation-specific maxima and minima for very large, out-of-range values" (Vulkan
-// specification, "LOD Query"). What is out of range Direct3D says (7.18.11): no bias, of -16 to
-// 15.99, may bring such an end back to where it selects a level. So a least one is at most -15.99,
-// a largest one at least 16 above the texture's last level.
+// specification, "LOD Query"). What is in range is not said; here it is what a sampler's bias may
+// bring back to where it selects a level: a least end is at most -2, which every Vulkan device's
+// bias reaches, and from practice on -15.99, as Direct3D's (7.18.11) does; a largest one is as far
+// above the texture's last level.
 bool is_lod(const Range<double>& lambda, uint32_t component, uint32_t levels,
             const ProbePlace& place, double device);
 

@@ -87,10 +87,16 @@ std::vector<Difference> differences_of(const Quad& quad, int axis, bool is_coars
 
 namespace {
 
-// The least level of detail that a device holds is this or less, the largest one this or more above
-// a texture's last level (Direct3D 11.3 functional specification, 7.18.11).
-constexpr double kLeastLevelEnd = -15.99;
-constexpr double kLargestLevelEnd = 16;
+// The least level of detail that a device holds is `least` or less, the largest one a texture's
+// last level plus `most` or more: a bias may move it so far.
+struct LevelEnds {
+    double least, most;
+};
+// Vulkan's bias goes as far as maxSamplerLodBias, 2 or more ("Required Limits"), a Direct3D
+// sampler's from -16 to 15.99 (Direct3D 11.3 functional specification, 7.18.11).
+LevelEnds level_ends(cases::Profile profile) {
+    return profile == cases::Profile::vulkan ? LevelEnds{-2, 2} : LevelEnds{-15.99, 16};
+}
 
 }  // namespace
 
@@ -113,9 +119,10 @@ bool is_lod(const Range<double>& lambda, uint32_t component, uint32_t levels,
     }
     const double last = levels - 1;
     if (component == 1) {
+        const auto [least, most] = level_ends(place.profile);
         return (device >= lambda.low && device <= lambda.high) ||
-               (device <= kLeastLevelEnd && device >= lambda.low) ||
-               (device >= last + kLargestLevelEnd && device <= lambda.high);
+               (device <= least && device >= lambda.low) ||
+               (device >= last + most && device <= lambda.high);
     }
     // d' = clamp(lambda, 0, levels - 1), to mipmap_bits again.
     const double most =

@@ -409,6 +409,13 @@ TEST(SameCause, WhichTestMovesACentroidIsChance) {
                                          "draw.stencil.front.compare", "several samples",
                                          "stencil=true"};
     EXPECT_TRUE(is_same_cause(moved, entry("value of interp.at-centroid [direct3d]", needs)));
+    std::set<std::string> conservative = needs;
+    conservative.insert("draw.conservative=overestimate");
+    EXPECT_FALSE(
+        is_same_cause(moved, entry("value of interp.at-centroid [direct3d]", conservative)));
+    EXPECT_FALSE(is_same_cause(moved, entry("value of interp.at-centroid [direct3d]",
+                                            {"draw.attribute", "draw.attribute.probe=at-centroid",
+                                             "draw.viewport", "several samples"})));
     // Graver, at another place, or where nothing takes samples away, it is another thing.
     EXPECT_FALSE(is_same_cause(moved, entry("value of interp.at-centroid [practice]", needs)));
     EXPECT_FALSE(is_same_cause(moved, entry("value of interp.at-sample [direct3d]", needs)));
@@ -465,6 +472,10 @@ TEST(SameCause, AColorBeyondTheRangeMayBeDrawnMaskedOrClearedTo) {
     fresh.seen = "pixel (0, 2), sample 0: color: expected a -81920 to -65504, got a NaN (0xfd00)";
     EXPECT_TRUE(is_same_cause(known, fresh));
     fresh.seen = "pixel (0, 2), sample 0: color: expected a 1, got a NaN (0x7d00)";
+    EXPECT_FALSE(is_same_cause(known, fresh));
+    fresh.seen = "pixel (0, 2), sample 0: color: expected a 65504 to 81920, got a 0";
+    EXPECT_FALSE(is_same_cause(known, fresh));
+    fresh.seen = "pixel (0, 2), sample 0: color: expected a -65504 to -65472, got a NaN (0x7d00)";
     EXPECT_FALSE(is_same_cause(known, fresh));
     known.seen = fresh.seen;
     fresh.seen = "pixel (0, 2), sample 0: color: expected a 65504 to 81920, got a 1";

@@ -298,6 +298,7 @@ TEST(ValueProbe, LevelsOfDetailMayEndWhereNoBiasSelectsALevel) {
     // s = x scale on a texture of 4 x 4: m = 4 scale, so lambda' is log2(scale) + 2, to 1/2 more.
     cases::Case c = hyperbola();
     c.draws[0].positions[1] = value_test::clip_of(8, 0, 0.5, 1, 8);
+    Profile profile = Profile::direct3d;
     const auto accepts_lod = [&](float scale, double level, double lambda) {
         c.draws[0].attributes.clear();
         value_test::add_attribute(c, Interpolation::smooth, 2,
@@ -305,7 +306,7 @@ TEST(ValueProbe, LevelsOfDetailMayEndWhereNoBiasSelectsALevel) {
         cases::Attribute& a = c.draws[0].attributes.back();
         a.probe = Probe::lod;
         a.texture_size = {4, 4};
-        ref::ValueReference reference(c, ref::Limits{}, Profile::direct3d);
+        ref::ValueReference reference(c, ref::Limits{}, profile);
         const cases::SampleId id{1, 1, 0};
         ref::FragmentValues device = value_test::rounded(reference.expected(0, id));
         device.attributes[0] = {static_cast<float>(level), static_cast<float>(lambda), 0, 0};
@@ -333,6 +334,14 @@ TEST(ValueProbe, LevelsOfDetailMayEndWhereNoBiasSelectsALevel) {
     EXPECT_FALSE(accepts_lod(0x1p60F, 2, 17.9));
     EXPECT_FALSE(accepts_lod(0x1p60F, 2, 64));
     EXPECT_FALSE(accepts_lod(0x1p60F, 3, 62));
+    // Vulkan's bias may be of 2 levels alone.
+    profile = Profile::vulkan;
+    EXPECT_TRUE(accepts_lod(0x1p60F, 2, 4));
+    EXPECT_FALSE(accepts_lod(0x1p60F, 2, 3.9));
+    EXPECT_FALSE(accepts_lod(0x1p60F, 2, 64));
+    profile = Profile::practice;
+    EXPECT_FALSE(accepts_lod(0x1p60F, 2, 17.9));
+    profile = Profile::direct3d;
     // What is in range has no other end.
     EXPECT_FALSE(accepts_lod(0x1p-10F, 0, -16));
     EXPECT_FALSE(accepts_lod(0x1p10F, 2, 18));

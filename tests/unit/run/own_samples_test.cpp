@@ -5,8 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
+#include <string>
 
 #include "cases/load/loader.hpp"
+#include "cases/write/to_toml.hpp"
 #include "folders.hpp"
 #include "rasterizers/strength/strength.hpp"
 #include "run/judge.hpp"
@@ -98,6 +101,68 @@ TEST(OwnSamples, ThoseOfACaseAreItsOwn) {
     EXPECT_FALSE(ref::as_drawn(c, limits).has_value());
     c.target = {};
     EXPECT_FALSE(ref::as_drawn(c, limits).has_value());
+}
+
+// D24S8 stands for D32S8 where a case has a stencil and names no format.
+TEST(OwnDepth, StandsBesideAStencilAlone) {
+    ref::Limits limits;
+    limits.beside_stencil = ref::depth_beside_stencil("d24-unorm");
+    cases::Case c;
+    EXPECT_FALSE(ref::as_drawn(c, limits).has_value());
+    c.target.has_stencil = true;
+    EXPECT_EQ(ref::as_drawn(c, limits)->target.depth_format, cases::DepthFormat::d24_unorm);
+    EXPECT_FALSE(ref::as_drawn(c, {}).has_value());
+    c.target.names_depth = true;
+    EXPECT_FALSE(ref::as_drawn(c, limits).has_value());
+    c.target.names_depth = false;
+    c.target.depth_format = cases::DepthFormat::d16_unorm;
+    EXPECT_FALSE(ref::as_drawn(c, limits).has_value());
+    c.target.depth_format = cases::DepthFormat::d32_float;
+    c.target.has_depth = false;
+    EXPECT_FALSE(ref::as_drawn(c, limits).has_value());
+}
+
+// A picture in D24S8 is right for a device that says so, and wrong for one that does not.
+TEST(OwnDepth, IsJudgedAsItIsDrawn) {
+    ref::Limits limits;
+    limits.beside_stencil = cases::DepthFormat::d24_unorm;
+    size_t seen = 0, wrong_without = 0;
+    for (const char* file : {"stencil/depth-fail", "stencil/faces", "discard/stencil"}) {
+        for (const cases::Case& c : cases_of(file)) {
+            const std::optional<cases::Case> own = ref::as_drawn(c, limits);
+            if (!own || c.target.samples > 1 || !c.relations.empty()) {
+                continue;
+            }
+            ++seen;
+            capture::Capture drawn = software::captured(*own, {});
+            drawn.target = c.target;
+            const auto status = [&](const ref::Limits& of) {
+                report::CaseRecord record = make_record(c);
+                judge(record, c, drawn, {}, of, cases::Profile::direct3d, KeepPictures::failed);
+                return record.status;
+            };
+            EXPECT_EQ(status(limits), report::Status::pass) << c.id;
+            wrong_without += status({}) == report::Status::fail ? 1U : 0U;
+        }
+    }
+    EXPECT_GE(seen, 4U);
+    EXPECT_GE(wrong_without, 1U);
+}
+
+// The flag goes through a case file and back.
+TEST(OwnDepth, ANamedFormatStaysNamed) {
+    for (const char* key : {"", "depth = \"d32-float\"\n"}) {
+        const std::string text =
+            "format = 1\ndescription = \"d\"\nrules = [\"cover.inside\"]\n[target]\nsize = [4, "
+            "4]\n" +
+            std::string(key) + "stencil = true\n[[draw]]\nvertices = [[0, 0], [4, 0], [0, 4]]\n";
+        const auto c = cases::load_text(text, "a.toml", "a");
+        ASSERT_TRUE(c.has_value());
+        EXPECT_EQ(c->front().target.names_depth, *key != 0);
+        const auto again = cases::load_text(cases::to_toml(c->front()).value(), "a.toml", "a");
+        ASSERT_TRUE(again.has_value());
+        EXPECT_EQ(again->front().target, c->front().target);
+    }
 }
 
 }  // namespace
