@@ -114,7 +114,8 @@ size = [8, 8]
 vertices = [[0,0], [8,0], [0,7.5]]
 )";
     EXPECT_EQ(written(plain), plain);
-    // The same with every default spelt out.
+    // The same with every default spelt out, but for the format of depth, which is kept where it is
+    // named.
     EXPECT_EQ(written(R"(
 format = 1
 description = "One \"triangle\"."
@@ -125,7 +126,6 @@ relations = []
 size = [8, 8]
 samples = 1
 layers = 1
-depth = "d32-float"
 depth_clear = 0.375
 resolve = "none"
 depth_resolve = "none"
