@@ -213,6 +213,7 @@ const std::map<std::string_view, const char*>& hidden() {
         {"rasterizes-degenerates",
          "devices tell it: degenerateTrianglesRasterized; a run judges by it"},
         {"counts-most", "it shows in pipeline statistics alone, which no experiment asks for"},
+        {"short-levels", "it shows in levels of detail beyond every texture, which none asks for"},
         {"coarse-inputs-at-sample",
          "it shows in fragments of several pixels alone, of which no experiment draws any"},
         {"alpha-mask", "it shows through alpha to coverage alone, which no experiment draws with"},
