@@ -94,7 +94,7 @@ void add_judged_device(CLI::App* app, JudgedDevice& device) {
             return lists ? std::string() : lists.error().message;
         });
     add_choice(app, "--depth-beside-stencil", device.depth_beside_stencil, kBesideStencil,
-               "the depth beside a stencil where a case names none [d32-float]")
+               "the depth beside a stencil where a case names none")
         ->group("Judging");
 }
 
