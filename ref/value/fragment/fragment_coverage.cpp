@@ -72,6 +72,11 @@ Points pixel_region(const TriangleSetup& setup, const cases::PixelBlock& block) 
     if (setup.kind != TriangleSetup::Kind::outlines || !setup.has_outline) {
         return region;
     }
+    // Clip distances may leave nothing; what a device draws all the same, which tests them sample
+    // by sample, has no bounds then.
+    if (setup.unclipped.vertices().empty()) {
+        return region;
+    }
     // The unclipped outline holds the clipped one: "within the bounds of the primitive".
     const fast::ConvexSet hull = fast::hull_set(setup.unclipped.vertices());
     const mpq_class unit(kFixedOne);

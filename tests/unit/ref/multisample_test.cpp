@@ -76,6 +76,21 @@ TEST(PixelRegion, IsPixelAndTriangle) {
     EXPECT_TRUE(pixel_region(coverage.setup(0), {7, 7, 1, 1}).empty());
 }
 
+// Two distances each leave a corner of their own, and together nothing: the polygon has no points.
+// Devices that test distances sample by sample may draw near by, and then the whole pixel counts.
+TEST(PixelRegion, OfATriangleOfWhichDistancesLeaveNothingIsThePixel) {
+    cases::Case c = triangle(Auxiliary::none);
+    cases::Draw& draw = c.draws[0];
+    draw.distances.clip_count = 2;
+    draw.distances.clip = {{1, -2, 0, 0}, {-2, 1, 0, 0}, {-2, -2, 0, 0}};
+    const std::vector<cases::Triangle> triangles = assemble(c);
+    for (const Profile profile : cases::kProfiles) {
+        FragmentCoverage coverage(c, {8}, profile, triangles);
+        ASSERT_TRUE(coverage.setup(0).unclipped.vertices().empty());
+        EXPECT_EQ(coverage.region(0, 2, 2).size(), 4U);
+    }
+}
+
 // The last region is kept: another triangle, column or row has its own.
 TEST(PixelRegion, IsThatOfTheTriangleAndPixelAskedFor) {
     const cases::Case c =
