@@ -120,6 +120,23 @@ bool may_be_clear_depth(uint32_t plane, uint32_t base, uint32_t got,
            got == std::bit_cast<uint32_t>(capture::kOtherClearDepth);
 }
 
+// Whether a fragment may have stored its depth that no hit shows: the tests come early, and the
+// shader discards it or takes its samples away.
+bool may_store_without_hit(const std::vector<cases::Draw>& draws) {
+    return std::ranges::any_of(draws, [](const cases::Draw& draw) {
+        return draw.early_tests && draw.depth.write &&
+               (draw.discard != cases::Discard::none || draw.multisample.shader_mask);
+    });
+}
+
+// A sample that looks clear may hold a depth that was stored so and has the bits of the clear
+// value.
+bool may_be_stored_depth(uint32_t plane, uint32_t base, uint32_t got, capture::SampleState state,
+                         const cases::Variation& variation) {
+    return plane == kDepthPlane && variation.other_depth_clear &&
+           state == capture::SampleState::clear && got == base;
+}
+
 // gl_PrimitiveID counts the primitives of a drawing command, and of one that has several draws the
 // text does not say whether it begins again with each of them.
 bool may_begin_again(uint32_t plane, uint32_t word, uint32_t base, uint32_t got, uint32_t draw,
@@ -127,6 +144,21 @@ bool may_begin_again(uint32_t plane, uint32_t word, uint32_t base, uint32_t got,
     const uint32_t split = draw < variation.splits.size() ? variation.splits[draw] : 0;
     return plane == kWritersPlane && word == kPrimitiveWord && split > 0 && base >= split &&
            got == base - split;
+}
+
+// A component that is +0 at every vertex of every draw is 0 in either sign where it is drawn, and
+// +0 where it is not (cases::has_two_numbers).
+bool is_zero_of_either_sign(uint32_t plane, uint32_t word, uint32_t expected, uint32_t got,
+                            const std::vector<cases::Draw>& draws, uint32_t attributes) {
+    constexpr uint32_t kSign = 0x80000000U;
+    if (plane < capture::kAttributePlane || plane >= kDepthPlane || word < 2 ||
+        ((expected | got) & ~kSign) != 0) {
+        return false;
+    }
+    const uint32_t k = (plane - capture::kAttributePlane) % std::max(attributes, 1U);
+    return std::ranges::all_of(draws, [k](const cases::Draw& draw) {
+        return k >= draw.attributes.size() || cases::has_two_numbers(draw.attributes[k]);
+    });
 }
 
 // Which plane of the case's own rendering a plane of the derived one is held against; kPlanes:
@@ -146,6 +178,7 @@ class BitComparison {
     BitComparison(const cases::Case& c, const capture::CaptureView& base,
                   const capture::CaptureView& derived, const cases::Derivation& derivation)
         : draws_(c.draws),
+          stores_without_hit_(may_store_without_hit(c.draws)),
           base_(base),
           variation_(derivation.variation),
           theirs_(planes_of(derived)),
@@ -219,6 +252,8 @@ class BitComparison {
                 const uint32_t expected = varied_word(p, w, base, state, variation_);
                 const uint32_t got = theirs_[p].at(sample, w);
                 if (got == expected || may_be_clear_depth(p, base, got, variation_) ||
+                    (stores_without_hit_ && may_be_stored_depth(p, base, got, state, variation_)) ||
+                    is_zero_of_either_sign(p, w, expected, got, draws_, base_.attribute_count) ||
                     may_begin_again(p, w, base, got, draw, variation_)) {
                     continue;
                 }
@@ -232,6 +267,7 @@ class BitComparison {
     }
 
     const std::vector<cases::Draw>& draws_;
+    bool stores_without_hit_ = false;
     const capture::CaptureView& base_;
     const cases::Variation& variation_;
     std::array<PlaneWords, kPlanes> ours_, theirs_;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 
 #include "cases/model/rule_ids.hpp"
 #include "cases/model/sample.hpp"
@@ -97,6 +98,25 @@ uint32_t attributes_of(const Case& c) {
         count = std::max(count, draw.attributes.size());
     }
     return static_cast<uint32_t>(count);
+}
+
+bool has_two_numbers(const Attribute& a) {
+    switch (a.source) {
+        case Source::barycentric:
+            return false;
+        case Source::sample_position:
+        case Source::sample_mask_in:
+        case Source::sample_id:
+        case Source::shading_rate:
+            return true;
+        case Source::vertex:
+            break;
+    }
+    return a.probe == Probe::lod ||
+           std::all_of(a.values.begin(), a.values.end(), [](const glm::vec4& value) {
+               return std::bit_cast<uint32_t>(value.z) == 0 &&
+                      std::bit_cast<uint32_t>(value.w) == 0;
+           });
 }
 
 const ColorOutput& output_at(const Target& target, const Draw& draw, uint32_t location) {

@@ -37,6 +37,11 @@ bool takes_depth_beside_stencil(const Target& target, DepthFormat beside_stencil
 // The largest number of attributes among the draws.
 uint32_t attributes_of(const Case& c);
 
+// Whether the third and the fourth number of an attribute are +0 at every vertex, whatever the
+// probe: their values, derivatives and sums are 0 then, of either sign (SignedZeroInfNanPreserve is
+// not asked for). Renderers may leave them out.
+bool has_two_numbers(const Attribute& a);
+
 // What a draw writes to the colour target of a location (below Target::color_count()).
 const ColorOutput& output_at(const Target& target, const Draw& draw, uint32_t location);
 // The blend constants, which a device has once for all targets: those of an output that blends.

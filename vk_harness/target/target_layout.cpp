@@ -3,7 +3,6 @@
 #include "vk_harness/target/target_layout.hpp"
 
 #include <algorithm>
-#include <bit>
 
 #include "cases/format/color_format.hpp"
 #include "cases/model/derive.hpp"
@@ -12,27 +11,6 @@
 namespace vk_harness {
 
 namespace {
-
-// Whether the third and the fourth number are +0 at every vertex, whatever the probe: +0 everywhere
-// has +0 as its value, its derivatives and their sums.
-bool has_two_numbers(const cases::Attribute& a) {
-    switch (a.source) {
-        case cases::Source::barycentric:
-            return false;
-        case cases::Source::sample_position:
-        case cases::Source::sample_mask_in:
-        case cases::Source::sample_id:
-        case cases::Source::shading_rate:
-            return true;
-        case cases::Source::vertex:
-            break;
-    }
-    return a.probe == cases::Probe::lod ||
-           std::all_of(a.values.begin(), a.values.end(), [](const glm::vec4& value) {
-               return std::bit_cast<uint32_t>(value.z) == 0 &&
-                      std::bit_cast<uint32_t>(value.w) == 0;
-           });
-}
 
 // A draw and a primitive of it are one number that binary32 holds (decode_packed_id), and the draw
 // and their number one push constant. No draw has more primitives than indices or vertices.
@@ -165,7 +143,7 @@ TargetLayout target_layout(const Capabilities& c, const cases::Case& test) {
     bool has_wide = false;
     for (uint32_t k = 0; k < attributes; ++k) {
         const bool is_wide = std::any_of(test.draws.begin(), test.draws.end(), [k](const auto& d) {
-            return k < d.attributes.size() && !has_two_numbers(d.attributes[k]);
+            return k < d.attributes.size() && !cases::has_two_numbers(d.attributes[k]);
         });
         layout.components.at(k) = is_wide ? 4 : 2;
         has_wide = has_wide || is_wide;

@@ -113,6 +113,46 @@ TEST(Consistency, DepthWritesStayWhereOtherDrawsTestDepth) {
     EXPECT_FALSE(scene.derivations()[0].variation.other_depth_clear);
 }
 
+// Early tests store the depth of a fragment that the shader then discards. Where it has the bits of
+// the clear value, the sample looks clear.
+TEST(Consistency, ADepthThatIsStoredWithoutAHitMayBeTheClearValue) {
+    Scene scene(RelationKind::other_clears);
+    const Derivation d = scene.derivations()[0];
+    ASSERT_TRUE(d.variation.other_depth_clear);
+    constexpr size_t clear = 7 * 8 + 7;
+    capture::Capture derived = scene.base;
+    vary(derived, d.variation);
+    derived.depth[clear] = scene.base.depth[clear];
+    EXPECT_EQ(compare_bits(scene.test, scene.base, derived, d).different, 1U);
+    scene.test.draws[0].early_tests = true;
+    EXPECT_EQ(compare_bits(scene.test, scene.base, derived, d).different, 1U);
+    scene.test.draws[0].discard = cases::Discard::odd_columns;
+    EXPECT_EQ(compare_bits(scene.test, scene.base, derived, d).different, 0U);
+    derived.depth[clear] = 0.5F;
+    EXPECT_EQ(compare_bits(scene.test, scene.base, derived, d).different, 1U);
+    derived.depth[clear] = scene.base.depth[clear];
+    scene.test.draws[0].depth.write = false;
+    EXPECT_EQ(compare_bits(scene.test, scene.base, derived, d).different, 1U);
+    scene.test.draws[0].depth.write = true;
+    scene.test.draws[0].discard = cases::Discard::none;
+    scene.test.draws[0].multisample.shader_mask = 1;
+    EXPECT_EQ(compare_bits(scene.test, scene.base, derived, d).different, 0U);
+}
+
+// What is +0 at every vertex is drawn or not, by how much room there is for attachments.
+TEST(Consistency, ComponentsThatNeedNotBeDrawnAreZeroOfEitherSign) {
+    Scene scene;
+    const Derivation d = scene.derivations()[0];
+    capture::Capture derived = scene.base;
+    derived.attributes[0][18].z = -0.0F;
+    EXPECT_EQ(compare_bits(scene.test, scene.base, derived, d).different, 0U);
+    derived.attributes[0][18].z = 0x1p-126F;
+    EXPECT_EQ(compare_bits(scene.test, scene.base, derived, d).different, 1U);
+    derived.attributes[0][18].z = -0.0F;
+    scene.test.draws[0].attributes[0].values[1].z = -0.0F;
+    EXPECT_EQ(compare_bits(scene.test, scene.base, derived, d).different, 1U);
+}
+
 TEST(Consistency, NaNsAreComparedByTheirBits) {
     Scene scene;
     const Derivation d = scene.derivations()[0];
