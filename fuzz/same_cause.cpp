@@ -4,6 +4,8 @@
 // Which failures are of one cause.
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdlib>
 #include <iterator>
 #include <set>
 #include <string>
@@ -210,6 +212,23 @@ bool is_of_value(const Entry& earlier, const Entry& fresh) {
            fresh.symptom.level >= earlier.symptom.level && is_within(special, keys_of(fresh));
 }
 
+// Whether an earlier entry has wrong values of inputs at the sample or the centroid, and the shader
+// of the fresh one discards by such an input.
+bool is_discard_by_place(const Entry& earlier, const Entry& fresh) {
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kPlaces = {
+        {{"interp.sample", "draw.attribute.auxiliary=sample"},
+         {"interp.centroid", "draw.attribute.auxiliary=centroid"}}};
+    return is_value(earlier.symptom) && fresh.symptom.rule == "discard.value" &&
+           fresh.symptom.level >= earlier.symptom.level &&
+           fresh.essentials.contains("draw.discard=negative") &&
+           std::ranges::any_of(kPlaces,
+                               [&](const auto& place) {
+                                   return earlier.symptom.rule == place.first &&
+                                          fresh.essentials.contains(std::string(place.second));
+                               }) &&
+           is_within(without(earlier.essentials, kNumbers), fresh.essentials);
+}
+
 // Whether an earlier entry stores wrong colours, and the fresh one shows them by another rule, as
 // write masks, logical operations and blending hand on what is stored. Those that need nothing
 // special and that only Direct3D forbids are rounded otherwise than it says, by their format.
@@ -267,16 +286,26 @@ bool is_stencil_word(const std::string& word) {
 }
 
 // Whether two entries show the same state beside a stencil in what the stencil holds: by which rule
-// depends on its operations, and whether it compares, which are chance.
+// depends on its operations, and whether it compares, which are chance; a later draw may compare
+// it, too. So are the face whose operations they are, and how depth came to what it is.
 bool is_of_stencil_beside(const Entry& earlier, const Entry& fresh) {
     const auto holds_wrong = [](const Entry& entry) {
-        return is_value(entry.symptom) && entry.essentials.contains("stencil=true") &&
-               (entry.symptom.rule.starts_with("stencil.") || entry.symptom.rule == "depth.bounds");
+        const bool is_compared =
+            entry.symptom.rule == "stencil.compare" && entry.essentials.contains("several draws");
+        return entry.essentials.contains("stencil=true") &&
+               (is_value(entry.symptom) ? entry.symptom.rule.starts_with("stencil.") ||
+                                              entry.symptom.rule == "depth.bounds"
+                                        : is_compared);
     };
     const auto beside = [](const Entry& entry) {
         std::set<std::string> words = special_of(entry);
-        std::erase_if(words, is_stencil_word);
-        words.erase("depth_clear");
+        std::erase_if(words, [](const std::string& word) {
+            return is_stencil_word(word) || word.starts_with("draw.front_face") ||
+                   word == "depth_clear";
+        });
+        if (words.contains("draw.depth.bounds")) {
+            words.erase("draw.frag_depth");
+        }
         return words;
     };
     return holds_wrong(earlier) && holds_wrong(fresh) &&
@@ -284,17 +313,34 @@ bool is_of_stencil_beside(const Entry& earlier, const Entry& fresh) {
            earlier.symptom.level <= fresh.symptom.level;
 }
 
-// Whether what was seen is no number where a colour lies beyond the range of binary16: its bounds
-// begin at 65504, or end at -65504.
+// Whether "r -4514752 to -65472, g 0" has a range whose outer end binary16 does not reach, and
+// whose inner end is most of the way there. The largest finite number of binary16 is 65504.
+bool reaches_beyond_half(std::string_view expected) {
+    constexpr double kLargest = 65504;
+    constexpr std::string_view kTo = " to ";
+    for (size_t to = expected.find(kTo); to != std::string_view::npos;
+         to = expected.find(kTo, to + 1)) {
+        const size_t begin = expected.rfind(' ', to - 1) + 1;
+        const double first = std::strtod(std::string(expected.substr(begin)).c_str(), nullptr);
+        const double last =
+            std::strtod(std::string(expected.substr(to + kTo.size())).c_str(), nullptr);
+        const double inner = std::min(std::abs(first), std::abs(last));
+        const double outer = std::max(std::abs(first), std::abs(last));
+        if (first * last > 0 && outer > kLargest && inner >= kLargest / 2) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// Whether what was seen is no number where a colour lies beyond the range of binary16, or may.
 bool is_beyond_half(const Entry& entry) {
     const size_t got = entry.seen.find(", got ");
     if (!is_of_color(entry) || got == std::string::npos) {
         return false;
     }
-    const std::string expected = entry.seen.substr(0, got) + ",";
     const std::string found = entry.seen.substr(got);
-    return (expected.find(" 65504 to ") != std::string::npos ||
-            expected.find(" to -65504,") != std::string::npos) &&
+    return reaches_beyond_half(std::string_view(entry.seen).substr(0, got)) &&
            (found.find("NaN") != std::string::npos || found.find("infinity") != std::string::npos);
 }
 
@@ -366,7 +412,8 @@ bool is_same_cause(const Entry& earlier, const Entry& fresh) {
                                 is_beyond_half(earlier) && is_beyond_half(fresh) &&
                                 earlier.symptom.level <= fresh.symptom.level;
     if (is_consequence(earlier, fresh) || is_of_value(earlier, fresh) ||
-        is_of_stored(earlier, fresh) || is_of_overflow) {
+        is_of_stored(earlier, fresh) || is_of_overflow || is_discard_by_place(earlier, fresh) ||
+        is_of_stencil_beside(earlier, fresh)) {
         return true;
     }
     // What is gravest in the fresh one's own reduced case is the earlier one's: what else is wrong
@@ -380,8 +427,7 @@ bool is_same_cause(const Entry& earlier, const Entry& fresh) {
     }
     // Which test leaves those samples, and whether the input or the shader asks for the centroid,
     // is chance.
-    if (shows_the_same(earlier, fresh) || is_of_stencil_beside(earlier, fresh) ||
-        is_of_moved_centroid(earlier, fresh)) {
+    if (shows_the_same(earlier, fresh) || is_of_moved_centroid(earlier, fresh)) {
         return true;
     }
     const bool is_same_rule =

@@ -428,6 +428,32 @@ TEST(SameCause, WhichTestMovesACentroidIsChance) {
                                entry("value of interp.at-centroid [direct3d]", needs)));
 }
 
+TEST(SameCause, InputsAtAWrongPlaceDiscardOthers) {
+    const Entry sample = entry("value of interp.sample [vulkan]", {"several samples"});
+    const std::set<std::string> by_sample = {"draw.attribute", "draw.attribute.auxiliary=sample",
+                                             "draw.discard=negative", "several samples",
+                                             "unequal w"};
+    const std::string symptom = "order of discard.value [vulkan]";
+    EXPECT_TRUE(is_same_cause(sample, entry(symptom, by_sample)));
+    const auto but = [&](const std::string& word, const std::string& other) {
+        std::set<std::string> words = by_sample;
+        words.erase(word);
+        words.insert(other);
+        return words;
+    };
+    const std::string auxiliary = "draw.attribute.auxiliary=sample";
+    EXPECT_FALSE(
+        is_same_cause(sample, entry(symptom, but(auxiliary, "draw.attribute.auxiliary=centroid"))));
+    EXPECT_FALSE(is_same_cause(sample, entry(symptom, but("several samples", "sloping depth"))));
+    EXPECT_FALSE(is_same_cause(sample, entry(symptom, but("draw.discard=negative", "color"))));
+    EXPECT_FALSE(is_same_cause(sample, entry("order of order.draws [vulkan]", by_sample)));
+    const Entry lesser = entry("value of interp.sample [practice]", {"several samples"});
+    EXPECT_FALSE(is_same_cause(lesser, entry(symptom, by_sample)));
+    const Entry centroid = entry("value of interp.centroid [vulkan]", {"several samples"});
+    EXPECT_TRUE(is_same_cause(centroid,
+                              entry(symptom, but(auxiliary, "draw.attribute.auxiliary=centroid"))));
+}
+
 TEST(SameCause, ByWhichRuleAStencilShowsAStateIsChance) {
     const Entry outside = entry(
         "value of stencil.operation [vulkan]",
@@ -444,6 +470,29 @@ TEST(SameCause, ByWhichRuleAStencilShowsAStateIsChance) {
             entry(symptom, {"draw.depth.bounds", word, "draw.stencil.compare", "stencil=true"})))
             << symptom;
     }
+    // A later draw compares it; the operations are of one face; a shader has written the depth.
+    for (const auto& [symptom, essentials] :
+         {std::pair("extra of stencil.compare [vulkan]",
+                    std::set<std::string>{"draw.depth.bounds", "draw.stencil.compare",
+                                          "draw.stencil.depth_fail=invert", "several draws",
+                                          "stencil=true"}),
+          std::pair("value of stencil.operation [vulkan]",
+                    std::set<std::string>{"draw.depth.bounds", "draw.front_face=clockwise",
+                                          "several draws", "stencil=true"}),
+          std::pair(
+              "value of depth.bounds [vulkan]",
+              std::set<std::string>{"draw.depth.bounds", "draw.frag_depth.value",
+                                    "draw.stencil.back.depth_fail=invert", "stencil=true"})}) {
+        EXPECT_TRUE(is_same_cause(outside, entry(symptom, essentials))) << symptom;
+    }
+    EXPECT_FALSE(is_same_cause(outside, entry("extra of stencil.compare [vulkan]",
+                                              {"draw.depth.bounds", "draw.stencil.compare",
+                                               "draw.stencil.depth_fail=invert", "stencil=true"})));
+    EXPECT_FALSE(
+        is_same_cause(entry("value of stencil.operation [vulkan]",
+                            {"draw.frag_depth.value", "draw.early_tests=true", "stencil=true"}),
+                      entry("value of stencil.operation [vulkan]",
+                            {"draw.depth.bounds", "draw.frag_depth.value", "stencil=true"})));
     // Other state, hits, depths, or a stencil alone are other things.
     const std::set<std::string> bounds = {"draw.depth.bounds", "draw.stencil.pass=invert",
                                           "stencil=true"};
@@ -471,6 +520,14 @@ TEST(SameCause, AColorBeyondTheRangeMayBeDrawnMaskedOrClearedTo) {
     EXPECT_TRUE(is_same_cause(known, fresh));
     fresh.seen = "pixel (0, 2), sample 0: color: expected a -81920 to -65504, got a NaN (0xfd00)";
     EXPECT_TRUE(is_same_cause(known, fresh));
+    // Blending may end within the range, or far beyond it.
+    fresh.seen =
+        "pixel (0, 0), sample 0: color: expected r -4514752 to -65472, g 0, got r NaN, g 0";
+    EXPECT_TRUE(is_same_cause(known, fresh));
+    for (const char* range : {"-4514752 to 65472", "-4514752 to -1", "0 to 70000"}) {
+        fresh.seen = std::string("pixel (0, 0): color: expected r ") + range + ", g 0, got r NaN";
+        EXPECT_FALSE(is_same_cause(known, fresh)) << range;
+    }
     fresh.seen = "pixel (0, 2), sample 0: color: expected a 1, got a NaN (0x7d00)";
     EXPECT_FALSE(is_same_cause(known, fresh));
     fresh.seen = "pixel (0, 2), sample 0: color: expected a 65504 to 81920, got a 0";
