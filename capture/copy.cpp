@@ -9,6 +9,7 @@ Capture copy_of(const CaptureView& from) {
     to.target = from.target;
     to.has_primitive = from.has_primitive;
     to.has_half_hits = from.has_half_hits;
+    to.renderings = from.renderings;
     to.attribute_count = from.attribute_count;
     to.counted = from.counted;
     for_each_plane([](const Plane&, const auto& source,

@@ -27,7 +27,7 @@ function(edgecase_compile_shader source output variants)
 endfunction()
 
 edgecase_compile_shader(copy_samples.comp copy
-    "copy_depth 1.1 DEPTH=1;copy_1 1.1 DEPTH=0 WORDS=1;copy_2 1.1 DEPTH=0 WORDS=2;copy_4 1.1 DEPTH=0 WORDS=4")
+    "copy_depth 1.1 DEPTH=1;copy_codes 1.1 DEPTH=2;copy_1 1.1 DEPTH=0 WORDS=1;copy_2 1.1 DEPTH=0 WORDS=2;copy_4 1.1 DEPTH=0 WORDS=4")
 
 # A triangle that clears, one shader for each place that it clears: KIND 0 depth, 1 a colour of numbers, 2 one of integers.
 edgecase_compile_shader(clear.vert clear_vertex "over_target 1.1")

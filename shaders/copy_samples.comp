@@ -5,7 +5,7 @@
 // ((layer * height + j) * width + i) * samples + s. A
 // resolve would combine or choose samples in an implementation-dependent way; this reads each one.
 // Colour is read through an unsigned view of the float image, so that no bit can change on the way.
-// DEPTH, and of colour the WORDS a sample (1, 2 or 4), are defined by the build.
+// DEPTH (2: of an image of one sample), and of colour the WORDS a sample (1, 2 or 4), are defined by the build.
 #version 450
 #extension GL_EXT_samplerless_texture_functions : require
 
@@ -31,8 +31,14 @@ layout(push_constant) uniform Extent {
 }
 extent;
 
+#if DEPTH == 2
+#define SOURCE texture2DArray
+#else
+#define SOURCE texture2DMSArray
+#endif
+
 #if DEPTH
-layout(set = 0, binding = 0) uniform texture2DMSArray source;
+layout(set = 0, binding = 0) uniform SOURCE source;
 layout(set = 0, binding = 1, std430) writeonly buffer Words {
     uint words[];
 };
@@ -53,7 +59,7 @@ void main() {
     uint first = (row * extent.width + pixel.x) * extent.samples;
     for (uint s = 0u; s < extent.samples; ++s) {
 #if DEPTH
-        words[first + s] = floatBitsToUint(texelFetch(source, texel, int(s)).r);
+        words[first + s] = floatBitsToUint(texelFetch(source, texel, int(s)).r);  // s is 0 where it is a level
 #else
         words[first + s] = TAKE(texelFetch(source, texel, int(s)));
 #endif

@@ -78,6 +78,10 @@ std::span<const uint32_t> copy_samples(bool depth, uint32_t words) {
     return kCopy[depth ? 0U : words == 4 ? 3U : words];
 }
 
+std::span<const uint32_t> copy_codes_of_depth() {
+    return copy_codes;
+}
+
 std::span<const uint32_t> any_module(size_t i) {
     if (i < std::size(kVertex)) {
         return kVertex[i].code;

@@ -139,6 +139,8 @@ inline constexpr uint32_t kInputWords = 0, kInputKind = 1, kInputBits = 2, kInpu
 
 // copy_samples.comp for depth attachments, or colour attachments with `words` (1, 2 or 4) a sample.
 std::span<const uint32_t> copy_samples(bool depth, uint32_t words);
+// copy_samples.comp for depth of one sample.
+std::span<const uint32_t> copy_codes_of_depth();
 
 // Number i of all modules, for tests; empty beyond the last.
 std::span<const uint32_t> any_module(size_t i);

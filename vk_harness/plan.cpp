@@ -85,7 +85,7 @@ void reject(Rendered& result, const Failure& failure) {
 
 bool BatchRenderer::plan(CasePlan& plan, Rendered& result) {
     const cases::Case& test = *plan.test;
-    if (auto rejection = check_case(device_->capabilities(), test)) {
+    if (auto rejection = check_case(device_->capabilities(), test, plan.reads_hits)) {
         result.status = rejection->status;
         result.reason = std::move(rejection->reason);
         return false;

@@ -113,7 +113,8 @@ BatchRenderer::BatchRenderer(Instance instance, std::unique_ptr<Device> device,
       pipelines_(std::move(pipelines)),
       targets_(*device_),
       textures_(*device_),
-      submission_(std::move(submission)) {}
+      submission_(std::move(submission)),
+      depth_codes_(*device_) {}
 
 BatchRenderer::~BatchRenderer() {
     // Nothing may be freed while the device still works on it, as after a wait that failed.
@@ -140,6 +141,50 @@ Result<void> BatchRenderer::read_queries(const CasePlan& plan, Rendered& result)
     return put(result.capture.counted, plan.queries->read());
 }
 
+Result<void> BatchRenderer::read_depth_codes(const CasePlan& plan,
+                                             std::span<const std::byte> memory,
+                                             const capture::PlaneSpans& planes, Rendered& result) {
+    const cases::Target& target = plan.test->target;
+    const auto depth = std::ranges::find(plan.attachments, Role::depth, &Attachment::role);
+    if (target.samples == 1 || target.depth_format != cases::DepthFormat::d24_unorm ||
+        depth == plan.attachments.end()) {
+        return {};
+    }
+    if (!asking_) {
+        auto made = Submission::create(*device_);
+        if (!made) {
+            return fail(made.error());
+        }
+        asking_ = std::move(*made);
+    }
+    const auto k = static_cast<size_t>(depth - plan.attachments.begin());
+    const std::span words(
+        reinterpret_cast<const uint32_t*>(memory.data() + plan.readback.offset[k]),
+        planes.depth.size());
+    if (auto learned = depth_codes_.learn(*asking_, pipelines_, depth->format, words); !learned) {
+        return learned;
+    }
+    if (auto untold = depth_codes_.decode(depth->format, words, planes.depth)) {
+        result.status = Rendered::Status::unsupported;
+        result.reason = *std::move(untold);
+    }
+    return {};
+}
+
+capture::PlaneSpans placed_planes(Rendered& result, size_t slot, const PlaneStore& store) {
+    capture::Capture& capture = result.capture;
+    if (store) {
+        result.placed = store(slot, capture::plane_bytes(capture.target, capture.attribute_count));
+    }
+    if (!result.placed.empty()) {
+        return capture::planes_at(capture.target, capture.attribute_count, result.placed.data());
+    }
+    capture::for_each_plane(
+        [](const capture::Plane& plane, auto& entries) { entries.resize(plane.entries); }, capture,
+        capture);
+    return capture::PlaneSpans(capture);
+}
+
 capture::PlaneSpans BatchRenderer::place_planes(const CasePlan& plan, Rendered& result,
                                                 const PlaneStore& store) const {
     const cases::Target& target = plan.test->target;
@@ -148,16 +193,7 @@ capture::PlaneSpans BatchRenderer::place_planes(const CasePlan& plan, Rendered& 
     capture.has_primitive = device_->capabilities().info.has_primitive_id;
     capture.has_half_hits = counts_in_halves(plan.attachments);
     capture.attribute_count = target.has_instruments ? cases::attributes_of(*plan.test) : 0;
-    if (store) {
-        result.placed = store(plan.slot, capture::plane_bytes(target, capture.attribute_count));
-    }
-    if (!result.placed.empty()) {
-        return capture::planes_at(target, capture.attribute_count, result.placed.data());
-    }
-    capture::for_each_plane(
-        [](const capture::Plane& plane, auto& entries) { entries.resize(plane.entries); }, capture,
-        capture);
-    return capture::PlaneSpans(capture);
+    return placed_planes(result, plan.slot, store);
 }
 
 Result<void> BatchRenderer::draw_chunk(std::span<CasePlan> plans, bool read_back,
@@ -259,6 +295,9 @@ Result<void> BatchRenderer::draw_chunk(std::span<CasePlan> plans, bool read_back
     if (auto done = submission_.run(); !done) {
         return done;
     }
+    for (const CasePlan& plan : plans) {
+        results[plan.slot].status = Rendered::Status::drawn;
+    }
     if (read_back) {
         step("readback");
         if (auto visible = readback->invalidate(); !visible) {
@@ -273,13 +312,14 @@ Result<void> BatchRenderer::draw_chunk(std::span<CasePlan> plans, bool read_back
             const capture::PlaneSpans planes = place_planes(plan, results[plan.slot], store);
             read_planes(plan.attachments, plan.readback, readback->bytes(), planes);
             move_back(plan, planes);
-            if (auto read = read_queries(plan, results[plan.slot]); !read) {
+            Rendered& result = results[plan.slot];
+            if (auto read = read_depth_codes(plan, readback->bytes(), planes, result); !read) {
+                return read;
+            }
+            if (auto read = read_queries(plan, result); !read) {
                 return read;
             }
         }
-    }
-    for (const CasePlan& plan : plans) {
-        results[plan.slot].status = Rendered::Status::drawn;
     }
     return {};
 }
@@ -344,28 +384,9 @@ void BatchRenderer::run_chunk(std::vector<CasePlan>& plans, bool read_back,
     pipelines_.trim(kKeptPipelines);
 }
 
-std::vector<cases::Case> BatchRenderer::with_own_depth(std::span<const cases::Case> batch) const {
-    const cases::DepthFormat own = device_->capabilities().beside_stencil;
-    std::vector<cases::Case> out;
-    if (std::ranges::none_of(batch, [&](const cases::Case& c) {
-            return cases::takes_depth_beside_stencil(c.target, own);
-        })) {
-        return out;
-    }
-    for (const cases::Case& c : batch) {
-        out.push_back(c);
-        if (cases::takes_depth_beside_stencil(c.target, own)) {
-            out.back().target.depth_format = own;
-        }
-    }
-    return out;
-}
-
-std::vector<Rendered> BatchRenderer::render(std::span<const cases::Case> filed, bool read_back,
-                                            const std::function<void(std::string_view)>& step,
-                                            const PlaneStore& store) {
-    const std::vector<cases::Case> own = with_own_depth(filed);
-    const std::span<const cases::Case> batch = own.empty() ? filed : own;
+std::vector<Rendered> BatchRenderer::draw(std::span<const Rendering> batch, bool read_back,
+                                          const std::function<void(std::string_view)>& step,
+                                          const PlaneStore& store) {
     std::vector<Rendered> results(batch.size());
     std::vector<CasePlan> plans;
     VkDeviceSize bytes = 0;
@@ -379,13 +400,14 @@ std::vector<Rendered> BatchRenderer::render(std::span<const cases::Case> filed, 
             continue;
         }
         CasePlan item;
-        item.test = &batch[slot];
+        item.test = batch[slot].test;
+        item.reads_hits = batch[slot].reads_hits;
         item.slot = slot;
         const VkDeviceSize size = attachment_bytes(
             item.test->target,
             attachments_of(*item.test, target_layout(device_->capabilities(), *item.test)),
             image_way(*item.test));
-        const bool is_alone = is_drawn_alone(*device_, batch[slot]);
+        const bool is_alone = is_drawn_alone(*device_, *item.test);
         const auto flush = [&] {
             run_chunk(plans, read_back, results, step, store);
             bytes = 0;
@@ -398,7 +420,7 @@ std::vector<Rendered> BatchRenderer::render(std::span<const cases::Case> filed, 
         }
         if (plan(item, result)) {
             bytes += size;
-            doors += batch[slot].variation.door != cases::Door::none ? size_t{1} : 0;
+            doors += batch[slot].test->variation.door != cases::Door::none ? size_t{1} : 0;
             plans.push_back(std::move(item));
         }
         if (is_alone) {
@@ -407,9 +429,6 @@ std::vector<Rendered> BatchRenderer::render(std::span<const cases::Case> filed, 
         append(result.messages, instance_.messages().take());
     }
     run_chunk(plans, read_back, results, step, store);
-    for (size_t slot = 0; slot < own.size(); ++slot) {
-        results[slot].capture.target = filed[slot].target;  // which is what was asked for
-    }
     return results;
 }
 
@@ -466,9 +485,7 @@ const DeviceInfo& Renderer::device() const {
 }
 
 std::string Renderer::lacking(const cases::Case& c) const {
-    const std::vector<cases::Case> own = impl_->body.with_own_depth({&c, 1});
-    const std::optional<Rejection> rejection =
-        check_case(impl_->body.device().capabilities(), own.empty() ? c : own.front());
+    const std::optional<Rejection> rejection = impl_->body.check(c);
     return rejection ? rejection->reason : std::string();
 }
 

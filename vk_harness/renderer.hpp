@@ -6,6 +6,8 @@
 
 #include "vk_harness/commands/lod_texture.hpp"
 #include "vk_harness/commands/record.hpp"
+#include "vk_harness/depth_codes.hpp"
+#include "vk_harness/device/rejection.hpp"
 
 namespace vk_harness {
 
@@ -72,6 +74,16 @@ cases::SampleLocations told_locations(std::span<const glm::vec4> positions, uint
 // What a failed call makes of a case's result.
 void reject(Rendered& result, const Failure& failure);
 
+// Memory for the planes that a capture of this target has, of case `slot` of the batch: the store's
+// if it has some (Rendered::placed), else the capture's own.
+capture::PlaneSpans placed_planes(Rendered& result, size_t slot, const PlaneStore& store);
+
+// One of those that a batch is drawn in.
+struct Rendering {
+    const cases::Case* test = nullptr;
+    bool reads_hits = true;  // check_case()
+};
+
 class BatchRenderer {
   public:
     static Result<BatchRenderer> create(const Options& options);
@@ -83,8 +95,8 @@ class BatchRenderer {
                                  const std::function<void(std::string_view)>& step,
                                  const PlaneStore& store = {});
 
-    // The cases with the depth that the device has beside a stencil, if it lacks D32S8.
-    std::vector<cases::Case> with_own_depth(std::span<const cases::Case> batch) const;
+    // Why the case cannot be drawn; nothing if it can.
+    std::optional<Rejection> check(const cases::Case& c) const;
 
     // Where the device's samples are, if it does not promise the standard locations: into its
     // DeviceInfo, or why it could not be asked.
@@ -93,6 +105,13 @@ class BatchRenderer {
     const Device& device() const { return *device_; }
 
   private:
+    // The cases with the depth that the device has beside a stencil, if it lacks D32S8; none if no
+    // case needs that.
+    std::vector<cases::Case> with_own_depth(std::span<const cases::Case> batch) const;
+    // As render(), of renderings: results in their order.
+    std::vector<Rendered> draw(std::span<const Rendering> batch, bool read_back,
+                               const std::function<void(std::string_view)>& step,
+                               const PlaneStore& store);
     BatchRenderer(Instance instance, std::unique_ptr<Device> device, PipelineCache pipelines,
                   Submission submission);
     VkDeviceSize alignment() const;  // of everything in the read-back buffer
@@ -120,6 +139,10 @@ class BatchRenderer {
     // Where the planes of a case go that has been drawn: to the store's memory, if it has room.
     capture::PlaneSpans place_planes(const CasePlan& plan, Rendered& result,
                                      const PlaneStore& store) const;
+    // Depth of D24 whose single samples a shader has read, of `memory` as it was read back; of a
+    // device whose codes cannot be told the case is unsupported.
+    Result<void> read_depth_codes(const CasePlan& plan, std::span<const std::byte> memory,
+                                  const capture::PlaneSpans& planes, Rendered& result);
     // What the case's queries counted, into its capture.
     static Result<void> read_queries(const CasePlan& plan, Rendered& result);
     // Whether a case that is drawn alone is so large that draw_large() reads it back.
@@ -143,6 +166,8 @@ class BatchRenderer {
     TargetCache targets_;
     LodTextures textures_;
     Submission submission_;
+    std::optional<Submission> asking_;  // of depth_codes_, once it is needed
+    DepthCodes depth_codes_;
     std::string lost_;  // why the device is lost, once it is
 };
 

@@ -55,7 +55,8 @@ struct InputRead {
 
 struct CasePlan {
     const cases::Case* test = nullptr;
-    size_t slot = 0;           // among the cases of the batch
+    size_t slot = 0;           // among the renderings of the batch
+    bool reads_hits = true;    // check_case()
     uint32_t input_count = 0;  // case_check.hpp
     std::vector<Attachment> attachments;
     std::vector<const Image*> images;  // one an attachment

@@ -139,8 +139,14 @@ Result<VkRenderPass> PipelineCache::get_pass(const PassKey& key) {
 }
 
 Result<VkPipeline> PipelineCache::get_copy(const Attachment& attachment) {
-    const std::span<const uint32_t> source =
-        shaders::copy_samples(attachment.is_depth(), attachment.sample_bytes / 4);
+    return get_copy(shaders::copy_samples(attachment.is_depth(), attachment.sample_bytes / 4));
+}
+
+Result<VkPipeline> PipelineCache::get_code_copy() {
+    return get_copy(shaders::copy_codes_of_depth());
+}
+
+Result<VkPipeline> PipelineCache::get_copy(std::span<const uint32_t> source) {
     const auto found = copies_.find(source.data());
     if (found != copies_.end()) {
         return found->second.get();

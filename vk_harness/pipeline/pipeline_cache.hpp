@@ -40,6 +40,8 @@ class PipelineCache {
     Result<VkPipeline> get_input(const InputKey& key);
     // The compute pipeline that copies the samples of an attachment to a buffer.
     Result<VkPipeline> get_copy(const Attachment& attachment);
+    // That which copies depth of one sample, as it reads that of several.
+    Result<VkPipeline> get_code_copy();
 
     // Lets go of all pipelines and shader objects of draws if there are more than `most` of them,
     // and of what those were linked from. Nothing on the device may need them any more.
@@ -59,6 +61,7 @@ class PipelineCache {
 
   private:
     explicit PipelineCache(const Device& device) : device_(&device) {}
+    Result<VkPipeline> get_copy(std::span<const uint32_t> source);
     // What a map has for the key, else what is made for it, which the map then keeps.
     template <class Key, class Object, class Make>
     static Result<Object> get_or_make(std::map<Key, Handle<Object>>& kept, const Key& key,

@@ -15,13 +15,15 @@ namespace vk_harness {
 namespace {
 
 // Depth as the capture holds it (capture/capture.hpp). Copied texels of D16 are 2 bytes and of
-// X8_D24 the low 24 bits of a word; with words a shader has written binary32.
+// X8_D24 the low 24 bits of a word; with words a shader has written binary32, which of D24 is left
+// to DepthCodes.
 void decode_depth(const cases::Target& target, bool has_words, std::span<const std::byte> from,
                   float* to) {
     const size_t count = size_t{target.width} * target.rows() * target.samples;
     const auto* words = reinterpret_cast<const uint32_t*>(from.data());
     const auto poison_float = std::bit_cast<float>(capture::kPoison);
-    if (target.depth_format == cases::DepthFormat::d32_float) {
+    if (target.depth_format == cases::DepthFormat::d32_float ||
+        (has_words && target.depth_format == cases::DepthFormat::d24_unorm)) {
         std::memcpy(to, words, count * sizeof(float));
         return;
     }

@@ -251,8 +251,8 @@ TEST(CaseCheck, HitsThatShareANumber) {
     EXPECT_FALSE(check_case(m, c).has_value());
     c.draws.push_back(good().draws[0]);
     expect_rejected(m, c, unsupported,
-                    "the case may hit a sample 2048 times and has so many attributes that hits are "
-                    "counted up to 2047; leave out an attribute or the colour target");
+                    "the case may hit a sample 2048 times, and the device counts hits up to 2047; "
+                    "leave out an attribute or the colour target");
     m.narrow_sample_counts = VK_SAMPLE_COUNT_1_BIT;
     m.info.max_color_attachments = 8;
     EXPECT_FALSE(check_case(m, c).has_value());
@@ -268,8 +268,8 @@ TEST(CaseCheck, HitsInHalves) {
     EXPECT_FALSE(check_case(m, c).has_value());
     c.draws.push_back(good().draws[0]);
     expect_rejected(m, c, unsupported,
-                    "the case may hit a sample 32 times and the device blends 16-bit floats only, "
-                    "so that hits are counted up to 31; leave out an attribute or the colour "
+                    "the case may hit a sample 32 times, and the device blends 16-bit floats only, "
+                    "in which hits are counted up to 31; leave out an attribute or the colour "
                     "target");
     m.narrow_sample_counts = VK_SAMPLE_COUNT_1_BIT;
     c.draws[0].positions.resize(size_t{3} * 1022);
