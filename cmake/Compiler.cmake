@@ -7,6 +7,8 @@ target_compile_options(edgecase_warnings INTERFACE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wdouble-promotion
     -Wfloat-equal -Wold-style-cast -Wundef $<$<BOOL:${EDGECASE_WERROR}>:-Werror>)
 add_compile_options(-ffp-contract=off -fno-fast-math)
+# A program says nothing of the folder that it was built in, and is the same wherever that is.
+add_compile_options(-ffile-prefix-map=${CMAKE_SOURCE_DIR}/=)
 if(EDGECASE_SANITIZE)
     # The arithmetic is optimised, the rest compiles twice as fast without.
     foreach(room ref diff)

@@ -35,10 +35,6 @@ bool is_folder(const fs::path& path) {
     return fs::is_directory(path, ignored);
 }
 
-fs::path source_tree_suite() {
-    return fs::path(__FILE__).parent_path().parent_path().parent_path() / "cases" / "suite";
-}
-
 bool is_below(const fs::path& file, const fs::path& root) {
     std::error_code ignored;
     const fs::path relative = fs::relative(file, root, ignored);
@@ -306,15 +302,11 @@ OrStop<fs::path> find_suite_root(const Program& program, const std::string& opti
             }
         }
     }
-    if (is_folder(source_tree_suite())) {
-        return source_tree_suite();
-    }
     return tl::unexpected(
         Stop{report::kExitInvalidFile,
-             {"no suite found: neither cases/suite nor share/edgecase/cases/suite is "
-              "in a folder above '" +
-              program.path + "', nor is there '" + source_tree_suite().string() +
-              "'; name it with --suite DIR"}});
+             {"no suite found: neither cases/suite nor share/edgecase/cases/suite is in a folder "
+              "above '" +
+              program.path + "'; name it with --suite DIR"}});
 }
 
 OrStop<LoadedSuite> load_and_select(const Program& program, const SuiteOptions& options,

@@ -252,5 +252,39 @@ class Installed(unittest.TestCase):
             self.assertGreater((moved / "share" / page).stat().st_size, 1000)
 
 
+@unittest.skipUnless(shutil.which("dpkg-shlibdeps"), "dpkg-shlibdeps is missing")
+class Packed(unittest.TestCase):
+    """The package of Debian that cpack makes; scripts/package --check installs it in a clean root."""
+
+    def test_an_unpacked_package_is_a_whole_tool(self):
+        build = pathlib.Path(PROGRAM).resolve().parents[1]
+        if "-fsanitize" in (build / "build.ninja").read_text(encoding="utf-8"):
+            self.skipTest("a program under sanitizers is not packed")
+        root = pathlib.Path(tempfile.mkdtemp(prefix="edgecase-e2e-"))
+        self.addCleanup(shutil.rmtree, root, ignore_errors=True)
+        done = subprocess.run(["cpack", "--config", build / "CPackConfig.cmake", "-G", "DEB", "-B", root / "packed"], cwd=root,
+                              capture_output=True, text=True, timeout=300, check=False)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        package, = (root / "packed").glob("*.deb")
+        control = subprocess.run(["dpkg-deb", "--field", package, "Package", "Depends", "Recommends"], check=True,
+                                 capture_output=True, text=True).stdout
+        for word in ("edgecase", "libvulkan1", "libc6 (", "libopenimageio", "mesa-vulkan-drivers"):
+            self.assertIn(word, control)
+        self.assertNotIn("libgmp", control)  # linked in, so that the package installs beside any
+        subprocess.run(["dpkg-deb", "-x", package, root / "there"], check=True)
+        program = root / "there/usr/bin/edgecase"
+        for built in (program, root / "there/usr/lib/edgecase/edgecase-image-io.so"):
+            self.assertNotIn(str(SOURCE).encode(), built.read_bytes(), f"{built} tells where it was built")
+        env = {k: v for k, v in os.environ.items() if not k.startswith("EDGECASE_")}
+        done = subprocess.run([program, "run", "scissor/changes", "multisample/scissor", "-o", "out"], env=env, cwd=root,
+                              capture_output=True, text=True, timeout=120, check=False)
+        # Expected failures among them: the package has the expectation files, and the pages that they name.
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        results = json.loads((root / "out/results.json").read_text(encoding="utf-8"))
+        self.assertGreater(results["totals"]["xfail"], 0)
+        for page in {case["bug"] for case in results["cases"] if case["status"] == "xfail"}:
+            self.assertTrue((root / "there/usr/share/edgecase" / page).is_file(), page)
+
+
 if __name__ == "__main__":
     unittest.main()
