@@ -176,6 +176,9 @@ std::string_view undrawable_part(const cases::Case& c) {
         {claims_doors, "doors"},
         {!t.sample_locations.empty(), "sample locations of its own"},
         {t.has_stencil, "a stencil"},
+        // What a shader reads of them is no code by itself (vk_harness/depth_codes.hpp).
+        {t.has_depth && t.depth_format == cases::DepthFormat::d24_unorm && t.samples > 1,
+         "several samples of D24"},
         {t.depth_resolve != cases::Resolve::none || t.color_resolve != cases::Resolve::none,
          "a resolve"},
         {c.draws.size() > kMaxDraws, "more than 32,767 draws"},

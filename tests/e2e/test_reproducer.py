@@ -224,6 +224,7 @@ class Refused(Reproducer):
                 "blit/mirrored:sx=1,sy=1,dx=0,dy=1": "a blit",
                 "door/indirect-after-count": "doors",
                 "stencil/depth-fail:samples=1,compare=less": "a stencil",
+                "frag-depth/coord:format=d24-unorm,samples=4,rotation=0": "several samples of D24",
                 "resolve/depth:mode=sample-zero,samples=2": "a resolve",
                 "multisample/locations-mesh:seed=1": "sample locations of its own",
                 "viewport/several:a=0,last=4": "several viewports",
