@@ -91,21 +91,7 @@ Result<void> DepthCodes::Asking::make_set(const Device& device, const PipelineCa
     if (auto made = put(sets, make_sets(device, sizes, {&layout, 1})); !made) {
         return made;
     }
-    const VkDescriptorImageInfo image_info = {VK_NULL_HANDLE, view.get(),
-                                              VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-    const VkDescriptorBufferInfo buffer_info = {read.get(), 0, read.size()};
-    std::array<VkWriteDescriptorSet, 2> writes{};
-    for (uint32_t binding = 0; binding < 2; ++binding) {
-        writes[binding] = Typed{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
-        writes[binding].dstSet = sets.sets.front();
-        writes[binding].dstBinding = binding;
-        writes[binding].descriptorCount = 1;
-    }
-    writes[0].descriptorType = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
-    writes[0].pImageInfo = &image_info;
-    writes[1].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    writes[1].pBufferInfo = &buffer_info;
-    device.vk().vkUpdateDescriptorSets(device.get(), 2, writes.data(), 0, nullptr);
+    write_copy_set(device, sets.sets.front(), view.get(), {read.get(), 0, read.size()});
     return {};
 }
 

@@ -170,7 +170,6 @@ Result<void> Submission::run() {
 
 Result<std::vector<VkDescriptorSet>> Submission::copy_sets(const PipelineCache& pipelines,
                                                            const CasePlan& plan) {
-    const VolkDeviceTable& vk = device_->vk();
     const auto count = static_cast<uint32_t>(plan.images.size());
     const std::array<VkDescriptorPoolSize, 2> sizes = {
         VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, count},
@@ -189,24 +188,10 @@ Result<std::vector<VkDescriptorSet>> Submission::copy_sets(const PipelineCache& 
             continue;  // copied, or read by another shader
         }
         const bool is_stencil = plan.attachments[k].role == Role::stencil;
-        const VkDescriptorImageInfo image_info = {
-            VK_NULL_HANDLE,
+        write_copy_set(
+            *device_, sets[k],
             is_stencil ? plan.images[k]->stencil_view() : plan.images[k]->sample_view(),
-            VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-        const VkDescriptorBufferInfo buffer_info = {readback_.get(), plan.readback.offset[k],
-                                                    samples * plan.attachments[k].sample_bytes};
-        std::array<VkWriteDescriptorSet, 2> writes{};
-        for (uint32_t binding = 0; binding < 2; ++binding) {
-            writes[binding].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
-            writes[binding].dstSet = sets[k];
-            writes[binding].dstBinding = binding;
-            writes[binding].descriptorCount = 1;
-        }
-        writes[0].descriptorType = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
-        writes[0].pImageInfo = &image_info;
-        writes[1].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-        writes[1].pBufferInfo = &buffer_info;
-        vk.vkUpdateDescriptorSets(device_->get(), 2, writes.data(), 0, nullptr);
+            {readback_.get(), plan.readback.offset[k], samples * plan.attachments[k].sample_bytes});
     }
     return std::move(sets);
 }

@@ -456,6 +456,24 @@ Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D ex
     return image;
 }
 
+void write_copy_set(const Device& device, VkDescriptorSet set, VkImageView from,
+                    const VkDescriptorBufferInfo& to) {
+    const VkDescriptorImageInfo image = {VK_NULL_HANDLE, from,
+                                         VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    std::array<VkWriteDescriptorSet, 2> writes{};
+    for (uint32_t binding = 0; binding < 2; ++binding) {
+        writes[binding] = Typed{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+        writes[binding].dstSet = set;
+        writes[binding].dstBinding = binding;
+        writes[binding].descriptorCount = 1;
+    }
+    writes[0].descriptorType = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
+    writes[0].pImageInfo = &image;
+    writes[1].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    writes[1].pBufferInfo = &to;
+    device.vk().vkUpdateDescriptorSets(device.get(), 2, writes.data(), 0, nullptr);
+}
+
 Result<DescriptorSets> make_sets(const Device& device, std::span<const VkDescriptorPoolSize> sizes,
                                  std::span<const VkDescriptorSetLayout> layouts) {
     const VolkDeviceTable& vk = device.vk();

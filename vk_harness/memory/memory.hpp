@@ -127,6 +127,11 @@ struct DescriptorSets {
 Result<DescriptorSets> make_sets(const Device& device, std::span<const VkDescriptorPoolSize> sizes,
                                  std::span<const VkDescriptorSetLayout> layouts);
 
+// Lets a set of two bindings show an image that a shader reads (binding 0, in
+// SHADER_READ_ONLY_OPTIMAL) and the part of a buffer that it writes (binding 1).
+void write_copy_set(const Device& device, VkDescriptorSet set, VkImageView from,
+                    const VkDescriptorBufferInfo& to);
+
 // What all images have in common: two dimensions, one level, layer and sample, no contents.
 VkImageCreateInfo image_info(VkFormat format, VkExtent2D extent, VkImageUsageFlags usage);
 Result<Handle<VkImage>> make_image(const Device& device, const VkImageCreateInfo& info);
