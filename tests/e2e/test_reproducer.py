@@ -224,7 +224,8 @@ class Refused(Reproducer):
                 "blit/mirrored:sx=1,sy=1,dx=0,dy=1": "a blit",
                 "door/indirect-after-count": "doors",
                 "stencil/depth-fail:samples=1,compare=less": "a stencil",
-                "frag-depth/coord:format=d24-unorm,samples=4,rotation=0": "several samples of D24",
+                "combination/sampled-states:topology=triangle-fan,auxiliary=sample,depth=d24-unorm,cull=back,mode=smooth,beyond=0,"
+                "provoking=first,volume=zero-to-one,slope=0,clamp=false": "several samples of D24",
                 "resolve/depth:mode=sample-zero,samples=2": "a resolve",
                 "multisample/locations-mesh:seed=1": "sample locations of its own",
                 "viewport/several:a=0,last=4": "several viewports",
