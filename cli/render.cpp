@@ -10,8 +10,10 @@
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "capture/image/image.hpp"
+#include "cases/base/parallel.hpp"
 #include "cases/model/words.hpp"
 #include "cli/commands.hpp"
 #include "cli/prepare/drawing.hpp"
@@ -33,7 +35,7 @@ using Json = nlohmann::ordered_json;
 struct Reference {
     const cases::Case& c;
     ref::Expectation expectation;
-    ref::ValueReference values;
+    std::vector<ref::ValueReference> values;  // one a thread
 
     cases::SampleId id(size_t index) const { return cases::sample_at(c.target, index); }
 };
@@ -63,9 +65,9 @@ bool is_rounded(const ref::ExpectedValue& v) {
 // The values of a triangle at a sample, by their names: what must be stored bit for bit as [value],
 // else [nearest, low, high], the last two null where nothing is promised. What few values have
 // stands beside them.
-Json writer_json(Reference& r, uint32_t triangle, size_t index) {
+Json writer_json(ref::ValueReference& reference, uint32_t triangle, cases::SampleId id) {
     Json values = Json::object(), exact, also, biased;
-    for (const ref::ExpectedValue& v : r.values.expected(triangle, r.id(index))) {
+    for (const ref::ExpectedValue& v : reference.expected(triangle, id)) {
         const std::string name = to_text(v);
         Json& value = values[name] = Json::array({number(v.nearest)});
         if (is_rounded(v)) {
@@ -80,7 +82,7 @@ Json writer_json(Reference& r, uint32_t triangle, size_t index) {
         // A part beside a value and a level of detail are told, and held to no bounds of their own.
         const bool is_bounded = v.part.empty() && v.factor > 0;
         const ref::ValueRange all =
-            is_bounded ? r.values.range(triangle, r.id(index), v.quantity) : ref::ValueRange{};
+            is_bounded ? reference.range(triangle, id, v.quantity) : ref::ValueRange{};
         value.push_back(all.is_promised ? number(all.low) : Json());
         value.push_back(all.is_promised ? number(all.high) : Json());
         if (all.is_promised && all.has_biased) {
@@ -142,26 +144,26 @@ void put_json(Reference& r, const Put& put) {
                       {"queries", queries_json(r)},
                       {"note", "samples that must not be covered are left out"}},
                      "samples", put);
-    for (size_t index = 0; index < e.samples.size(); ++index) {
+    samples.add_all(e.samples.size(), r.values.size(), [&](size_t index, size_t lane) -> Json {
         const ref::SampleExpectation& s = e.samples[index];
         if (s.hits.total_max == 0) {
-            continue;
+            return {};
         }
         const cases::SampleId id = r.id(index);
         Json writers = Json::array();
         for (uint32_t k = 0; k < s.writers_count; ++k) {
-            writers.push_back(writer_json(r, e.writers[s.writers_begin + k], index));
+            writers.push_back(writer_json(r.values[lane], e.writers[s.writers_begin + k], id));
         }
-        samples.add({{"x", id.x},
-                     {"y", id.y},
-                     {"sample", id.sample},
-                     {"layer", id.layer},
-                     {"class", class_name(s.hits)},
-                     {"front", {s.hits.front_min, s.hits.front_max}},
-                     {"back", {s.hits.back_min, s.hits.back_max}},
-                     {"total", {s.hits.total_min, s.hits.total_max}},
-                     {"writers", std::move(writers)}});
-    }
+        return {{"x", id.x},
+                {"y", id.y},
+                {"sample", id.sample},
+                {"layer", id.layer},
+                {"class", class_name(s.hits)},
+                {"front", {s.hits.front_min, s.hits.front_max}},
+                {"back", {s.hits.back_min, s.hits.back_max}},
+                {"total", {s.hits.total_min, s.hits.total_max}},
+                {"writers", std::move(writers)}};
+    });
     samples.end();
 }
 
@@ -179,7 +181,7 @@ capture::Image values_image(Reference& r) {
         if (s.writers_count == 0) {
             continue;
         }
-        for (const ref::ExpectedValue& v : r.values.expected(writer_of(s), r.id(index))) {
+        for (const ref::ExpectedValue& v : r.values.front().expected(writer_of(s), r.id(index))) {
             if (std::find(quantities.begin(), quantities.end(), to_text(v)) == quantities.end()) {
                 quantities.push_back(to_text(v));
             }
@@ -205,7 +207,7 @@ capture::Image values_image(Reference& r) {
         if (s.writers_count == 0) {
             continue;
         }
-        for (const ref::ExpectedValue& v : r.values.expected(writer_of(s), r.id(index))) {
+        for (const ref::ExpectedValue& v : r.values.front().expected(writer_of(s), r.id(index))) {
             const auto q = std::find(quantities.begin(), quantities.end(), to_text(v));
             at[2 + (q - quantities.begin())] = static_cast<float>(v.nearest);
         }
@@ -228,9 +230,12 @@ capture::Image coverage_image(const Reference& r) {
 // What the reference allows at each sample.
 Drawing allowed_picture(const cases::Case& c, const RenderOptions& options) {
     const ref::Limits limits = limits_of(options.judged);
-    const auto r =
-        std::make_shared<Reference>(Reference{c, ref::expect(c, limits, options.profile),
-                                              ref::ValueReference(c, limits, options.profile)});
+    std::vector<ref::ValueReference> values;
+    for (unsigned k = 0; k < std::min(cases::cores(), 4U); ++k) {
+        values.emplace_back(c, limits, options.profile);
+    }
+    const auto r = std::make_shared<Reference>(
+        Reference{c, ref::expect(c, limits, options.profile), std::move(values)});
     return {[r](const Put& put) { put_json(*r, put); }, [r] { return values_image(*r); },
             [r] { return coverage_image(*r); }};
 }

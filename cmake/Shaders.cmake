@@ -2,12 +2,19 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # edgecase_shaders: every variant of the shaders in shaders/, compiled by glslang at build time and embedded.
-find_package(glslang CONFIG REQUIRED)
+# A build for another machine takes the compile_shader of one for this: EDGECASE_COMPILE_SHADER is its path.
+set(EDGECASE_COMPILE_SHADER "" CACHE FILEPATH "compile_shader of another build; without it, it is built of glslang")
 set(EDGECASE_SHADER_DIR ${CMAKE_BINARY_DIR}/shaders)
 file(MAKE_DIRECTORY ${EDGECASE_SHADER_DIR})
-add_executable(compile_shader ${CMAKE_SOURCE_DIR}/shaders/compile.cpp)
-target_link_libraries(compile_shader PRIVATE glslang::SPIRV glslang::glslang glslang::glslang-default-resource-limits
-                      edgecase_warnings)
+if(EDGECASE_COMPILE_SHADER)
+    add_executable(compile_shader IMPORTED)
+    set_target_properties(compile_shader PROPERTIES IMPORTED_LOCATION ${EDGECASE_COMPILE_SHADER})
+else()
+    find_package(glslang CONFIG REQUIRED)
+    add_executable(compile_shader ${CMAKE_SOURCE_DIR}/shaders/compile.cpp)
+    target_link_libraries(compile_shader PRIVATE glslang::SPIRV glslang::glslang
+                          glslang::glslang-default-resource-limits edgecase_warnings)
+endif()
 
 set(EDGECASE_SHADER_OUTPUTS "")
 set(EDGECASE_SHADER_INCLUDES "")

@@ -76,19 +76,22 @@ inline constexpr uint32_t kOtherAttributeConstant = kBackHitConstant + 1;
 // The input of capture.frag that stands for gl_PrimitiveID.
 inline constexpr uint32_t kPrimitiveLocation = 7;
 
+// Of interpolateAtOffset (pixels) and interpolateAtSample, by attribute.
+struct ProbeConstants {
+    float offsets[kMaxAttributes][2];
+    int32_t sample_numbers[kMaxAttributes];
+};
+
 // As push constants in both stages.
 struct DrawConstants {
     uint32_t index = 0;  // of the draw; FragmentVariant::split: + 2^16 * number of draws
     uint32_t layer = 0, viewport_index = 0;
     uint32_t unused = 0;
     uint32_t color[4] = {};  // bits of the colour that is written
-    // Of interpolateAtOffset (pixels) and interpolateAtSample, by attribute; or, where there are
-    // several colours, which do not go with these, the bits of those behind the first.
+    // Where there are several colours, which do not go with probes, the bits of those behind the
+    // first.
     union {
-        struct {
-            float offsets[kMaxAttributes][2];
-            int32_t sample_numbers[kMaxAttributes];
-        } probes = {};
+        ProbeConstants probes = {};
         uint32_t other_colors[kMaxColors - 1][4];
     };
     uint32_t sample_mask = 0xffffffffU;  // gl_SampleMask, if the shader writes it

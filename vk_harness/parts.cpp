@@ -3,7 +3,6 @@
 #include "vk_harness/parts.hpp"
 
 #include <algorithm>
-#include <ranges>
 
 #include "cases/model/derive.hpp"
 #include "cases/model/sample.hpp"
@@ -107,9 +106,12 @@ cases::Case colors_alone(const cases::Case& c) {
 bool colors_have_deciding(const cases::Case& c) {
     return std::ranges::all_of(c.draws, [&](const cases::Draw& draw) {
         const std::vector<uint32_t> drawn = cases::drawn_attributes(c.target, draw);
-        return std::ranges::all_of(std::views::iota(0U, cases::kMaxAttributes), [&](uint32_t k) {
-            return !decides(c, draw, k) || std::ranges::find(drawn, k) != drawn.end();
-        });
+        for (uint32_t k = 0; k < cases::kMaxAttributes; ++k) {
+            if (decides(c, draw, k) && std::ranges::find(drawn, k) == drawn.end()) {
+                return false;
+            }
+        }
+        return true;
     });
 }
 

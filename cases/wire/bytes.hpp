@@ -90,7 +90,7 @@ class Reader {
             T::fields(
                 [this](const Field& field, auto& member) {
                     if (!field.has(kNotOnWire)) {
-                        get(member);
+                        this->get(member);
                     }
                 },
                 to);

@@ -128,7 +128,7 @@ void cover(std::span<cases::Case* const> selected, const Wish& wish) {
         }
         for (const cases::DoorRow& row : cases::all_doors()) {
             std::optional<size_t> best;
-            const auto rank = [&](size_t k) {
+            const auto rank = [&, &members = members](size_t k) {
                 return std::tuple(is_demanding(*members[k]), costs[k], members[k]->doors.size(), k);
             };
             for (size_t k = 0; k < members.size(); ++k) {

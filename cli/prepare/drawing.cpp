@@ -11,6 +11,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cases/base/parallel.hpp"
 #include "cases/format/color_format.hpp"
 #include "cases/model/derive.hpp"
 #include "cases/model/sample.hpp"
@@ -151,6 +152,30 @@ JsonList::JsonList(const Json& object, const std::string& name, const Put& put) 
 void JsonList::add(const Json& entry) {
     put_(fmt::format("{}\n  {}", is_empty_ ? "" : ",", dump(entry)));
     is_empty_ = false;
+}
+
+void JsonList::add_all(size_t count, size_t lanes,
+                       const std::function<Json(size_t number, size_t lane)>& entry) {
+    constexpr size_t kRun = 4096;  // some megabytes of text, and little waiting for each other
+    std::vector<std::string> texts(lanes);
+    for (size_t begin = 0; begin < count; begin += lanes * kRun) {
+        cases::for_each_index(lanes, [&](size_t lane) {
+            std::string& text = texts[lane];
+            text.clear();
+            const size_t first = begin + lane * kRun;
+            for (size_t k = first; k < std::min(first + kRun, count); ++k) {
+                if (const Json made = entry(k, lane); !made.is_null()) {
+                    text += ",\n  " + dump(made);
+                }
+            }
+        });
+        for (const std::string& text : texts) {
+            if (!text.empty()) {
+                put_(std::string_view(text).substr(is_empty_ ? 1 : 0));
+                is_empty_ = false;
+            }
+        }
+    }
 }
 
 void JsonList::end() {

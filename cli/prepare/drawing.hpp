@@ -31,6 +31,10 @@ class JsonList {
     // The object without that member, which is not empty.
     JsonList(const nlohmann::ordered_json& object, const std::string& name, const Put& put);
     void add(const nlohmann::ordered_json& entry);
+    // What `entry` gives of each number below `count`, in that order, without the nulls. Threads
+    // make them, `lanes` at a time, each with a lane of its own (below `lanes`).
+    void add_all(size_t count, size_t lanes,
+                 const std::function<nlohmann::ordered_json(size_t number, size_t lane)>& entry);
     void end();
 
   private:

@@ -14,8 +14,6 @@ namespace fuzz {
 
 namespace {
 
-using Kind = Document::Kind;
-
 // How far numbers are moved: a unit, halves, what the coarsest grid that a device may have tells
 // apart, a subpixel of the commonest, and less than that.
 constexpr std::array<double, 6> kSteps = {1, 0.5, 0x1p-4, 0x1p-8, 0x1p-8, 0x1p-12};

@@ -14,7 +14,6 @@ namespace fuzz {
 
 namespace {
 
-using Kind = Document::Kind;
 using WordSpan = std::span<const std::string_view>;
 
 // A key whose value is one of some words, and the table that it stands in: "target", "color" (of

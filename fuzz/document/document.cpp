@@ -11,8 +11,6 @@
 
 namespace fuzz {
 
-using Kind = Document::Kind;
-
 Document number(double value) {
     constexpr double kLargestWhole = 0x1p53;
     if (std::isnan(value) && std::signbit(value)) {

@@ -13,6 +13,7 @@
 namespace fuzz {
 
 using Document = cases::TomlValue;
+using Kind = Document::Kind;
 
 // --- making values ---
 // An integer if the number is whole, below 2^53 in magnitude and not -0; a float otherwise. A NaN

@@ -14,8 +14,6 @@ namespace fuzz {
 
 namespace {
 
-using Kind = Document::Kind;
-
 constexpr size_t kColumns = 100;  // of a line, where values allow it
 
 // The order in which docs/cases.md tells the keys of a table; all others follow.

@@ -64,8 +64,9 @@ std::string component(const Pose& pose, uint32_t k, Dice& dice) {
     const uint64_t kind = dice.below(16);
     if (kind < 2 && is_float) {
         const double sign = dice.one_in(3) ? -1 : 1;
-        return fmt::format("{}", sign * std::ldexp(static_cast<double>(dice.between(1, 15)),
-                                                   static_cast<int>(dice.between(-12, 14))));
+        const auto exponent = static_cast<int>(dice.between(-12, 14));
+        const auto significand = static_cast<double>(dice.between(1, 15));
+        return fmt::format("{}", sign * std::ldexp(significand, exponent));
     }
     return fmt::format(
         "{}", static_cast<double>(kind < 3 ? dice.between(-16, 48) : dice.between(0, 16)) / 16);

@@ -10,7 +10,8 @@
 namespace fuzz {
 
 // Random choices that are the same on every machine: std::mt19937_64 is specified bit for bit, the
-// distributions of the standard library are not and are not used.
+// distributions of the standard library are not and are not used. Two of one expression are in no
+// order (operands, arguments of a function): each gets a statement of its own.
 class Dice {
   public:
     // A stream of its own for each (seed, stream, number).

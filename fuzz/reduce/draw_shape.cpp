@@ -10,8 +10,6 @@
 
 namespace fuzz {
 
-using Kind = Document::Kind;
-
 DrawShape shape_of(const Document& draw) {
     DrawShape shape;
     if (const Document* topology = draw.find("topology")) {

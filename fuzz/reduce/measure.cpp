@@ -14,8 +14,6 @@ namespace fuzz {
 
 namespace {
 
-using Kind = Document::Kind;
-
 constexpr uint64_t kNotFiniteCost = 1000;
 constexpr uint64_t kWordCost = 1000;  // more than any number, which has 1074 + 1024 bits at most
 

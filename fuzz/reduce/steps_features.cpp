@@ -15,7 +15,6 @@ namespace fuzz {
 
 namespace {
 
-using Kind = Document::Kind;
 using cases::counted;
 
 void for_each_draw(Document& document, const std::function<void(Document&)>& change) {

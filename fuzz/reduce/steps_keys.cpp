@@ -16,8 +16,6 @@ namespace fuzz {
 
 namespace {
 
-using Kind = Document::Kind;
-
 // Keys that are no step by themselves: what the case claims, what changes its meaning if it is left
 // out, and what has steps of its own.
 constexpr std::array<std::string_view, 15> kNotAlone = {

@@ -19,8 +19,6 @@ namespace fuzz {
 
 namespace {
 
-using Kind = Document::Kind;
-
 // What may become of a number: a constant, a multiple of 2^-bits, one with half of its digits, or
 // one whose logarithm is half as far from 0.
 struct Rounding {

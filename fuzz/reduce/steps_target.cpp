@@ -20,8 +20,6 @@ namespace fuzz {
 
 namespace {
 
-using Kind = Document::Kind;
-
 struct Crop {
     double left = 0, top = 0, right = 0, bottom = 0;  // whole pixels that go at each side
 };

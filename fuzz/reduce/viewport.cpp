@@ -6,8 +6,6 @@
 
 namespace fuzz {
 
-using Kind = Document::Kind;
-
 std::optional<std::array<double, 4>> rectangle(const Document* value) {
     if (value == nullptr || value->array.size() != 4) {
         return std::nullopt;

@@ -174,7 +174,7 @@ std::vector<Asked> asked_triangles(const Draw& draw, size_t number, const Expect
             continue;
         }
         of_triangle[t] = out.size();
-        Asked& asked = out.emplace_back(&e.triangles[t], clipped_of(draw, e.triangles[t]));
+        Asked& asked = out.emplace_back(Asked{&e.triangles[t], clipped_of(draw, e.triangles[t])});
         asked.covers = e.profile != Profile::vulkan && draw.distances.cull_count == 0 &&
                        asked.clipped.is_known && asked.clipped.is_inside &&
                        has_sample(draw, e.triangles[t], e.target);

@@ -17,15 +17,19 @@ namespace ref::value {
 
 constexpr const char* kLodFreedom = "or up to half a level and the freedom of the quad away";
 
+// Where a quantity is evaluated first.
+template <class T>
+const Point<T>& first_point(const Quantity& q, const Evaluation<T>& place) {
+    return q.at_sample     ? place.sample
+           : q.at_centroid ? place.centroid.front()
+                           : place.attributes.front();
+}
+
 template <class T>
 Valued<T> nominal_value(const Basis<T>& basis, const Quantity& q, const Evaluation<T>& place,
                         cases::Profile profile) {
     const T factor = from_exact<T>(exact_budget_factor(profile));
-    const Site<T> site = make_site(basis, basis.planes[kPlaneInvW],
-                                   q.at_sample     ? place.sample
-                                   : q.at_centroid ? place.centroid.front()
-                                                   : place.attributes.front(),
-                                   factor);
+    const Site<T> site = make_site(basis, basis.planes[kPlaneInvW], first_point(q, place), factor);
     return value_at(site, basis.planes[q.plane], q.kind == Kind::perspective, factor);
 }
 
@@ -33,6 +37,16 @@ template Valued<Ball> nominal_value(const Basis<Ball>&, const Quantity&, const E
                                     cases::Profile);
 template Valued<mpq_class> nominal_value(const Basis<mpq_class>&, const Quantity&,
                                          const Evaluation<mpq_class>&, cases::Profile);
+
+mpq_class exact_value(const Basis<mpq_class>& basis, const Quantity& q,
+                      const Evaluation<mpq_class>& place) {
+    const Point<mpq_class>& p = first_point(q, place);
+    mpq_class value = basis.planes[q.plane].form.at(p);
+    if (q.kind == Kind::perspective) {
+        value /= basis.planes[kPlaneInvW].form.at(p);
+    }
+    return value;
+}
 
 std::vector<OtherCoord> other_coords(const Primitive& primitive, const Basis<mpq_class>& basis,
                                      const Quantity& q,

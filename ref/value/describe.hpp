@@ -20,6 +20,10 @@ template <class T>
 Valued<T> nominal_value(const Basis<T>& basis, const Quantity& q, const Evaluation<T>& place,
                         cases::Profile profile);
 
+// The value alone, where it is known that there is one.
+mpq_class exact_value(const Basis<mpq_class>& basis, const Quantity& q,
+                      const Evaluation<mpq_class>& place);
+
 // "0.333333333 = 1/3"; without the fraction if it says no more, or is too long to be read.
 std::string number_text(double nearest, const std::optional<mpq_class>& exact);
 

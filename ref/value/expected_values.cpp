@@ -234,6 +234,36 @@ void ValueReference::add_ranges(uint32_t t, cases::SampleId sample, std::span<co
     }
 }
 
+namespace {
+
+// The exact value of a linear or perspective quantity, and one budget. Rationals have the value;
+// its budget, by which nobody is judged, is of Balls where these prove that there is a value.
+struct Nominal {
+    mpq_class value;
+    double budget = 0;
+};
+std::optional<Nominal> nominal_of(const value::Basis<mpq_class>& basis,
+                                  const value::Basis<Ball>& near, const Quantity& q,
+                                  const value::Evaluation<mpq_class>& place,
+                                  const value::Evaluation<Ball>& near_place, Profile profile) {
+    if (near.orientation == 1 || near.orientation == -1) {
+        const value::Valued<Ball> v = value::nominal_value(near, q, near_place, profile);
+        if (v.exists == Answer::no) {
+            return std::nullopt;
+        }
+        if (v.exists == Answer::yes) {
+            return Nominal{value::exact_value(basis, q, place), value::nearest_double(v.budget)};
+        }
+    }
+    const value::Valued<mpq_class> v = value::nominal_value(basis, q, place, profile);
+    if (v.exists != Answer::yes) {
+        return std::nullopt;
+    }
+    return Nominal{v.value, v.budget.get_d()};
+}
+
+}  // namespace
+
 std::vector<ExpectedValue> ValueReference::expected(uint32_t t, cases::SampleId sample) {
     const value::Primitive& primitive = impl_->load(t).primitive;
     std::vector<ExpectedValue> out;
@@ -244,7 +274,9 @@ std::vector<ExpectedValue> ValueReference::expected(uint32_t t, cases::SampleId 
     const value::Fragment fragment = impl_->fragment(t, sample, impl_->profile);
     const auto places = value::evaluations<mpq_class>(fragment, impl_->profile);
     const value::Evaluation<mpq_class>& place = places.front();
+    const auto near_places = value::evaluations<Ball>(fragment, impl_->profile);
     const value::Basis<mpq_class>& basis = impl_->unsnapped_basis<mpq_class>(t);
+    const value::Basis<Ball>& near = impl_->unsnapped_basis<Ball>(t);
     for (const Quantity& q : all) {
         ExpectedValue e;
         e.quantity = q.id;
@@ -270,16 +302,17 @@ std::vector<ExpectedValue> ValueReference::expected(uint32_t t, cases::SampleId 
                                           impl_->probe_place(t, sample, impl_->profile), out);
                 continue;
             }
-            const auto v = value::nominal_value(basis, q, place, impl_->profile);
-            if (v.exists != Answer::yes) {
+            const std::optional<Nominal> v =
+                nominal_of(basis, near, q, place, near_places.front(), impl_->profile);
+            if (!v) {
                 continue;
             }
-            e.exact = v.value.get_str();
-            e.nearest = v.value.get_d();
-            e.budget = v.budget.get_d();
+            e.exact = v->value.get_str();
+            e.nearest = v->value.get_d();
+            e.budget = v->budget;
             e.factor = budget_factor(impl_->profile);
             if (q.id.is_depth() && !is_plain_depth(primitive)) {
-                const mpq_class stored = nominal_depth(primitive, basis, v.value, impl_->profile);
+                const mpq_class stored = nominal_depth(primitive, basis, v->value, impl_->profile);
                 e.exact = stored.get_str();
                 e.nearest = stored.get_d();
             }

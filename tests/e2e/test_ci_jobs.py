@@ -278,7 +278,13 @@ class Nightly(CiTest):
         "doors": ["install-packages scripts/packages.txt", "build release edgecase", "edgecase run --doors all -o out/doors"],
         "tests": ["run-tests --all of 1/1"],
         "hunt": ["install-packages scripts/packages.txt", "build release edgecase",
-                 "edgecase fuzz --time 20m --seed DAY -o out/hunt"]}
+                 "edgecase fuzz --time 20m --seed DAY -o out/hunt"],
+        "clang": ["install-packages scripts/packages.txt scripts/packages-tests.txt scripts/packages-fuzz.txt",
+                  "build clang --tests",
+                  f"ctest --test-dir build/clang -j {os.cpu_count() + 1} --no-tests=error --output-on-failure"],
+        "aarch64": ["test-aarch64 "],
+        "webgpu": ["install-packages scripts/packages.txt scripts/packages-webgpu.txt", "setup-drivers lvp26",
+                   "judge-webgpu --driver=lvp26"]}
 
     def part(self, *words):
         log = self.folder / "log"
@@ -288,6 +294,7 @@ class Nightly(CiTest):
         (checkout / ".ci").mkdir(parents=True)
         shutil.copy(SOURCE / ".ci/nightly", checkout / ".ci/nightly")
         for name in ("scripts/install-packages", "scripts/build", "scripts/fuzz", "scripts/run-tests",
+                     "scripts/test-aarch64", "scripts/setup-drivers", "scripts/judge-webgpu", "path/ctest",
                      "build/release/bin/edgecase"):
             path = checkout / name
             path.parent.mkdir(parents=True, exist_ok=True)
@@ -295,6 +302,7 @@ class Nightly(CiTest):
             path.write_text(f'#!/bin/sh\n{shares}\necho "{path.name} $*$SHARES" >> {log}\n[ "$FAILS" != {path.name} ]\n')
             path.chmod(0o755)
         env = {k: v for k, v in os.environ.items() if k != "FUZZ_SECONDS"}
+        env["PATH"] = f"{checkout}/path:{env['PATH']}"
         done = [subprocess.run([checkout / ".ci/nightly", *words], env=env | {"FAILS": name}, capture_output=True, text=True)
                 for name in ("", *{line.split()[0] for line in self.RUNS.get("".join(words), [])})]
         return done, log.read_text().splitlines()
@@ -318,7 +326,7 @@ class Nightly(CiTest):
         for words in ((), ("door",)):
             done, log = self.part(*words)
             self.assertEqual((done[0].returncode, log), (2, []))
-            self.assertRegex(done[0].stderr, r"^\.ci/nightly: '.*' is no part; there are parsers, doors, tests and hunt\n$")
+            self.assertRegex(done[0].stderr, r"^\.ci/nightly: '.*' is no part; there are parsers, doors, tests, hunt, clang, aarch64 and webgpu\n$")
 
 if __name__ == "__main__":
     unittest.main()

@@ -174,6 +174,22 @@ vertices = [[0, 0, 0], [3, 0, 1], [0, 3, 0]]
         self.assertEqual(writer["exact"], {"frag_coord.z": "1/6", "depth": "1/6"})
         self.assertEqual(writer["values"]["depth"][0], 1 / 6)
 
+    def test_threads_keep_the_order_of_samples(self):
+        """More samples than one thread takes at a time; depth tells where each was made."""
+        self.write_case("fam/wide", """format = 1
+description = "a"
+rules = ["cover.inside"]
+target = { size = [256, 64] }
+[[draw]]
+topology = "triangle-strip"
+vertices = [[-256, 0, 0], [256, 0, 1], [-256, 128, 0], [256, 128, 1]]
+""")
+        picture = self.json("fam/wide")
+        self.assertEqual([(s["y"], s["x"]) for s in picture["samples"]],
+                         [(y, x) for y in range(64) for x in range(256)])
+        self.assertEqual([s["writers"][0]["values"]["depth"][0] for s in picture["samples"]],
+                         [(x + 256.5) / 512 for _ in range(64) for x in range(256)])
+
     def test_schemas_know_every_member(self):
         """Of rich cases of the real suite; a schema without a member that is written would be none."""
         self.write_case("fam/blit", BLIT)

@@ -319,7 +319,8 @@ mutants::Kill kill_of(mutants::Fault fault, const std::string& family,
     kill.fault = fault;
     kill.family = family;
     const Catch* best = nullptr;
-    for (const auto& [file, caught] : files) {
+    for (const auto& entry : files) {
+        const Catch& caught = entry.second;
         best = best == nullptr || is_better(caught, *best) ? &caught : best;
         const auto same =
             std::find_if(kill.leads.begin(), kill.leads.end(),

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "ref/number/wide.hpp"
+
 namespace ref::value {
 
 namespace {
@@ -17,7 +19,8 @@ struct EvaluatedRow {
 };
 
 // As evaluate(), at n pixels from p to the right.
-void evaluate_row(const FilterPlane& plane, const Point<double>& p, size_t n, EvaluatedRow& out) {
+EDGECASE_INLINED void evaluate_row(const FilterPlane& plane, const Point<double>& p, size_t n,
+                                   EvaluatedRow& out) {
     const double ty = plane.y * p.y;
     const double ey = plane.ey * std::fabs(p.y);
     for (size_t k = 0; k < n; ++k) {
@@ -30,19 +33,24 @@ void evaluate_row(const FilterPlane& plane, const Point<double>& p, size_t n, Ev
     }
 }
 
-void judge_linear(const FilterPlane& plane, const EvaluatedRow& n, const Lanes& device,
-                  double factor, std::span<double> ratios) {
+EDGECASE_INLINED void judge_linear(const FilterPlane& plane, const EvaluatedRow& n,
+                                   const Lanes& device, double factor, std::span<double> ratios) {
     const double most = factor * plane.budget;
+    Lanes in_budgets, reach;  // of all lanes, before any is chosen: there is no branch then
     for (size_t k = 0; k < ratios.size(); ++k) {
         const double error = std::fabs(device[k] - n.v[k]);
-        const double ratio = (error + n.e[k]) * kUp <= most ? error / plane.budget : HUGE_VAL;
-        ratios[k] = std::max(ratios[k], ratio);
+        in_budgets[k] = error / plane.budget;
+        reach[k] = (error + n.e[k]) * kUp;
+    }
+    for (size_t k = 0; k < ratios.size(); ++k) {
+        ratios[k] = std::max(ratios[k], reach[k] <= most ? in_budgets[k] : HUGE_VAL);
     }
 }
 
-void judge_perspective(const FilterPlane& plane, const FilterPlane& inv_w, const EvaluatedRow& n,
-                       const EvaluatedRow& d, const Lanes& device, double factor,
-                       std::span<double> ratios) {
+EDGECASE_INLINED void judge_perspective(const FilterPlane& plane, const FilterPlane& inv_w,
+                                        const EvaluatedRow& n, const EvaluatedRow& d,
+                                        const Lanes& device, double factor,
+                                        std::span<double> ratios) {
     for (size_t k = 0; k < ratios.size(); ++k) {
         const double n_low = std::max(0.0, std::fabs(n.v[k]) - n.e[k]) * kDown;
         const double f_low = n_low / ((d.v[k] + d.e[k]) * kUp) * kDown;
@@ -52,15 +60,15 @@ void judge_perspective(const FilterPlane& plane, const FilterPlane& inv_w, const
         const double slack = n.e[k] + std::fabs(device[k]) * d.e[k] + std::fabs(vd) * 0x1p-52;
         const bool is_safe = (d.v[k] - d.e[k]) * kDown > 0;
         const bool is_near = (error + slack) * kUp <= factor * scaled * kDown;
-        const double ratio = is_safe && is_near ? error / scaled : HUGE_VAL;
-        ratios[k] = std::max(ratios[k], ratio);
+        const double in_budgets = error / scaled;
+        ratios[k] = std::max(ratios[k], is_safe && is_near ? in_budgets : HUGE_VAL);
     }
 }
 
 }  // namespace
 
-void filter_run(const Filter& filter, std::span<const RunValue> values, const RunPoints& points,
-                double factor, std::span<double> ratios) {
+EDGECASE_WIDE void filter_run(const Filter& filter, std::span<const RunValue> values,
+                              const RunPoints& points, double factor, std::span<double> ratios) {
     std::fill(ratios.begin(), ratios.end(), filter.usable ? 0 : HUGE_VAL);
     if (!filter.usable) {
         return;

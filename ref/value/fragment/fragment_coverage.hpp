@@ -40,6 +40,17 @@ std::vector<value::Point<mpq_class>> pixel_region(const TriangleSetup& setup,
 std::vector<value::Point<mpq_class>> cut(const std::vector<value::Point<mpq_class>>& polygon,
                                          const value::Form<mpq_class>& inside);
 
+// What was answered last, of a triangle and a fragment.
+template <class Answer>
+struct LastFragmentAnswer {
+    uint32_t t = 0;
+    cases::PixelBlock block;
+    Answer answer;
+    bool is_of(uint32_t triangle, const cases::PixelBlock& other) const {
+        return t == triangle && block == other;
+    }
+};
+
 // Sets each triangle up once, when first asked, and keeps the last fragment. Fragments are named by
 // any of their pixels.
 class FragmentCoverage {
@@ -61,20 +72,11 @@ class FragmentCoverage {
     const std::vector<cases::Triangle>& triangles_;
     VertexBoxes boxes_;
     std::vector<std::optional<TriangleSetup>> setups_;
-    template <class Answer>
-    struct Last {
-        uint32_t t = 0;
-        cases::PixelBlock block;
-        Answer answer;
-        bool is_of(uint32_t triangle, const cases::PixelBlock& other) const {
-            return t == triangle && block == other;
-        }
-    };
     cases::PixelBlock block_of(uint32_t t, uint32_t x, uint32_t y) const {
         return cases::fragment_block(case_.draws[triangles_[t].draw], x, y);
     }
-    std::optional<Last<PixelCoverage>> last_;
-    std::optional<Last<std::vector<value::Point<mpq_class>>>> last_region_;
+    std::optional<LastFragmentAnswer<PixelCoverage>> last_;
+    std::optional<LastFragmentAnswer<std::vector<value::Point<mpq_class>>>> last_region_;
 };
 
 }  // namespace ref

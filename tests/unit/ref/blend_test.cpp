@@ -365,7 +365,6 @@ RC_GTEST_PROP(Blend, AllowsEveryEightBitUnit, ()) {
     const std::array<float, 4> source = any_color();
     std::array<uint32_t, 4> codes{};
     std::array<double, 4> d{}, s{};
-    cases::ColorTarget target;
     Color before;
     for (size_t k = 0; k < 4; ++k) {
         codes[k] = static_cast<uint32_t>(*rc::gen::inRange(0, 256));

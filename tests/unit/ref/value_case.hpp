@@ -77,7 +77,8 @@ inline void add_random_triangles(cases::Draw& draw, Random& random, uint32_t siz
         const bool is_coarse = random.one_in(2);
         const double z = random.below(5) / 4.0;
         for (int v = 0; v < 3; ++v) {
-            draw.positions.push_back(clip_of(place(is_coarse), place(is_coarse), z, 1, size));
+            const double y = place(is_coarse);  // the order of arguments is the compiler's
+            draw.positions.push_back(clip_of(place(is_coarse), y, z, 1, size));
         }
     }
 }

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <set>
 #include <string>
 
@@ -21,11 +22,13 @@
 namespace run {
 namespace {
 
-// Stands for any value in the braces of a structure.
+// Stands for any value in the braces of a structure, and is asked for none.
 struct Any {
     template <class T>
         requires(!cases::is_optional<T>)
-    operator T() const;
+    operator T() const {
+        std::abort();
+    }
 };
 
 // How many values fit into the braces of a T: its fields.
