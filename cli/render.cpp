@@ -5,6 +5,7 @@
 #include <gmpxx.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -69,7 +70,8 @@ Json writer_json(ref::ValueReference& reference, uint32_t triangle, cases::Sampl
     Json values = Json::object(), exact, also, biased;
     for (const ref::ExpectedValue& v : reference.expected(triangle, id)) {
         const std::string name = to_text(v);
-        Json& value = values[name] = Json::array({number(v.nearest)});
+        Json& value = values[name];
+        value.push_back(number(v.nearest));
         if (is_rounded(v)) {
             exact[name] = v.exact;
         }
@@ -89,7 +91,9 @@ Json writer_json(ref::ValueReference& reference, uint32_t triangle, cases::Sampl
             biased[name] = {number(all.biased_low), number(all.biased_high)};
         }
     }
-    Json writer = {{"triangle", triangle}, {"values", std::move(values)}};
+    Json writer;
+    writer["triangle"] = triangle;
+    writer["values"] = std::move(values);
     for (auto& [key, rare] : {std::pair("exact", &exact), {"also", &also}, {"biased", &biased}}) {
         if (!rare->is_null()) {
             writer[key] = std::move(*rare);
@@ -154,15 +158,17 @@ void put_json(Reference& r, const Put& put) {
         for (uint32_t k = 0; k < s.writers_count; ++k) {
             writers.push_back(writer_json(r.values[lane], e.writers[s.writers_begin + k], id));
         }
-        return {{"x", id.x},
-                {"y", id.y},
-                {"sample", id.sample},
-                {"layer", id.layer},
-                {"class", class_name(s.hits)},
-                {"front", {s.hits.front_min, s.hits.front_max}},
-                {"back", {s.hits.back_min, s.hits.back_max}},
-                {"total", {s.hits.total_min, s.hits.total_max}},
-                {"writers", std::move(writers)}};
+        Json sample;  // member by member: a list of them in braces would be copied
+        sample["x"] = id.x;
+        sample["y"] = id.y;
+        sample["sample"] = id.sample;
+        sample["layer"] = id.layer;
+        sample["class"] = class_name(s.hits);
+        sample["front"] = std::array{s.hits.front_min, s.hits.front_max};
+        sample["back"] = std::array{s.hits.back_min, s.hits.back_max};
+        sample["total"] = std::array{s.hits.total_min, s.hits.total_max};
+        sample["writers"] = std::move(writers);
+        return sample;
     });
     samples.end();
 }
