@@ -14,7 +14,7 @@
 #include "capture/exchange/plane_files.hpp"
 #include "cases/base/counted.hpp"
 #include "cases/base/printable.hpp"
-#include "cases/model/selector.hpp"
+#include "cases/select/selector.hpp"
 #include "cli/bench/clock.hpp"
 #include "cli/commands.hpp"
 #include "cli/diagnose.hpp"

@@ -17,7 +17,7 @@
 #include "cases/load/loader.hpp"
 #include "cases/model/rule.hpp"
 #include "cases/model/sample.hpp"
-#include "cases/model/selector.hpp"
+#include "cases/select/selector.hpp"
 #include "cli/commands.hpp"
 #include "cli/fuzzing/start_cases.hpp"
 #include "cli/prepare/claims.hpp"

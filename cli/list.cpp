@@ -13,7 +13,7 @@
 #include "cases/load/loader.hpp"
 #include "cases/model/door.hpp"
 #include "cases/model/rule.hpp"
-#include "cases/model/selector.hpp"
+#include "cases/select/selector.hpp"
 #include "cli/commands.hpp"
 #include "cli/explain_text.hpp"
 #include "cli/options/stop.hpp"

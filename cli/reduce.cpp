@@ -73,13 +73,18 @@ OrStop<Drawer> make_drawer(const Program& program, const ReduceOptions& options,
 
 // A case without a finding: it is right, or nobody could draw it.
 Stop why_nothing(const cases::Case& c, const CaseRecord& record, bool is_command) {
-    const bool is_drawn = !is_command || (record.status != report::Status::not_run &&
-                                          record.status != report::Status::error);
-    return is_drawn
-               ? stop_with(report::kExitAllSkipped,
-                           fmt::format("{} does not fail here ({}), so there is nothing to reduce",
-                                       c.id, report::to_string(record.status)))
-               : stop_with(report::kExitInternal, "--captures-command: " + record.reason);
+    if (record.status == report::Status::error || record.status == report::Status::not_run) {
+        return stop_with(report::kExitInternal,
+                         is_command
+                             ? "--captures-command: " + record.reason
+                             : fmt::format("{} was not judged here, so there is nothing to reduce: "
+                                           "{}",
+                                           c.id, record.reason));
+    }
+    const std::string why = record.reason.empty() ? "" : ": " + record.reason;
+    return stop_with(report::kExitAllSkipped,
+                     fmt::format("{} does not fail here ({}{}), so there is nothing to reduce",
+                                 c.id, report::to_string(record.status), why));
 }
 
 // "2 draws, 14 triangles, 5 attributes, 64 x 64 with 4 samples".

@@ -18,7 +18,7 @@
 #include "cases/format/color_format.hpp"
 #include "cases/model/derive.hpp"
 #include "cases/model/sample.hpp"
-#include "cases/model/selector.hpp"
+#include "cases/select/selector.hpp"
 
 namespace capture {
 

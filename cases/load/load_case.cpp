@@ -13,7 +13,7 @@
 #include "cases/load/open_values.hpp"
 #include "cases/load/parts.hpp"
 #include "cases/model/rule.hpp"
-#include "cases/model/selector.hpp"
+#include "cases/select/selector.hpp"
 #include "cases/toml/field_reader.hpp"
 #include "cases/toml/toml_reader.hpp"
 

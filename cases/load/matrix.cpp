@@ -10,7 +10,7 @@
 #include <set>
 
 #include "cases/load/covering.hpp"
-#include "cases/model/selector.hpp"
+#include "cases/select/selector.hpp"
 #include "cases/toml/field_reader.hpp"
 
 namespace cases {

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cases/model/selector.hpp"
+#include "cases/select/selector.hpp"
 
 namespace cases {
 

@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "cases/base/counted.hpp"
-#include "cases/model/selector.hpp"
+#include "cases/select/selector.hpp"
 
 namespace cases {
 

@@ -6,7 +6,7 @@
 #include <variant>
 
 #include "cases/base/regex.hpp"
-#include "cases/model/selector.hpp"
+#include "cases/select/selector.hpp"
 #include "cli/options/command_options.hpp"
 #include "cli/options/value_checks.hpp"
 #include "report/record/run.hpp"

@@ -14,7 +14,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "cases/model/selector.hpp"
+#include "cases/select/selector.hpp"
 #include "cli/options/command_options.hpp"
 
 namespace cli {

@@ -14,7 +14,7 @@
 
 #include "capture/checksum.hpp"
 #include "cases/model/door.hpp"
-#include "cases/model/selector.hpp"
+#include "cases/select/selector.hpp"
 #include "report/record/run.hpp"
 
 namespace cli {

@@ -12,7 +12,7 @@
 #include "cases/base/checksum.hpp"
 #include "cases/base/counted.hpp"
 #include "cases/model/rule.hpp"
-#include "cases/model/selector.hpp"
+#include "cases/select/selector.hpp"
 #include "cli/options/parse.hpp"
 #include "cli/prepare/claims.hpp"
 #include "cli/prepare/device_answer.hpp"

@@ -19,7 +19,7 @@
 #include "cases/base/checksum.hpp"
 #include "cases/base/counted.hpp"
 #include "cases/load/loader.hpp"
-#include "cases/model/selector.hpp"
+#include "cases/select/selector.hpp"
 #include "ref/position/limits.hpp"
 #include "report/record/run.hpp"
 #include "report/text/sentences.hpp"

@@ -96,8 +96,8 @@ std::string headline(const Run& run) {
     }
     if (known > 0) {
         const auto unseen = std::count_if(run.cases.begin(), run.cases.end(), is_new_picture);
-        return fmt::format("All as expected: {} of {} fail, as is known{}", known,
-                           cases::counted(judged, "judged case"),
+        return fmt::format("All as expected: {} of {} {}, as is known{}", known,
+                           cases::counted(judged, "judged case"), known == 1 ? "fails" : "fail",
                            unseen > 0 ? fmt::format(", {} of them with bits that nobody has seen "
                                                     "before",
                                                     unseen)

@@ -13,7 +13,7 @@
 #include "cases/base/printable.hpp"
 #include "cases/base/regex.hpp"
 #include "cases/model/door.hpp"
-#include "cases/model/selector.hpp"
+#include "cases/select/selector.hpp"
 
 namespace run {
 

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "cases/base/printable.hpp"
-#include "cases/model/selector.hpp"
+#include "cases/select/selector.hpp"
 #include "report/text/sentences.hpp"
 #include "run/expected/glob_cover.hpp"
 

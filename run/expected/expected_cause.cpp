@@ -17,7 +17,7 @@
 #include "cases/model/door.hpp"
 #include "cases/model/rule.hpp"
 #include "cases/model/rule_ids.hpp"
-#include "cases/model/selector.hpp"
+#include "cases/select/selector.hpp"
 
 namespace run {
 

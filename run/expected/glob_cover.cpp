@@ -8,7 +8,7 @@
 #include <set>
 #include <string_view>
 
-#include "cases/model/selector.hpp"
+#include "cases/select/selector.hpp"
 
 namespace run {
 

@@ -13,7 +13,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include "cases/model/selector.hpp"
+#include "cases/select/selector.hpp"
 
 namespace run {
 

@@ -11,7 +11,9 @@ namespace breaking {
 
 namespace {
 
-constexpr float kSubpixel = 0x1p-8F;  // of 8 subPixelPrecisionBits, in pixels
+// Half a subpixel of 8 subPixelPrecisionBits, in pixels: what viewports are moved by so many of.
+constexpr float kHalfSubpixel = 0x1p-9F;
+constexpr int kSubpixel = 2, kHalfPixel = 256;
 constexpr float kScale = 1.0F + 0x1p-16F;
 
 // A fault of each viewport by itself.
@@ -33,13 +35,13 @@ bool each(std::span<VkRect2D> scissors) {
     return altered;
 }
 
-template <float by>
+template <int by>
 bool move_x(VkViewport& v) {
-    return change(v.x, v.x + by);
+    return change(v.x, v.x + by * kHalfSubpixel);
 }
-template <float by>
+template <int by>
 bool move_y(VkViewport& v) {
-    return change(v.y, v.y + by);
+    return change(v.y, v.y + by * kHalfSubpixel);
 }
 bool scale_x(VkViewport& v) {
     return change(v.width, v.width * kScale);
@@ -131,13 +133,13 @@ constexpr std::array kViewportFaults = {
           {.viewports = each<move_x<-kSubpixel>>}},
     Fault{"viewport-x-512th",
           "The viewport lies half a subpixel too far right.",
-          {.viewports = each<move_x<kSubpixel / 2>>}},
+          {.viewports = each<move_x<1>>}},
     Fault{"viewport-x-half",
           "The viewport lies half a pixel too far right.",
-          {.viewports = each<move_x<0.5F>>}},
+          {.viewports = each<move_x<kHalfPixel>>}},
     Fault{"viewport-y-half",
           "The viewport lies half a pixel too low.",
-          {.viewports = each<move_y<0.5F>>}},
+          {.viewports = each<move_y<kHalfPixel>>}},
     Fault{"viewport-width-scaled",
           "The viewport is wider by the factor 1 + 2^-16.",
           {.viewports = each<scale_x>}},

@@ -84,7 +84,7 @@ class Reduce(ProgramTest):
         refused("echo first; echo 'no such mode'; exit 3; %in %out", "the command ended with exit code 3: it said 'no such mode'")
         refused("true %in %out", "the command ended well and delivered no plane of the case in '%out/fam/c3'")
         refused("mkdir -p %out/fam/c3; echo x > %out/fam/c3/hits.u8; : %in", "hits.u8")
-        refused("mkdir -p %out/fam/c3; echo lazy > %out/fam/c3/unsupported.txt; : %in", "does not fail here (unsupported)", 6)
+        refused("mkdir -p %out/fam/c3; echo lazy > %out/fam/c3/unsupported.txt; : %in", "does not fail here (unsupported: the renderer says: lazy)", 6)
         refused("my-renderer %out", "--captures-command has no %in, the folder of the exported cases", 2)
         refused("my-renderer %in", "--captures-command has no %out, the folder of the captures", 2)
         refused("my-renderer %in %out", "--renderer chooses a device, and --captures-command draws without one", 2, "--renderer=reference")

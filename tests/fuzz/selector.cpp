@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Selectors of any bytes, one a line, choose cases or are refused in one sentence.
-#include "cases/model/selector.hpp"
+#include "cases/select/selector.hpp"
 
 #include <sstream>
 

@@ -67,7 +67,7 @@ void hunt_software(const Plan& plan, const OnFind& tell) {
                 }
             }
             const auto alarm = software::try_faults(
-                data, open, [&, number = number](software::Fault fault, const auto&) {
+                data, open, [&, &data = data, number = number](software::Fault fault, const auto&) {
                     software::Device device;
                     device.fault = fault;
                     const report::CaseRecord record = judged(data, device);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cases/model/selector.hpp"
+#include "cases/select/selector.hpp"
 
 #include <gtest/gtest.h>
 

@@ -39,7 +39,7 @@ TEST(headline, never_says_that_what_was_not_judged_passes) {
     EXPECT_EQ(headline(run_of({pass, pass})), "All 2 cases pass");
     EXPECT_EQ(headline(run_of({pass})), "The one case passes");
     EXPECT_EQ(headline(run_of({pass, xfail, skip})),
-              "All as expected: 1 of 2 judged cases fail, as is known");
+              "All as expected: 1 of 2 judged cases fails, as is known");
 }
 
 TEST(headline, has_words_for_every_status) {
