@@ -56,7 +56,8 @@ void hunt_software(const Plan& plan, const OnFind& tell) {
     while (sequence.next_case() < plan.cases) {
         const std::vector<Numbered> chunk = sequence.next(kPosesOfChunk);
         cases::for_each_index(chunk.size(), [&](size_t k) {
-            const auto& [number, data] = chunk[k];
+            const uint64_t number = chunk[k].number;
+            const cases::Case& data = chunk[k].data;
             std::vector<software::Fault> open;
             {
                 const std::lock_guard lock(mutex);
@@ -66,8 +67,8 @@ void hunt_software(const Plan& plan, const OnFind& tell) {
                     }
                 }
             }
-            const auto alarm = software::try_faults(
-                data, open, [&, &data = data, number = number](software::Fault fault, const auto&) {
+            const auto alarm =
+                software::try_faults(data, open, [&](software::Fault fault, const auto&) {
                     software::Device device;
                     device.fault = fault;
                     const report::CaseRecord record = judged(data, device);
