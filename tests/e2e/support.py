@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import xml.etree.ElementTree
 
@@ -87,4 +88,9 @@ class ProgramTest(unittest.TestCase):
         return {case["id"]: case["status"] for case in self.results(out)["cases"]}
 
     def assert_no_orphans(self):
+        """A process that was killed is gone when it next has a processor; one that was not waits for a minute or more."""
+        for _ in range(100):
+            if not processes_with(str(self.folder)):
+                return
+            time.sleep(0.1)
         self.assertEqual(processes_with(str(self.folder)), [])
