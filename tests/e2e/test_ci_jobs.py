@@ -281,7 +281,7 @@ class Nightly(CiTest):
                  "edgecase fuzz --time 20m --seed DAY -o out/hunt"],
         "clang": ["install-packages scripts/packages.txt scripts/packages-tests.txt scripts/packages-fuzz.txt",
                   "build clang --tests",
-                  f"ctest --test-dir build/clang -j {os.cpu_count() + 1} --no-tests=error --output-on-failure"],
+                  f"ctest --test-dir build/clang -j {len(os.sched_getaffinity(0)) + 1} --no-tests=error --output-on-failure"],
         "aarch64": ["test-aarch64 "],
         "webgpu": ["install-packages scripts/packages.txt scripts/packages-webgpu.txt", "setup-drivers lvp26",
                    "judge-webgpu --driver=lvp26"]}
