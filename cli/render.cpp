@@ -36,7 +36,7 @@ using Json = nlohmann::ordered_json;
 struct Reference {
     const cases::Case& c;
     ref::Expectation expectation;
-    std::vector<ref::ValueReference> values;  // one a thread
+    ref::ValueReference values;
 
     cases::SampleId id(size_t index) const { return cases::sample_at(c.target, index); }
 };
@@ -148,7 +148,11 @@ void put_json(Reference& r, const Put& put) {
                       {"queries", queries_json(r)},
                       {"note", "samples that must not be covered are left out"}},
                      "samples", put);
-    samples.add_all(e.samples.size(), r.values.size(), [&](size_t index, size_t lane) -> Json {
+    std::vector<ref::ValueReference> values;  // a lane's own, which keeps what it was asked last
+    for (unsigned k = 0; k < cases::most_threads(); ++k) {
+        values.emplace_back(r.c, e.limits, e.profile);
+    }
+    samples.add_all(e.samples.size(), values.size(), [&](size_t index, size_t lane) -> Json {
         const ref::SampleExpectation& s = e.samples[index];
         if (s.hits.total_max == 0) {
             return {};
@@ -156,7 +160,7 @@ void put_json(Reference& r, const Put& put) {
         const cases::SampleId id = r.id(index);
         Json writers = Json::array();
         for (uint32_t k = 0; k < s.writers_count; ++k) {
-            writers.push_back(writer_json(r.values[lane], e.writers[s.writers_begin + k], id));
+            writers.push_back(writer_json(values[lane], e.writers[s.writers_begin + k], id));
         }
         Json sample;  // member by member: a list of them in braces would be copied
         sample["x"] = id.x;
@@ -187,7 +191,7 @@ capture::Image values_image(Reference& r) {
         if (s.writers_count == 0) {
             continue;
         }
-        for (const ref::ExpectedValue& v : r.values.front().expected(writer_of(s), r.id(index))) {
+        for (const ref::ExpectedValue& v : r.values.expected(writer_of(s), r.id(index))) {
             if (std::find(quantities.begin(), quantities.end(), to_text(v)) == quantities.end()) {
                 quantities.push_back(to_text(v));
             }
@@ -213,7 +217,7 @@ capture::Image values_image(Reference& r) {
         if (s.writers_count == 0) {
             continue;
         }
-        for (const ref::ExpectedValue& v : r.values.front().expected(writer_of(s), r.id(index))) {
+        for (const ref::ExpectedValue& v : r.values.expected(writer_of(s), r.id(index))) {
             const auto q = std::find(quantities.begin(), quantities.end(), to_text(v));
             at[2 + (q - quantities.begin())] = static_cast<float>(v.nearest);
         }
@@ -236,12 +240,9 @@ capture::Image coverage_image(const Reference& r) {
 // What the reference allows at each sample.
 Drawing allowed_picture(const cases::Case& c, const RenderOptions& options) {
     const ref::Limits limits = limits_of(options.judged);
-    std::vector<ref::ValueReference> values;
-    for (unsigned k = 0; k < std::min(cases::cores(), 4U); ++k) {
-        values.emplace_back(c, limits, options.profile);
-    }
-    const auto r = std::make_shared<Reference>(
-        Reference{c, ref::expect(c, limits, options.profile), std::move(values)});
+    const auto r =
+        std::make_shared<Reference>(Reference{c, ref::expect(c, limits, options.profile),
+                                              ref::ValueReference(c, limits, options.profile)});
     return {[r](const Put& put) { put_json(*r, put); }, [r] { return values_image(*r); },
             [r] { return coverage_image(*r); }};
 }

@@ -24,6 +24,7 @@ if(EDGECASE_SANITIZE)
         target_compile_options(edgecase_warnings INTERFACE -Wno-maybe-uninitialized)
     endif()
     add_compile_options(-fsanitize=${EDGECASE_SANITIZE} -fno-omit-frame-pointer)
+    add_compile_definitions(EDGECASE_SANITIZED)  # the compilers' own words for it differ
     if(EDGECASE_SANITIZE MATCHES "undefined")
         # What -fsanitize=address sees anyway, as memory that is not there, costs two thirds of the compile time.
         add_compile_options(-fno-sanitize-recover=undefined -fno-sanitize=vptr,null,alignment,object-size)

@@ -18,8 +18,13 @@ inline unsigned cores() {
     return std::max(1U, std::thread::hardware_concurrency());
 }
 
-// body(k) for each k below `count`, each once, in no particular order, by the caller and up to
-// three other threads. Returns when all are done. An exception of one thread ends its share of the
+// How many threads for_each_index() takes at most, the caller's among them.
+inline unsigned most_threads() {
+    return std::min(cores(), 4U);
+}
+
+// body(k) for each k below `count`, each once, in no particular order, by the caller and
+// other threads. Returns when all are done. An exception of one thread ends its share of the
 // work and is thrown on.
 template <class Body>
 void for_each_index(size_t count, const Body& body) {
@@ -29,7 +34,7 @@ void for_each_index(size_t count, const Body& body) {
             body(k);
         }
     };
-    const size_t threads = std::min<size_t>({cores(), 4U, count});
+    const size_t threads = std::min<size_t>(most_threads(), count);
     std::vector<std::future<void>> others;
     for (size_t k = 1; k < threads; ++k) {
         others.push_back(std::async(std::launch::async, take_some));

@@ -121,14 +121,15 @@ void cover(std::span<cases::Case* const> selected, const Wish& wish) {
     for (cases::Case* c : selected) {
         families[family_of(*c)].push_back(c);
     }
-    for (auto& [family, members] : families) {
+    for (const auto& entry : families) {
+        const std::vector<cases::Case*>& members = entry.second;
         std::vector<uint64_t> costs;
         for (const cases::Case* c : members) {
             costs.push_back(drawing_cost(*c));
         }
         for (const cases::DoorRow& row : cases::all_doors()) {
             std::optional<size_t> best;
-            const auto rank = [&, &members = members](size_t k) {
+            const auto rank = [&](size_t k) {
                 return std::tuple(is_demanding(*members[k]), costs[k], members[k]->doors.size(), k);
             };
             for (size_t k = 0; k < members.size(); ++k) {

@@ -9,8 +9,7 @@
 // numbers have the same bits. The helpers of such a function are inlined into it, as
 // EDGECASE_INLINED. Not under the sanitizers, whose runtimes start later than that decision is
 // made.
-#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)
+#if defined(__x86_64__) && defined(__GLIBC__) && !defined(EDGECASE_SANITIZED)
 #define EDGECASE_WIDE __attribute__((target_clones("avx2", "default")))
 #else
 #define EDGECASE_WIDE

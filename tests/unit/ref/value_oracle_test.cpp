@@ -214,6 +214,9 @@ TEST(ExhaustiveValueOracle, DecisionMatchesTheFormulaWrittenTwice) {
             number_of(device, e.quantity) = static_cast<float>(e.nearest);
             if (to_text(e.quantity) == "attribute 0.x") {
                 EXPECT_EQ(mpq_class(e.exact), value);
+                // The budget that is told is of Balls, within a few roundings of the exact one.
+                const mpq_class budget = (formula.budget(over) + abs(value) * bd) / d + own;
+                EXPECT_LE(abs(mpq_class(e.budget) - budget), budget * two_to(-40));
             }
         }
         for (const int sign : {-1, 1}) {
