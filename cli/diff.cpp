@@ -297,6 +297,10 @@ int diff_command(const Program& program, const DiffOptions& given) {
         std::fflush(console);
     }
 
+    run::SignalFd::set_last_words(cases::printable(
+        fmt::format("interrupted, and no reports were written within a second; have them by "
+                    "'edgecase report {}'",
+                    style.folder)));
     const Clock::time_point begin = Clock::now();
     Work work{options, {}};
     work.limits = limits_of(options.judged);
@@ -361,7 +365,7 @@ int diff_command(const Program& program, const DiffOptions& given) {
         failure = written.error().message;
     }
     Ending ending{failure, "judging stopped early", skipped_text(skipped), {}};
-    if (o.diagnosis) {
+    if (o.diagnosis && !header.interrupted) {
         ending.complete = [&](report::Run& run) {
             const auto each = [&](const auto& visit) {
                 std::for_each(selection->cases.begin(), selection->cases.end(), visit);

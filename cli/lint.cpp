@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "cases/base/counted.hpp"
+#include "cases/base/limits.hpp"
 #include "cases/load/loader.hpp"
 #include "cases/model/rule.hpp"
 #include "cases/model/sample.hpp"
@@ -331,7 +332,7 @@ int lint_command(const Program& program, const LintOptions& options) {
             out = exercised(c, file, depth);
             out.errors = check_case(c, out.exercise);
         } catch (const std::exception& e) {
-            out.errors = {{c.where, c.id + ": the reference failed: " + e.what()}};
+            out.errors = {{c.where, c.id + ": the reference failed: " + cases::reason_of(e)}};
         }
     });
     cases::Errors errors;

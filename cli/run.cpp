@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The command "run": select, ask the device, draw and judge, write the reports.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <variant>
 
+#include "cases/base/printable.hpp"
 #include "cases/base/regex.hpp"
 #include "cli/commands.hpp"
 #include "cli/diagnose.hpp"
@@ -107,7 +110,7 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
     const bool resumed = !p.header.device.name.empty();
     const RunOptions& options = p.options;
     check_pictures(p.plan);
-    OrStop<ReadyWorker> first = await_first_worker(std::move(worker), signals);
+    OrStop<ReadyWorker> first = await_first_worker(std::move(worker), config, signals);
     if (!first) {
         Stop stop = first.error();
         const std::string& icd = options.device.icd;
@@ -206,8 +209,14 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
         teller->begin(ids);
     }
     const run::Clock::time_point begin = run::Clock::now();
-    // The plan outlives the loop, which waits for all judgements.
-    const run::RunLoop::Plan plan(std::shared_ptr<void>(), &p.plan);
+    const std::string resume =
+        "; go on with 'edgecase run --resume " + shell_quote(p.folder.string()) + "'";
+    run::SignalFd::set_last_words(cases::printable(
+        fmt::format("interrupted, and no reports were written within a second{}, or have them "
+                    "by 'edgecase report {}'",
+                    resume, style.folder)));
+    // Judgements that are left to themselves use it still.
+    const auto plan = std::make_shared<const std::vector<run::PlannedCase>>(std::move(p.plan));
     run::RunLoop loop(config, plan, &*journal, signals, on_record,
                       [&](size_t done, size_t unconfirmed) {
                           progress.show(done, unexpected.count() + unconfirmed);
@@ -216,6 +225,9 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
     std::vector<run::WorkerClient> workers;
     workers.push_back(std::move(first->client));
     const run::RunLoop::End end = loop.run(std::move(workers), first->device);
+    if (end.interrupted) {
+        loop.abandon_judgements();
+    }
     progress.clear();
     print(unexpected.rest());
 
@@ -227,16 +239,14 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
     if (auto written = journal->write_stop(header); !written && failure.empty()) {
         failure = written.error().message;
     }
-    const std::string resume =
-        "; go on with 'edgecase run --resume " + shell_quote(p.folder.string()) + "'";
     if (!failure.empty()) {
         failure = "the run stopped early: " + failure + resume;
     }
     Ending ending{failure, "the run stopped early", {}, "interrupted" + resume};
-    if (options.diagnosis && teller == nullptr) {
+    if (options.diagnosis && teller == nullptr && !end.interrupted) {  // which takes a while
         ending.complete = [&](Run& run) {
             const auto each = [&](const auto& visit) {
-                for (const run::PlannedCase& c : p.plan) {
+                for (const run::PlannedCase& c : *plan) {
                     visit(c.data);
                 }
             };

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cases/base/counted.hpp"
+#include "cases/base/limits.hpp"
 #include "cases/model/profile.hpp"
 #include "cli/prepare/on_threads.hpp"
 #include "cli/prepare/outputs.hpp"
@@ -111,7 +112,7 @@ cases::Errors tell_strength(const LoadedSuite& suite, const std::vector<size_t>&
                 why = wrong->error.empty() ? wrong->findings.front().why : wrong->error;
             }
         } catch (const std::exception& e) {
-            why = e.what();
+            why = cases::reason_of(e);
         }
         const std::lock_guard lock(mutex);
         if (!why.empty()) {

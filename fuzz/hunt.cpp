@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "cases/base/parallel.hpp"
 #include "cases/model/triangle.hpp"
 
 namespace fuzz {
@@ -197,7 +198,7 @@ Hunt::State Hunt::step() {
         draw_chunk(*std::exchange(again_, std::nullopt));
     } else if (!is_behind_) {
         if (!ahead_.valid()) {
-            ahead_ = std::async(std::launch::async, [this] { return make_chunk(); });
+            ahead_ = cases::beside([this] { return make_chunk(); });
         }
         Chunk chunk = ahead_.get();
         if (chunk.made.empty() && options_.most_cases != 0 &&
@@ -207,7 +208,7 @@ Hunt::State Hunt::step() {
             }
             is_behind_ = true;
         } else {
-            ahead_ = std::async(std::launch::async, [this] { return make_chunk(); });
+            ahead_ = cases::beside([this] { return make_chunk(); });
             draw_chunk(std::move(chunk));
         }
     }

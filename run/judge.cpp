@@ -8,6 +8,7 @@
 
 #include "capture/checksum.hpp"
 #include "cases/base/checksum.hpp"
+#include "cases/base/limits.hpp"
 #include "cases/wire/case_bytes.hpp"
 #include "diff/blit.hpp"
 #include "diff/color.hpp"
@@ -157,7 +158,7 @@ void judge(CaseRecord& record, const cases::Case& filed, const capture::CaptureV
         }
     } catch (const std::exception& e) {
         record.status = Status::error;
-        record.reason = std::string("the comparison failed: ") + e.what();
+        record.reason = std::string("the comparison failed: ") + cases::reason_of(e);
     }
 }
 
@@ -183,7 +184,7 @@ void judge_delivered(CaseRecord& record, const cases::Case& filed, const capture
         }
     } catch (const std::exception& e) {
         record.status = Status::error;
-        record.reason = std::string("the reference failed: ") + e.what();
+        record.reason = std::string("the reference failed: ") + cases::reason_of(e);
     }
 }
 
@@ -199,7 +200,7 @@ std::string check_before_running(const cases::Case& c) {
     try {
         return diff::check_expected_hits(c);
     } catch (const std::exception& e) {
-        return std::string("the reference failed: ") + e.what();
+        return std::string("the reference failed: ") + cases::reason_of(e);
     }
 }
 

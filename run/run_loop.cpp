@@ -25,10 +25,6 @@ using vk_harness::Rendered;
 namespace {
 
 constexpr uint64_t kMaxJudgingBytes = uint64_t{128} << 20;
-// A graphics processor that hung is reset, and its driver may refuse to start for some seconds. The
-// pauses after the first seven failures in a row are half a minute in all.
-constexpr uint32_t kMaxStartFailures = 8;
-constexpr std::chrono::milliseconds kFirstPause{250};  // twice as long after each
 constexpr int kProgressMs = 200;
 constexpr uint32_t kRepeatsOfDeath = 10;  // of a batch whose worker died once
 
@@ -125,8 +121,7 @@ RunLoop::End RunLoop::run(std::vector<WorkerClient> workers, const vk_harness::D
         is_stopped_ = !on_progress_(settled_, unconfirmed_.size()) || is_stopped_;
     }
     if (!config_.keeps_workers) {  // the system takes a while to free what a worker holds
-        ending_ = std::async(std::launch::async,
-                             [slots = std::exchange(slots_, {})]() mutable { slots.clear(); });
+        ending_ = cases::beside([slots = std::exchange(slots_, {})]() mutable { slots.clear(); });
     }
     for (auto& [k, record] : std::exchange(held_, {})) {  // only if the run ends early
         finish(k, std::move(record));
@@ -153,8 +148,8 @@ std::vector<WorkerClient> RunLoop::take_workers() {
 int RunLoop::poll_timeout() const {
     Clock::time_point next = Clock::now() + std::chrono::milliseconds(kProgressMs);
     for (const Slot& slot : slots_) {
-        if (slot.client && slot.client->state() != WorkerClient::State::idle) {
-            next = std::min(next, slot.client->deadline());
+        if (const auto end = slot.client ? slot.client->deadline() : std::nullopt; end) {
+            next = std::min(next, *end);
         }
     }
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(next - Clock::now());
@@ -179,12 +174,24 @@ void RunLoop::start_worker(Slot& slot) {
         WorkerClient::start(config_.command, config_.worker, config_.timeout);
     if (client) {
         slot.client.emplace(std::move(*client));
-    } else {
-        fail(client.error().message);
+        return;
     }
+    const auto other = std::ranges::find_if(
+        slots_, [&slot](const Slot& s) { return &s != &slot && s.client.has_value(); });
+    if (other == slots_.end()) {  // a limit that others may use up for a while
+        on_start_failure(slot, client.error().message);
+        return;
+    }
+    slot.is_left_out = true;  // fewer workers draw all of it, too
+    schedule_.hand_over(static_cast<size_t>(&slot - slots_.data()),
+                        static_cast<size_t>(other - slots_.begin()),
+                        *std::exchange(slot.batch, std::nullopt));
 }
 
 void RunLoop::feed(Slot& slot) {
+    if (slot.is_left_out) {
+        return;
+    }
     const bool judging_too_much = judging_bytes_ > kMaxJudgingBytes;
     if (!slot.batch && !judging_too_much) {
         slot.batch = schedule_.next(static_cast<size_t>(&slot - slots_.data()));
@@ -194,7 +201,7 @@ void RunLoop::feed(Slot& slot) {
         return;
     }
     if (!slot.client || (slot.batch->fresh && !slot.client->is_fresh())) {
-        if (Clock::now() < next_start_) {
+        if (Clock::now() < start_pauses_.next()) {
             return;
         }
         start_worker(slot);
@@ -244,7 +251,6 @@ void RunLoop::advance(Slot& slot) {
 }
 
 void RunLoop::on_device(Slot& slot, const vk_harness::DeviceInfo& device) {
-    start_failures_ = 0;
     if (device.name != device_.name || device.uuid != device_.uuid ||
         device.driver_version != device_.driver_version) {
         fail("a later worker found another device ('" + device.name + "' instead of '" +
@@ -255,13 +261,10 @@ void RunLoop::on_device(Slot& slot, const vk_harness::DeviceInfo& device) {
 
 void RunLoop::on_start_failure(Slot& slot, const std::string& why) {
     slot.client.reset();
-    if (Clock::now() < next_start_) {
-        return;  // it was started with one that has failed already
-    }
-    if (++start_failures_ >= kMaxStartFailures) {
+    start_pauses_.failed();
+    if (start_pauses_.is_over()) {
         fail("workers cannot be started any more: " + why);
     }
-    next_start_ = Clock::now() + kFirstPause * (1U << (start_failures_ - 1));
 }
 
 CaseRecord RunLoop::fresh_record(size_t k, Status status, const std::string& reason) const {
@@ -279,10 +282,7 @@ bool RunLoop::is_unexpected(size_t k, const CaseRecord& record) const {
 }
 
 void RunLoop::on_result(Slot& slot, CaseResult& result) {
-    if (!slot.batch || result.index >= slot.answered.size() || slot.answered[result.index]) {
-        on_malformed(slot);
-        return;
-    }
+    start_pauses_.succeeded();  // not before: who greets and dies is not well
     const size_t k = slot.batch->cases[result.index];
     Rendered& rendered = result.rendered;
     const bool drawn = rendered.status == Rendered::Status::drawn;
@@ -402,26 +402,11 @@ void RunLoop::on_batch_done(Slot& slot) {
     keep_gpu_budget(slot);
     const std::vector<size_t> without_result = slot.without_result();
     if (!without_result.empty()) {
-        if (slot.batch->fresh) {  // said it was done, sent nothing
-            on_malformed(slot);
-            return;
-        }
-        const std::string why =
-            slot.failure.empty() ? "the worker had no result of a case" : slot.failure;
         schedule_.died(*slot.batch, without_result,
-                       why + ", while this case was drawn with others");
+                       slot.failure + ", while this case was drawn with others");
         slot.client.reset();  // what a driver does after that is worth nothing
     }
     slot.batch.reset();
-}
-
-// A worker said what makes no sense, while it was alive.
-void RunLoop::on_malformed(Slot& slot) {
-    Death death;
-    death.malformed = true;
-    death.step = "readback";
-    slot.client->kill();
-    on_death(slot, death);
 }
 
 std::vector<size_t> RunLoop::Slot::without_result() const {

@@ -23,6 +23,7 @@
 #include "run/process/pool.hpp"
 #include "run/process/signal_fd.hpp"
 #include "run/schedule.hpp"
+#include "run/worker/start_pauses.hpp"
 #include "run/worker/worker_client.hpp"
 
 namespace run {
@@ -92,6 +93,7 @@ class RunLoop {
         std::optional<WorkerClient> client;
         std::optional<Batch> batch;
         bool sent = false;
+        bool is_left_out = false;    // the system had no process for its worker
         std::vector<bool> answered;  // [k] of the batch has a result
         std::string failure;         // of the batch: why the first that failed has no result
         Clock::time_point since;
@@ -105,7 +107,6 @@ class RunLoop {
     void on_result(Slot& slot, CaseResult& result);
     void on_batch_done(Slot& slot);
     void on_death(Slot& slot, const Death& death);
-    void on_malformed(Slot& slot);
     void on_start_failure(Slot& slot, const std::string& why);
     void on_judged(size_t k, report::CaseRecord record);
     void settle(size_t k, report::CaseRecord record);
@@ -138,10 +139,9 @@ class RunLoop {
     size_t settled_ = 0;
     std::vector<bool> is_finished_;  // [k] has its final record
     bool is_stopped_ = false;        // by on_record_ or on_progress_
-    uint32_t start_failures_ = 0;    // in a row
-    Clock::time_point next_start_;   // no worker is started before
-    double seconds_per_byte_ = 0;    // of captures, while one batch is drawn; 0: not known yet
-    std::future<void> ending_;       // of the workers, waited for at the end of the loop's life
+    StartPauses start_pauses_;
+    double seconds_per_byte_ = 0;  // of captures, while one batch is drawn; 0: not known yet
+    std::future<void> ending_;     // of the workers, waited for at the end of the loop's life
     End end_;
 };
 

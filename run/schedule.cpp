@@ -87,6 +87,21 @@ std::optional<Batch> Schedule::next(size_t lane) {
     return take_again();
 }
 
+void Schedule::hand_over(size_t from, size_t to, const Batch& batch) {
+    std::deque<size_t>& own = lanes_.at(from).cases;
+    for (const size_t k : batch.cases) {
+        --states_[k].attempts;
+        (batch.fresh               ? fresh_
+         : batch.attempt == 1      ? own
+         : batch.cases.size() == 1 ? retry_
+                                   : again_)
+            .push_back(k);
+    }
+    std::deque<size_t>& other = lanes_.at(to).cases;
+    other.insert(other.end(), own.begin(), own.end());
+    own.clear();
+}
+
 Schedule::Drawn Schedule::drawn(size_t k, uint64_t bits) {
     State& state = states_[k];
     ++state.drawn;

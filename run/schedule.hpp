@@ -53,6 +53,8 @@ class Schedule {
     void set_batch_bytes(uint64_t bytes) { options_.batch_bytes = bytes; }
     // The next batch of the worker of this lane, or nothing (yet).
     std::optional<Batch> next(size_t lane = 0);
+    // A batch that was not drawn, and the lane that it is of, which has no worker, go to another.
+    void hand_over(size_t from, size_t to, const Batch& batch);
     // True while a case waits for its batch.
     bool has_waiting() const;
 

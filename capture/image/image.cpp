@@ -6,10 +6,18 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <atomic>
+#include <cerrno>
 #include <cstdlib>
+#include <future>
+#include <optional>
 #include <system_error>
+#include <thread>
+#include <vector>
 
 #include "capture/image/image_io/image_io.hpp"
+#include "cases/base/limits.hpp"
+#include "cases/base/parallel.hpp"
 #include "cases/base/printable.hpp"
 
 namespace capture {
@@ -46,16 +54,50 @@ cases::Expected<std::filesystem::path> find_module() {
         kModule, (dir.parent_path() / "lib").string(), dir.string(), kVariable);
 }
 
+// Whether the system has so many threads more.
+bool has_threads(size_t count) {
+    std::promise<void> end;
+    const std::shared_future<void> ends = end.get_future().share();
+    std::vector<std::thread> threads;
+    while (threads.size() < count) {
+        std::optional<std::thread> thread = cases::try_thread([ends] { ends.wait(); });
+        if (!thread) {
+            break;
+        }
+        threads.push_back(std::move(*thread));
+    }
+    end.set_value();
+    for (std::thread& thread : threads) {
+        thread.join();
+    }
+    return threads.size() == count;
+}
+
+// Libraries behind OpenImageIO start five threads while they are loaded. Where the system has
+// fewer, one of them (log4cplus 2.0) ends the process, or waits for ever with all signals blocked:
+// hence the look before, and a thread of its own, which leaves the caller's signals alone.
 cases::Expected<Module> open_module() {
     const auto path = find_module();
     if (!path) {
         return tl::unexpected(path.error());
     }
-    // Never closed: OpenImageIO keeps threads and thread-local objects of its own.
-    void* handle = ::dlopen(path->c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (handle == nullptr) {
-        return cases::failure("cannot load {}: {}", path->string(), ::dlerror());
+    constexpr size_t kThreads = 8;
+    static std::atomic<bool> is_loaded = false;
+    if (!is_loaded && !has_threads(kThreads)) {
+        return cases::failure("image files need threads that cannot be started: {}",
+                              cases::process_limit(EAGAIN));
     }
+    // Never closed: OpenImageIO keeps threads and thread-local objects of its own.
+    std::string why;
+    void* const handle = cases::beside([&] {
+                             void* const opened = ::dlopen(path->c_str(), RTLD_NOW | RTLD_LOCAL);
+                             why = opened == nullptr ? ::dlerror() : "";
+                             return opened;
+                         }).get();
+    if (handle == nullptr) {
+        return cases::failure("cannot load {}: {}", path->string(), why);
+    }
+    is_loaded = true;
     const auto version = reinterpret_cast<decltype(&edgecase_image_io_version)>(
         ::dlsym(handle, "edgecase_image_io_version"));
     Module module;

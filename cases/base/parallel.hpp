@@ -1,14 +1,20 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One loop for lists whose entries are worked on without each other.
+// Threads. Nothing else starts one: where a limit leaves none, what they would have done takes
+// longer and nothing else changes.
 #pragma once
 
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <functional>
 #include <future>
+#include <memory>
+#include <optional>
+#include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace cases {
@@ -21,6 +27,29 @@ inline unsigned cores() {
 // How many threads for_each_index() takes at most, the caller's among them.
 inline unsigned most_threads() {
     return std::min(cores(), 4U);
+}
+
+// A thread that does the work; none if the system has no more (a limit of processes, no memory for
+// its stack).
+inline std::optional<std::thread> try_thread(std::function<void()> work) {
+    try {
+        return std::thread(std::move(work));
+    } catch (const std::system_error&) {
+        return std::nullopt;
+    }
+}
+
+// The work is done beside the caller, or, where there is no thread for it, by whoever waits for its
+// result. The future waits for a thread at its end; work that waits for get() is then dropped.
+template <class Work>
+auto beside(Work work) {
+    const auto kept = std::make_shared<Work>(std::move(work));
+    const auto call = [kept] { return (*kept)(); };
+    try {
+        return std::async(std::launch::async, call);
+    } catch (const std::system_error&) {
+        return std::async(std::launch::deferred, call);
+    }
 }
 
 // body(k) for each k below `count`, each once, in no particular order, by the caller and
@@ -37,7 +66,7 @@ void for_each_index(size_t count, const Body& body) {
     const size_t threads = std::min<size_t>(most_threads(), count);
     std::vector<std::future<void>> others;
     for (size_t k = 1; k < threads; ++k) {
-        others.push_back(std::async(std::launch::async, take_some));
+        others.push_back(beside(take_some));
     }
     take_some();
     for (std::future<void>& other : others) {

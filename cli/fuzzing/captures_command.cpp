@@ -32,14 +32,30 @@ using Clock = std::chrono::steady_clock;
 
 namespace {
 
-// "my-renderer %in %out" with the folders in their places, quoted for a shell.
-std::string with_folders(const std::string& command, const fs::path& in, const fs::path& out) {
-    std::string text = command;
-    for (const auto& [word, folder] : {std::pair("%out", &out), std::pair("%in", &in)}) {
-        const std::string quoted = shell_quote(folder->string());
-        for (size_t at = text.find(word); at != std::string::npos;
-             at = text.find(word, at + quoted.size())) {
-            text.replace(at, std::strlen(word), quoted);
+// "my-renderer %in %out" as a script in which $1 and $2 are the folders: a shell never reads their
+// names as anything but words, whatever is in them. Each stands in double quotes of its own unless
+// it is in some already, and ends single ones for its length.
+std::string with_parameters(const std::string& command) {
+    std::string text;
+    char quote = 0;
+    for (size_t k = 0; k < command.size(); ++k) {
+        const bool is_in = command.compare(k, 3, "%in") == 0;
+        if (is_in || command.compare(k, 4, "%out") == 0) {
+            const char* parameter = is_in ? "${1}" : "${2}";
+            text += quote == '"'    ? parameter
+                    : quote == '\'' ? fmt::format("'\"{}\"'", parameter)
+                                    : fmt::format("\"{}\"", parameter);
+            k += is_in ? 2 : 3;
+            continue;
+        }
+        const char c = command[k];
+        text += c;
+        if (c == '\\' && quote != '\'' && k + 1 < command.size()) {
+            text += command[++k];
+        } else if (c == quote) {
+            quote = 0;
+        } else if (quote == 0 && (c == '"' || c == '\'')) {
+            quote = c;
         }
     }
     return text;
@@ -55,12 +71,6 @@ std::string last_line(const std::string& output) {
     const size_t begin = text.rfind('\n');
     text = cases::printable(begin == std::string::npos ? text : text.substr(begin + 1));
     return text.empty() ? "it said nothing" : "it said '" + text.substr(0, kMost) + "'";
-}
-
-bool has_ended(pid_t pid) {
-    siginfo_t info{};
-    return ::waitid(P_PID, static_cast<id_t>(pid), &info, WEXITED | WNOHANG | WNOWAIT) != 0 ||
-           info.si_pid == pid;
 }
 
 void read_all(int fd, run::HeadAndTail& to) {
@@ -103,14 +113,16 @@ CapturesCommand::~CapturesCommand() {
 
 CapturesCommand::End CapturesCommand::start(const fs::path& in, const fs::path& out) {
     using Kind = End::Kind;
-    auto child = run::spawn({{"/bin/sh", "-c", with_folders(options_.command, in, out)}, false});
+    auto child = run::spawn({{"/bin/sh", "-c", with_parameters(options_.command), "edgecase",
+                              in.string(), out.string()},
+                             false});
     if (!child) {
         return {Kind::error, "", child.error().message};
     }
     const Clock::time_point begin = Clock::now();
     run::HeadAndTail said;
     bool is_late = false;
-    while (!has_ended(child->pid)) {
+    while (!run::has_ended(*child)) {
         // Its output is not waited for: programs that it leaves behind may hold it open.
         std::array<pollfd, 2> fds{{{signals_->fd(), POLLIN, 0}, {child->output.get(), POLLIN, 0}}};
         ::poll(fds.data(), fds.size(), 5);

@@ -7,7 +7,9 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <string>
 
+#include "cases/base/limits.hpp"
 #include "cli/commands.hpp"
 #include "report/record/run.hpp"
 
@@ -32,7 +34,11 @@ int main(int argc, char** argv) {
     try {
         return cli::edgecase_main(argc, argv);
     } catch (const std::exception& e) {
-        std::fprintf(stderr, "edgecase: internal error: %s; please report it\n", e.what());
+        const std::string why = cases::reason_of(e);
+        std::fprintf(stderr,
+                     cases::is_limit(e) ? "edgecase: %s\n"
+                                        : "edgecase: internal error: %s; please report it\n",
+                     why.c_str());
         return report::kExitInternal;
     }
 }

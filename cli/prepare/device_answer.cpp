@@ -2,9 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/prepare/device_answer.hpp"
 
+#include <poll.h>
+
+#include <algorithm>
 #include <sstream>
 #include <utility>
 
+#include "cases/base/limits.hpp"
 #include "cases/base/printable.hpp"
 #include "run/process/manifest.hpp"
 
@@ -46,6 +50,9 @@ Stop explain_failure(const vk_harness::Failure& failure, const std::string& outp
     for (const std::string& line : printed_lines(output)) {
         stop.lines.push_back("  printed: " + line);
     }
+    if (const std::string limits = cases::tight_limits(); !limits.empty()) {
+        stop.lines.push_back("  " + limits);
+    }
     if (failure.stage <= vk_harness::Stage::device) {
         stop.lines.emplace_back("  'edgecase doctor' says what is installed and what is missing");
     }
@@ -77,23 +84,59 @@ OrStop<run::WorkerClient> start_first_worker(const run::LoopConfig& config) {
     return std::move(*client);
 }
 
-OrStop<ReadyWorker> await_first_worker(run::WorkerClient client, run::SignalFd& signals) {
-    const std::optional<run::WorkerEvent> answer = run::wait_for_answer(client, signals);
-    if (!answer) {
-        return tl::unexpected(
-            Stop{report::kExitInterrupted, {"interrupted before any case was run"}});
+namespace {
+
+// False if a signal came before that time.
+bool sleep_until(run::Clock::time_point time, run::SignalFd& signals) {
+    while (!signals.has_come() && run::Clock::now() < time) {
+        const auto left =
+            std::chrono::ceil<std::chrono::milliseconds>(time - run::Clock::now()).count();
+        pollfd fd{signals.fd(), POLLIN, 0};
+        ::poll(&fd, 1, static_cast<int>(std::max<int64_t>(left, 0)));
     }
-    if (const auto* device = std::get_if<vk_harness::DeviceInfo>(&*answer); device != nullptr) {
-        return ReadyWorker{std::move(client), *device};
+    return !signals.has_come();
+}
+
+const Stop kInterrupted{report::kExitInterrupted, {"interrupted before any case was run"}};
+
+}  // namespace
+
+OrStop<ReadyWorker> await_first_worker(run::WorkerClient client, const run::LoopConfig& config,
+                                       run::SignalFd& signals) {
+    constexpr size_t kMostAlike = 3;
+    std::optional<run::WorkerClient> worker(std::move(client));
+    run::StartPauses pauses;
+    std::string last;
+    for (size_t alike = 1;;) {
+        const std::optional<run::WorkerEvent> answer = run::wait_for_answer(*worker, signals);
+        if (!answer) {
+            return tl::unexpected(kInterrupted);
+        }
+        if (const auto* device = std::get_if<vk_harness::DeviceInfo>(&*answer); device != nullptr) {
+            return ReadyWorker{std::move(*worker), *device};
+        }
+        if (const auto* failure = std::get_if<vk_harness::Failure>(&*answer); failure != nullptr) {
+            return tl::unexpected(explain_failure(*failure, worker->output_since_batch()));
+        }
+        const auto& death = std::get<run::Death>(*answer);
+        const std::string how = describe(death);
+        alike = how == last ? alike + 1 : 1;
+        last = how;
+        pauses.failed();
+        if (death.timed_out || alike >= kMostAlike || pauses.is_over()) {
+            return tl::unexpected(explain_death(death));
+        }
+        complain(how + "; it is started again");
+        worker.reset();
+        if (!sleep_until(pauses.next(), signals)) {
+            return tl::unexpected(kInterrupted);
+        }
+        OrStop<run::WorkerClient> again = start_first_worker(config);
+        if (!again) {
+            return tl::unexpected(again.error());
+        }
+        worker.emplace(std::move(*again));
     }
-    if (const auto* failure = std::get_if<vk_harness::Failure>(&*answer); failure != nullptr) {
-        return tl::unexpected(explain_failure(*failure, client.output_since_batch()));
-    }
-    if (const auto* death = std::get_if<run::Death>(&*answer); death != nullptr) {
-        return tl::unexpected(explain_death(*death));
-    }
-    return tl::unexpected(
-        Stop{report::kExitInternal, {"the worker gave an answer without a question"}});
 }
 
 }  // namespace cli

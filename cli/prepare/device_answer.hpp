@@ -20,8 +20,11 @@ struct ReadyWorker {
 };
 // Starts the first worker, which then gets its device ready while the parent does something else.
 OrStop<run::WorkerClient> start_first_worker(const run::LoopConfig& config);
-// Waits until it is ready. Errors: no or wrong device (5), interrupted (130).
-OrStop<ReadyWorker> await_first_worker(run::WorkerClient client, run::SignalFd& signals);
+// Waits until it is ready. One that dies before is started again after a pause, as later ones are,
+// but three deaths alike say that the driver is broken. Errors: no or wrong device (5),
+// interrupted (130).
+OrStop<ReadyWorker> await_first_worker(run::WorkerClient client, const run::LoopConfig& config,
+                                       run::SignalFd& signals);
 
 // What a failed start looks like to the user; `output` is what the worker printed.
 Stop explain_failure(const vk_harness::Failure& failure, const std::string& output);

@@ -45,7 +45,7 @@ OrStop<ReadyWorker> ready_first_worker(run::LoopConfig& config, run::SignalFd& s
     if (!worker) {
         return tl::unexpected(worker.error());
     }
-    OrStop<ReadyWorker> first = await_first_worker(std::move(*worker), signals);
+    OrStop<ReadyWorker> first = await_first_worker(std::move(*worker), config, signals);
     if (first) {
         set_limits(config, first->device);
     }

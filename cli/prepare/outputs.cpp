@@ -17,6 +17,7 @@
 #include <future>
 
 #include "cases/base/heap.hpp"
+#include "cases/base/parallel.hpp"
 #include "cli/options/stop.hpp"
 #include "cli/prepare/ci.hpp"
 #include "report/files/json.hpp"
@@ -167,12 +168,12 @@ cases::Errors write_reports(const report::Run& run, const ReportFiles& files) {
         }
     };
     cases::Errors of_pages;
-    // On standard output one comes after the other.
-    const std::launch when = files.html == "-" ? std::launch::deferred : std::launch::async;
-    std::future<void> pages = std::async(when, [&] { write_pages(run, files, of_pages); });
+    const auto tell_pages = [&] { write_pages(run, files, of_pages); };
+    const bool is_beside = files.html != "-";  // on standard output one comes after the other
+    std::future<void> pages = is_beside ? cases::beside(tell_pages) : std::future<void>();
     write("results.json", files.json, report::to_json);
     write("junit.xml", files.junit, report::to_junit);
-    pages.get();
+    is_beside ? pages.get() : tell_pages();
     errors.insert(errors.end(), of_pages.begin(), of_pages.end());
     return errors;
 }

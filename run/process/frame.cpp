@@ -40,7 +40,8 @@ std::string encode_frame(FrameType type, std::string_view payload) {
     return bytes;
 }
 
-std::optional<Frame> FrameReader::next() {
+std::optional<Frame> FrameReader::next(const Bound& bound) {
+    announced_ = 0;
     if (malformed_ || buffer_.size() - begin_ < sizeof(Header)) {
         return std::nullopt;
     }
@@ -51,8 +52,15 @@ std::optional<Frame> FrameReader::next() {
         malformed_ = true;
         return std::nullopt;
     }
+    const std::optional<uint64_t> most =
+        bound ? bound(static_cast<FrameType>(header.type)) : kMaxPayload;
+    if (!most || header.length > *most) {
+        malformed_ = true;
+        return std::nullopt;
+    }
     const size_t whole = sizeof header + header.length;
     if (buffer_.size() - begin_ < whole) {
+        announced_ = header.length;
         return std::nullopt;
     }
     Frame frame;

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -37,10 +38,15 @@ std::string encode_frame(FrameType type, std::string_view payload);
 // Cuts a stream of bytes into frames.
 class FrameReader {
   public:
+    // Bytes of a payload at most, by the frame's type; nothing: no such frame may come.
+    using Bound = std::function<std::optional<uint64_t>(FrameType)>;
+
     void feed(std::string_view bytes) { buffer_.append(bytes); }
     // The next whole frame, or nothing: more bytes are needed, or the stream is malformed.
-    std::optional<Frame> next();
-    // A wrong magic, type, length or checksum; stays true.
+    std::optional<Frame> next(const Bound& bound = {});
+    // Bytes of the unfinished frame whose header has come; 0 if there is none.
+    uint64_t announced() const { return announced_; }
+    // A wrong magic, type, length or checksum, or more than the bound; stays true.
     bool is_malformed() const { return malformed_; }
     // True if bytes of an unfinished frame are left.
     bool has_rest() const { return buffer_.size() != begin_; }
@@ -48,6 +54,7 @@ class FrameReader {
   private:
     std::string buffer_;
     size_t begin_ = 0;
+    uint64_t announced_ = 0;
     bool malformed_ = false;
 };
 

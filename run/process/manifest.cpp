@@ -4,7 +4,9 @@
 
 #include <dlfcn.h>
 #include <fcntl.h>
-#include <sys/wait.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -62,14 +64,14 @@ std::string load_problem(const Manifest& manifest) {
         return {};
     }
     std::array<int, 2> ends{};
-    if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
+    if (::pipe2(ends.data(), O_CLOEXEC | O_NONBLOCK) != 0) {
         return {};
     }
     Fd read_end(ends[0]), write_end(ends[1]);
-    const pid_t child = ::fork();
-    if (child == 0) {
-        constexpr unsigned kSeconds = 10;
-        ::alarm(kSeconds);  // a driver may hang while it loads
+    ChildProcess child;
+    child.pid = ::fork();
+    if (child.pid == 0) {
+        ::setpgid(0, 0);
         if (::dlopen(manifest.path.c_str(), RTLD_NOW | RTLD_LOCAL) == nullptr) {
             const char* why = ::dlerror();
             write_all(write_end.get(), why != nullptr ? why : "dlopen failed");
@@ -77,16 +79,22 @@ std::string load_problem(const Manifest& manifest) {
         ::_exit(0);
     }
     write_end = Fd();
-    std::string text;
-    std::array<char, 512> part{};
-    for (ssize_t n = 0; child > 0 && (n = ::read(read_end.get(), part.data(), part.size())) != 0;) {
-        if (n < 0 && errno != EINTR) {
-            break;
-        }
-        text.append(part.data(), static_cast<size_t>(std::max<ssize_t>(n, 0)));
+    if (child.pid < 0) {
+        return {};
     }
-    if (child > 0) {
-        ::waitpid(child, nullptr, 0);
+    ::setpgid(child.pid, child.pid);
+    // A library may hang while it is loaded, and what it starts may hold the pipe open for ever.
+    constexpr int kSeconds = 10, kPollMs = 10;
+    for (int waited = 0; waited < kSeconds * 1000 && !has_ended(child); waited += kPollMs) {
+        ::poll(nullptr, 0, kPollMs);
+    }
+    const ExitStatus end = kill_and_reap(child, 0);
+    std::string text(size_t{1} << 12, '\0');  // less than the pipe holds
+    text.resize(static_cast<size_t>(
+        std::max<ssize_t>(::read(read_end.get(), text.data(), text.size()), 0)));
+    if (text.empty() && end.signalled) {
+        return end.code == SIGKILL ? fmt::format("it had not ended after {} s", kSeconds)
+                                   : "it was killed by " + signal_name(end.code);
     }
     return text;
 }

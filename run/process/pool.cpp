@@ -8,11 +8,16 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <condition_variable>
 #include <deque>
+#include <exception>
 #include <mutex>
+#include <optional>
+#include <system_error>
 #include <utility>
 
+#include "cases/base/parallel.hpp"
 #include "run/process/process.hpp"
 
 namespace run {
@@ -27,6 +32,7 @@ std::atomic<size_t> abandoned_threads = 0;
 struct Pool::State {
     struct Task {
         std::function<void()> work, finish;
+        std::exception_ptr error;  // of the work
     };
     Fd event{::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
     std::mutex mutex;
@@ -37,9 +43,13 @@ struct Pool::State {
 };
 
 Pool::Pool(unsigned threads) : state_(std::make_shared<State>()) {
+    if (!state_->event.is_open()) {
+        throw std::system_error(errno, std::generic_category());
+    }
     for (unsigned k = 0; k < std::max(threads, 1U); ++k) {
-        threads_.emplace_back([state = state_]() mutable {
-            run(*state);
+        std::optional<std::thread> thread = cases::try_thread([state = state_]() mutable {
+            while (do_next(*state, true)) {
+            }
             bool is_abandoned = false;
             {
                 const std::lock_guard lock(state->mutex);
@@ -50,6 +60,10 @@ Pool::Pool(unsigned threads) : state_(std::make_shared<State>()) {
                 --abandoned_threads;
             }
         });
+        if (!thread) {
+            break;
+        }
+        threads_.push_back(std::move(*thread));
     }
 }
 
@@ -92,35 +106,46 @@ void Pool::submit(std::function<void()> work, std::function<void()> finish) {
     ++outstanding_;
     {
         const std::lock_guard lock(state_->mutex);
-        state_->waiting.push_back({std::move(work), std::move(finish)});
+        state_->waiting.push_back({std::move(work), std::move(finish), nullptr});
+    }
+    if (threads_.empty()) {  // collect() works
+        ::eventfd_write(state_->event.get(), 1);
     }
     state_->changed.notify_one();
 }
 
-void Pool::run(State& state) {
-    for (;;) {
-        State::Task task;
-        {
-            std::unique_lock lock(state.mutex);
+bool Pool::do_next(State& state, bool waits) {
+    State::Task task;
+    {
+        std::unique_lock lock(state.mutex);
+        if (waits) {
             state.changed.wait(lock, [&] { return state.stop || !state.waiting.empty(); });
-            if (state.stop) {
-                return;
-            }
-            task = std::move(state.waiting.front());
-            state.waiting.pop_front();
         }
-        task.work();
-        {
-            const std::lock_guard lock(state.mutex);
-            state.done.push_back(std::move(task));
+        if (state.stop || state.waiting.empty()) {
+            return false;
         }
-        ::eventfd_write(state.event.get(), 1);
+        task = std::move(state.waiting.front());
+        state.waiting.pop_front();
     }
+    try {
+        task.work();
+    } catch (...) {
+        task.error = std::current_exception();
+    }
+    {
+        const std::lock_guard lock(state.mutex);
+        state.done.push_back(std::move(task));
+    }
+    ::eventfd_write(state.event.get(), 1);
+    return true;
 }
 
 void Pool::collect() {
     eventfd_t ignored = 0;
     ::eventfd_read(state_->event.get(), &ignored);
+    if (threads_.empty()) {
+        do_next(*state_, false);
+    }
     std::deque<State::Task> done;
     {
         const std::lock_guard lock(state_->mutex);
@@ -128,6 +153,9 @@ void Pool::collect() {
     }
     for (State::Task& task : done) {
         --outstanding_;
+        if (task.error) {
+            std::rethrow_exception(task.error);
+        }
         task.finish();
     }
 }

@@ -14,13 +14,14 @@ namespace run {
 // Threads that work through tasks; a descriptor becomes readable when results wait.
 class Pool {
   public:
+    // Fewer threads where a limit leaves fewer; without any, collect() does a task at each call.
     explicit Pool(unsigned threads);
     ~Pool();  // tasks not begun are dropped, those that run are waited for
     Pool(const Pool&) = delete;
     Pool& operator=(const Pool&) = delete;
     // `work` runs on a thread, `finish` later on the thread that calls collect().
     void submit(std::function<void()> work, std::function<void()> finish);
-    // Runs the `finish` of all tasks whose work is done.
+    // Runs the `finish` of all tasks whose work is done. Throws what the work of one has thrown.
     void collect();
     // Tasks submitted and not yet collected.
     size_t outstanding() const { return outstanding_; }
@@ -37,7 +38,8 @@ class Pool {
 
   private:
     struct State;
-    static void run(State& state);
+    // Does the next task. False if there is none; `waits`: only at the pool's end.
+    static bool do_next(State& state, bool waits);
     std::shared_ptr<State> state_;  // the threads' own, too
     size_t outstanding_ = 0;        // of the submitting thread alone
     std::vector<std::thread> threads_;

@@ -10,10 +10,13 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
 #include <utility>
+
+#include "cases/base/limits.hpp"
 
 namespace run {
 
@@ -89,6 +92,19 @@ bool make_pipe(Pipe& pipe) {
     return pipe.read_end.is_open() && pipe.write_end.is_open();
 }
 
+// The groups of children that live, for the handler of a signal. A child more than there are places
+// dies with this process, too, but not what it has started.
+std::array<std::atomic<pid_t>, 64> groups{};
+
+void exchange_group(pid_t from, pid_t to) {
+    for (std::atomic<pid_t>& group : groups) {
+        pid_t expected = from;
+        if (group.compare_exchange_strong(expected, to)) {
+            return;
+        }
+    }
+}
+
 void set_nonblocking(int fd) {
     ::fcntl(fd, F_SETFL, ::fcntl(fd, F_GETFL) | O_NONBLOCK);
 }
@@ -105,6 +121,12 @@ void set_nonblocking(int fd) {
     }
     const rlimit no_core{0, 0};
     ::setrlimit(RLIMIT_CORE, &no_core);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGALRM}) {  // SignalFd's are the parent's
+        struct sigaction action {};
+        if (::sigaction(signal, nullptr, &action) == 0 && action.sa_handler != SIG_IGN) {
+            ::signal(signal, SIG_DFL);
+        }
+    }
     sigset_t none;
     ::sigemptyset(&none);
     ::sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -138,7 +160,7 @@ cases::Expected<ChildProcess> spawn(const Command& command, int shared) {
     Pipe result;
     Pipe output;
     if (!make_pipe(request) || !make_pipe(result) || !make_pipe(output)) {
-        return cases::failure(std::string("no pipe for a worker: ") + std::strerror(errno));
+        return cases::failure("no pipe for a worker: " + cases::descriptor_limit(errno));
     }
     std::vector<std::string> words = command.words;
     std::vector<char*> argv;
@@ -147,17 +169,23 @@ cases::Expected<ChildProcess> spawn(const Command& command, int shared) {
     }
     argv.push_back(nullptr);
     const pid_t parent = ::getpid();
+    sigset_t all;
+    sigset_t before;
+    ::sigfillset(&all);
+    ::pthread_sigmask(SIG_SETMASK, &all, &before);  // no handler of ours runs in the child
     const pid_t pid = ::fork();
-    if (pid < 0) {
-        return cases::failure(std::string("a worker could not be started: ") +
-                              std::strerror(errno));
-    }
+    const int error = errno;
     if (pid == 0) {
         become(argv.data(), command.keeps_terminal, parent, request.read_end.get(),
                result.write_end.get(), output.write_end.get(), shared);
     }
-    if (!command.keeps_terminal) {
+    if (pid > 0 && !command.keeps_terminal) {
         ::setpgid(pid, pid);  // in both, so that neither has to wait for the other
+        exchange_group(0, pid);
+    }
+    ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    if (pid < 0) {
+        return cases::failure("a worker could not be started: " + cases::process_limit(error));
     }
     constexpr int kPipeBytes = 1 << 20;
     ::fcntl(result.read_end.get(), F_SETPIPE_SZ, kPipeBytes);  // fewer switches; may be refused
@@ -173,15 +201,24 @@ cases::Expected<ChildProcess> spawn(const Command& command, int shared) {
     return child;
 }
 
+bool has_ended(const ChildProcess& child) {
+    siginfo_t info{};
+    return ::waitid(P_PID, static_cast<id_t>(child.pid), &info, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+           info.si_pid == child.pid;
+}
+
+void kill_all_children() {
+    for (const std::atomic<pid_t>& group : groups) {
+        if (const pid_t pid = group; pid > 0) {
+            ::kill(-pid, SIGKILL);
+        }
+    }
+}
+
 ExitStatus kill_and_reap(ChildProcess& child, int grace_ms) {
     const pid_t pid = child.pid;
-    siginfo_t info{};
-    for (int waited = 0; !child.keeps_terminal && waited < grace_ms; ++waited) {
-        info = siginfo_t{};
-        if (::waitid(P_PID, static_cast<id_t>(pid), &info, WEXITED | WNOHANG | WNOWAIT) != 0 ||
-            info.si_pid == pid) {
-            break;
-        }
+    for (int waited = 0; !child.keeps_terminal && waited < grace_ms && !has_ended(child);
+         ++waited) {
         const timespec one_ms{0, 1000000};
         ::nanosleep(&one_ms, nullptr);
     }
@@ -192,6 +229,7 @@ ExitStatus kill_and_reap(ChildProcess& child, int grace_ms) {
         ::kill(-pid, SIGKILL);
         ::kill(pid, SIGKILL);
     }
+    exchange_group(pid, 0);  // soon the number is another's
     int status = 0;
     while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
     }

@@ -78,6 +78,13 @@ struct ChildProcess {
 // everything else closed on exec.
 cases::Expected<ChildProcess> spawn(const Command& command, int shared = -1);
 
+// Whether the child itself has ended, whatever it has started and whoever holds its pipes.
+bool has_ended(const ChildProcess& child);
+
+// Kills the process groups of all children of this process, and reaps none: for the handler of a
+// signal, which ends the process.
+void kill_all_children();
+
 // Kills the child's whole process group and reaps the child. A child that is dying by itself is
 // given `grace_ms` to do so, and its own status is told. A child that keeps the terminal is not
 // killed but waited for.

@@ -2,79 +2,114 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/process/signal_fd.hpp"
 
-#include <poll.h>
 #include <signal.h>
 #include <sys/eventfd.h>
-#include <sys/signalfd.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
-#include <utility>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <system_error>
 
 namespace run {
 
 namespace {
 
+constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
 // timeout(1) sends its signal to the process and to its group, which is one wish.
-constexpr int kSameWishMs = 500;
-constexpr int kExitOfSignal = 128;
+constexpr int64_t kSameWishMs = 500;
+constexpr unsigned kSecondsToEnd = 1;
+constexpr int kExitInterrupted = 130;
 
-sigset_t run_signals() {
-    sigset_t set;
-    ::sigemptyset(&set);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-        ::sigaddset(&set, signal);
+// All that the handlers read and write.
+std::atomic<int> came = 0;  // the first signal
+std::atomic<int64_t> came_ms = 0;
+std::atomic<int> told_fd = -1;
+std::array<char, 512> last_words{};
+std::atomic<size_t> last_words_size = 0;
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<int64_t>::is_always_lock_free);
+
+int64_t now_ms() {
+    timespec now{};
+    ::clock_gettime(CLOCK_MONOTONIC, &now);
+    return int64_t{now.tv_sec} * 1000 + now.tv_nsec / 1000000;
+}
+
+[[noreturn]] void end_at_once(int /*signal*/) {
+    kill_all_children();
+    if (::write(STDERR_FILENO, last_words.data(), last_words_size) < 0) {
+        // Nobody reads it.
     }
-    return set;
+    ::_exit(kExitInterrupted);
+}
+
+void on_signal(int signal) {
+    const int error = errno;
+    int none = 0;
+    if (came.compare_exchange_strong(none, signal)) {
+        came_ms = now_ms();
+        ::alarm(kSecondsToEnd);
+        ::eventfd_write(told_fd, 1);
+    } else if (now_ms() - came_ms > kSameWishMs) {
+        end_at_once(signal);
+    }
+    errno = error;
+}
+
+void handle(int signal, void (*handler)(int)) {
+    struct sigaction action {};
+    action.sa_handler = handler;
+    action.sa_flags = SA_RESTART;
+    ::sigemptyset(&action.sa_mask);
+    ::sigaction(signal, &action, nullptr);
+}
+
+bool is_ignored(int signal) {
+    struct sigaction action {};
+    return ::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
 }  // namespace
 
-SignalFd::SignalFd() {
-    const sigset_t set = run_signals();
-    ::pthread_sigmask(SIG_BLOCK, &set, nullptr);
-    fd_ = Fd(::signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK));
-    stop_ = Fd(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
+SignalFd::SignalFd() : fd_(::eventfd(has_come() ? 1 : 0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+    if (!fd_.is_open()) {
+        throw std::system_error(errno, std::generic_category());
+    }
+    set_last_words("interrupted");
+    told_fd = fd_.get();
+    handle(SIGALRM, end_at_once);
+    for (const int signal : kSignals) {
+        if (signal != SIGHUP || !is_ignored(signal)) {
+            handle(signal, on_signal);
+        }
+    }
     ::signal(SIGPIPE, SIG_IGN);
 }
 
 SignalFd::~SignalFd() {
-    if (waits_for_another_.joinable()) {
-        ::eventfd_write(stop_.get(), 1);
-        waits_for_another_.join();
+    for (const int signal : kSignals) {
+        if (!has_come() && !is_ignored(signal)) {
+            handle(signal, SIG_DFL);
+        }
     }
-    const sigset_t set = run_signals();
-    ::pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+    told_fd = -1;
 }
 
 bool SignalFd::has_come() {
-    if (come_) {
-        return true;
-    }
-    signalfd_siginfo info{};
-    while (::read(fd_.get(), &info, sizeof info) == static_cast<ssize_t>(sizeof info)) {
-        come_ = true;
-    }
-    if (come_) {
-        waits_for_another_ = std::thread([this] { end_by_another(); });
-    }
-    return come_;
+    return came != 0;
 }
 
-void SignalFd::end_by_another() const {
-    std::array<pollfd, 2> fds = {{{stop_.get(), POLLIN, 0}, {fd_.get(), POLLIN, 0}}};
-    if (::poll(fds.data(), 1, kSameWishMs) > 0) {
-        return;
-    }
-    signalfd_siginfo info{};
-    while (::read(fd_.get(), &info, sizeof info) == static_cast<ssize_t>(sizeof info)) {
-    }
-    while (::poll(fds.data(), fds.size(), -1) < 0) {
-    }
-    if (fds[0].revents == 0 &&
-        ::read(fd_.get(), &info, sizeof info) == static_cast<ssize_t>(sizeof info)) {
-        ::_exit(kExitOfSignal + static_cast<int>(info.ssi_signo));
-    }
+void SignalFd::set_last_words(std::string_view sentence) {
+    constexpr std::string_view kProgram = "edgecase: ";
+    last_words_size = 0;  // while it is being written
+    const size_t size = std::min(sentence.size(), last_words.size() - kProgram.size() - 1);
+    std::memcpy(last_words.data(), kProgram.data(), kProgram.size());
+    std::memcpy(last_words.data() + kProgram.size(), sentence.data(), size);
+    last_words[kProgram.size() + size] = '\n';
+    last_words_size = kProgram.size() + size + 1;
 }
 
 }  // namespace run

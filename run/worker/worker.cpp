@@ -10,11 +10,13 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <span>
 #include <vector>
 
 #include "capture/checksum.hpp"
 #include "cases/base/heap.hpp"
+#include "cases/base/limits.hpp"
 #include "cases/format/color_format.hpp"
 #include "cases/model/derive.hpp"
 #include "report/record/run.hpp"
@@ -165,14 +167,26 @@ void render_batch(Backend& backend, const RenderRequest& request, const std::vec
         }
     }
     shared.open(request.room.offset, request.room.size);
-    std::vector<RenderedCase> results = render_with_derived(
-        backend, request.cases, step,
-        [&shared](size_t, uint64_t bytes) { return shared.place(bytes); },
-        [&](size_t k, Rendered& derived) {
-            if (has_fault(faults, FaultKind::flip_derived, request.cases[k].id)) {
-                flip_pixel(derived);
-            }
-        });
+    std::vector<RenderedCase> results;
+    try {
+        results = render_with_derived(
+            backend, request.cases, step,
+            [&shared](size_t, uint64_t bytes) { return shared.place(bytes); },
+            [&](size_t k, Rendered& derived) {
+                if (has_fault(faults, FaultKind::flip_derived, request.cases[k].id)) {
+                    flip_pixel(derived);
+                }
+            });
+    } catch (const std::exception& e) {
+        if (!cases::is_limit(e)) {
+            throw;
+        }
+        results = std::vector<RenderedCase>(request.cases.size());
+        for (RenderedCase& r : results) {
+            r.rendered.status = Rendered::Status::error;
+            r.rendered.reason = "in the worker " + cases::reason_of(e);
+        }
+    }
     for (const cases::Case& c : request.cases) {
         if (has_fault(faults, FaultKind::device_lost, c.id)) {
             for (RenderedCase& r : results) {

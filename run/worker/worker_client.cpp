@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <functional>
 #include <memory>
 #include <utility>
 
 #include "capture/checksum.hpp"
+#include "cases/base/limits.hpp"
 
 namespace run {
 
@@ -17,23 +19,24 @@ namespace {
 
 constexpr int kGraceMs = 500;  // a worker whose pipe has closed is dying already
 constexpr size_t kChunk = size_t{1} << 20;
+// A pipe between processes carries this much even on a busy machine.
+constexpr uint64_t kBytesOfMillisecond = uint64_t{16} << 10;
 
 }  // namespace
 
 std::string describe(const Death& death) {
-    const std::string where =
-        death.step.empty() ? " before it was ready" : " during '" + death.step + "'";
+    std::string how = "the worker left with exit status " + std::to_string(death.exit.code) +
+                      " and without a result";
     if (death.timed_out) {
-        return "the worker gave no sign of life within the time limit" + where;
+        how = "the worker gave no sign of life within the time limit";
+    } else if (death.malformed) {
+        how = "the worker sent a result that is malformed";
+    } else if (death.exit.signalled) {
+        how = "the worker was killed by " + signal_name(death.exit.code);
     }
-    if (death.malformed) {
-        return "the worker sent a result that is malformed" + where;
-    }
-    if (death.exit.signalled) {
-        return "the worker was killed by " + signal_name(death.exit.code) + where;
-    }
-    return "the worker left with exit status " + std::to_string(death.exit.code) +
-           " and without a result" + where;
+    how += death.step.empty() ? " before it was ready" : " during '" + death.step + "'";
+    const std::string limits = cases::tight_limits();
+    return limits.empty() ? how : how + "; " + limits;
 }
 
 cases::Expected<WorkerClient> WorkerClient::start(const Command& command,
@@ -49,6 +52,7 @@ cases::Expected<WorkerClient> WorkerClient::start(const Command& command,
     WorkerClient client(std::move(*child), std::move(memory), timeout);
     client.pending_ = encode_frame(FrameType::configure, encode(options));
     client.pending_ += encode_frame(question, {});
+    client.state_ = question == FrameType::hello ? State::asked_device : State::asked_list;
     client.write_pending();
     return client;
 }
@@ -78,6 +82,12 @@ void WorkerClient::render(uint32_t attempt, const std::vector<const cases::Case*
     }
     pending_ += encode_frame(FrameType::render, encode_request(attempt, room, batch));
     state_ = State::busy;
+    steps_ = 0;
+    has_result_.assign(batch.size(), false);
+    most_planes_ = 0;
+    for (const cases::Case* c : batch) {
+        most_planes_ = std::max(most_planes_, capture::capture_bytes(*c));
+    }
     deadline_ = Clock::now() + timeout_;
     read_output();
     output_.clear();
@@ -139,22 +149,35 @@ void WorkerClient::read_output() {
     }
 }
 
-bool WorkerClient::read_result() {
+WorkerClient::Read WorkerClient::read_result() {
     const auto chunk = std::make_unique_for_overwrite<char[]>(kChunk);
-    for (;;) {
+    // A worker that sends without end must not keep this process from looking at what has come.
+    constexpr size_t kMostChunks = 16;
+    for (size_t chunks = 0; chunks < kMostChunks; ++chunks) {
         const ssize_t n = ::read(child_.result.get(), chunk.get(), kChunk);
         if (n > 0) {
             reader_.feed({chunk.get(), static_cast<size_t>(n)});
-            deadline_ = Clock::now() + timeout_;
-            if (static_cast<size_t>(n) < kChunk / 2) {
-                return true;
-            }
-        } else if (n < 0 && errno == EINTR) {
-            continue;
-        } else {
-            return n < 0 && errno == EAGAIN;
+        } else if (n == 0 || errno != EINTR) {
+            return n < 0 && errno == EAGAIN ? Read::all : Read::end;
         }
     }
+    return Read::some;
+}
+
+// How much may come of a frame, by what was asked.
+std::optional<uint64_t> WorkerClient::bound_of(FrameType type) const {
+    if (!after(state_, type) ||
+        (type == FrameType::step && steps_ >= step_bound(has_result_.size()))) {
+        return std::nullopt;
+    }
+    return payload_bound(type) + (type == FrameType::result ? most_planes_ : 0);
+}
+
+std::optional<Clock::time_point> WorkerClient::deadline() const {
+    if (!is_expected_to_speak(state_)) {
+        return std::nullopt;
+    }
+    return deadline_ + std::chrono::milliseconds(reader_.announced() / kBytesOfMillisecond);
 }
 
 bool WorkerClient::find_planes(CaseResult& result) const {
@@ -188,46 +211,52 @@ bool WorkerClient::find_planes(CaseResult& result) const {
 }
 
 bool WorkerClient::handle(const Frame& frame, std::vector<WorkerEvent>& events) {
-    const auto add_answer = [&](auto answer) {  // to the first request
-        if (!answer || state_ != State::starting) {
-            return false;
+    const auto add = [&](auto answer) {
+        if (answer) {
+            events.emplace_back(std::move(*answer));
         }
-        events.emplace_back(std::move(*answer));
-        return true;
+        return answer.has_value();
     };
+    deadline_ = Clock::now() + timeout_;
+    const State then = *after(state_, frame.type);  // bound_of() lets no other pass
+    bool is_valid = true;
     switch (frame.type) {
         case FrameType::step:
+            ++steps_;
             step_ = frame.payload;
-            return true;
+            break;
         case FrameType::hello:
-            if (!add_answer(decode<vk_harness::DeviceInfo>(frame.payload))) {
-                return false;
-            }
-            state_ = State::idle;
-            return true;
+            is_valid = add(decode<vk_harness::DeviceInfo>(frame.payload));
+            break;
         case FrameType::no_device:
             read_output();  // what a driver or a layer printed before may say why
-            return add_answer(decode<vk_harness::Failure>(frame.payload));
+            is_valid = add(decode<vk_harness::Failure>(frame.payload));
+            break;
         case FrameType::devices:
-            return add_answer(decode<std::vector<vk_harness::DeviceInfo>>(frame.payload));
-        case FrameType::result:
-            if (auto result = decode_result(frame.payload);
-                result && state_ == State::busy && find_planes(*result)) {
-                events.emplace_back(std::move(*result));
-                return true;
+            is_valid = add(decode<std::vector<vk_harness::DeviceInfo>>(frame.payload));
+            break;
+        case FrameType::result: {
+            std::optional<CaseResult> result = decode_result(frame.payload);
+            is_valid = result && result->index < has_result_.size() &&
+                       !has_result_[result->index] && find_planes(*result);
+            if (is_valid) {
+                has_result_[result->index] = true;
+                add(std::move(result));
             }
-            return false;
+            break;
+        }
         case FrameType::batch_done:
-            if (state_ != State::busy) {
-                return false;
+            is_valid = std::ranges::all_of(has_result_, std::identity());
+            if (is_valid) {
+                region_ = nullptr;
+                events.emplace_back(BatchDone{});
             }
-            state_ = State::idle;
-            region_ = nullptr;
-            events.emplace_back(BatchDone{});
-            return true;
+            break;
         default:
-            return false;
+            is_valid = false;
     }
+    state_ = then;
+    return is_valid;
 }
 
 Death WorkerClient::die(bool timed_out, bool malformed, int grace_ms) {
@@ -249,22 +278,28 @@ std::vector<WorkerEvent> WorkerClient::advance() {
     }
     write_pending();
     read_output();
-    const bool open = read_result();
-    bool valid = true;
-    while (valid) {
-        const std::optional<Frame> frame = reader_.next();
+    // Whoever it has started may hold the pipe open for ever, so its own end counts. What it sent
+    // before is in the pipe by then.
+    const bool is_at_end = has_ended(child_);
+    const Read read = read_result();
+    bool is_valid = true;
+    while (is_valid) {
+        const std::optional<Frame> frame =
+            reader_.next([this](FrameType type) { return bound_of(type); });
         if (!frame) {
             break;
         }
-        valid = handle(*frame, events);
+        is_valid = handle(*frame, events);
     }
-    if (!valid || reader_.is_malformed()) {
+    // Where nothing may come, the first byte is one too many.
+    const bool is_out_of_turn = reader_.has_rest() && !is_expected_to_speak(state_);
+    if (!is_valid || reader_.is_malformed() || is_out_of_turn) {
         events.emplace_back(die(false, true, 0));
-    } else if (!open) {
+    } else if (read == Read::end || (is_at_end && read == Read::all)) {
         Death death = die(false, false, kGraceMs);
         death.malformed = reader_.has_rest() && !death.exit.signalled;
         events.emplace_back(std::move(death));
-    } else if (state_ != State::idle && Clock::now() >= deadline_) {
+    } else if (const auto end = deadline(); end && Clock::now() >= *end) {
         events.emplace_back(die(true, false, 0));
     }
     return events;
@@ -288,7 +323,11 @@ std::vector<WorkerEvent> wait_for_events(WorkerClient& client, SignalFd& signals
 
 std::optional<WorkerEvent> wait_for_answer(WorkerClient& client, SignalFd& signals) {
     std::vector<WorkerEvent> events = wait_for_events(client, signals);
-    return events.empty() ? std::nullopt : std::optional(std::move(events.front()));
+    if (events.empty()) {
+        return std::nullopt;
+    }
+    const bool is_dead = std::holds_alternative<Death>(events.back());
+    return std::move(is_dead ? events.back() : events.front());
 }
 
 }  // namespace run

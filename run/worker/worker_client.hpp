@@ -16,6 +16,7 @@
 #include "run/process/shared_memory.hpp"
 #include "run/process/signal_fd.hpp"
 #include "run/worker/message.hpp"
+#include "run/worker/protocol.hpp"
 
 namespace run {
 
@@ -24,7 +25,7 @@ using Clock = std::chrono::steady_clock;
 // How a worker ended.
 struct Death {
     bool timed_out = false;
-    bool malformed = false;  // sent bytes that are no frame, or a frame that says nothing valid
+    bool malformed = false;  // sent what is no frame, says nothing valid or was not its turn
     ExitStatus exit;
     std::string step;    // the last stage that it announced
     std::string output;  // what it printed since the batch began, head and tail, any bytes
@@ -38,11 +39,11 @@ using WorkerEvent = std::variant<vk_harness::DeviceInfo, vk_harness::Failure,
 
 class WorkerClient {
   public:
-    enum class State { starting, idle, busy, dead };
+    using State = WorkerState;
 
     // Starts the command; the answer is a DeviceInfo, Failure or Death event, or, to the question
-    // list_devices, the list of devices. `timeout` is the longest time without any sign of life
-    // while starting or busy.
+    // list_devices, the list of devices. `timeout` is the longest time between two frames that are
+    // expected, to which comes what the transfer of a large one takes.
     static cases::Expected<WorkerClient> start(const Command& command, const WorkerOptions& options,
                                                std::chrono::milliseconds timeout,
                                                FrameType question = FrameType::hello);
@@ -62,9 +63,11 @@ class WorkerClient {
 
     // For poll(2): appends what this worker waits for.
     void add_poll(std::vector<pollfd>& fds) const;
-    // Reads and writes what is possible now, and kills the worker if its time is up.
+    // Reads and writes what is possible now, and kills the worker if its time is up. Of a batch
+    // each case has one result, and BatchDone follows all of them. Nothing follows a Death.
     std::vector<WorkerEvent> advance();
-    Clock::time_point deadline() const { return deadline_; }
+    // When its time is up; nothing while nothing is expected of it.
+    std::optional<Clock::time_point> deadline() const;
 
     // Ends the worker at once.
     void kill();
@@ -78,7 +81,9 @@ class WorkerClient {
           deadline_(Clock::now() + timeout) {}
     void write_pending();
     void read_output();
-    bool read_result();  // false at the end of the pipe
+    enum class Read { all, some, end };  // `some`: there may be more; `end`: of the pipe
+    Read read_result();
+    std::optional<uint64_t> bound_of(FrameType type) const;
     bool handle(const Frame& frame, std::vector<WorkerEvent>& events);
     bool find_planes(CaseResult& result) const;  // false if they are not what was written
     Death die(bool timed_out, bool malformed, int grace_ms);
@@ -86,7 +91,10 @@ class WorkerClient {
     ChildProcess child_;
     std::shared_ptr<SharedMemory> memory_;
     std::shared_ptr<const Region> region_;  // of the batch in hand
-    State state_ = State::starting;
+    State state_ = State::asked_device;
+    uint64_t steps_ = 0;            // since the last request
+    uint64_t most_planes_ = 0;      // bytes of the largest capture of the batch
+    std::vector<bool> has_result_;  // [k] of the batch
     std::chrono::milliseconds timeout_;
     Clock::time_point deadline_;
     std::string pending_;  // request bytes, of which the first written_ are written
@@ -99,7 +107,8 @@ class WorkerClient {
 
 // Waits for the next events of a worker. None if a signal came, which ends it.
 std::vector<WorkerEvent> wait_for_events(WorkerClient& client, SignalFd& signals);
-// Waits until a starting worker has said what it is. Nothing if a signal came.
+// Waits until a starting worker has said what it is: a Death if it died right behind that. Nothing
+// if a signal came.
 std::optional<WorkerEvent> wait_for_answer(WorkerClient& client, SignalFd& signals);
 
 }  // namespace run

@@ -62,8 +62,12 @@ bool has_extension(const char* layer, const char* name) {
 }  // namespace
 
 void MessageLog::add(std::string message) {
+    constexpr size_t kMost = 64;  // more say the same again, and all travel through a pipe
+    constexpr size_t kMostBytes = size_t{8} << 10;
     const std::lock_guard lock(mutex_);
-    messages_.push_back(std::move(message));
+    if (messages_.size() < kMost) {
+        messages_.push_back(message.substr(0, kMostBytes));
+    }
 }
 
 std::vector<std::string> MessageLog::take() {

@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <optional>
+#include <vector>
+
 namespace run {
 namespace {
 
@@ -187,6 +191,31 @@ TEST(Schedule, RepeatCountsRenderings) {
     EXPECT_EQ(schedule.drawn(0, 7), Schedule::Drawn::same);
     EXPECT_TRUE(schedule.confirmed(0));
     EXPECT_FALSE(schedule.has_waiting());
+}
+
+// A worker that cannot be had: all cases of its lane are drawn by the other, and count as attempts
+// once.
+TEST(Schedule, ALaneIsHandedOver) {
+    Schedule::Options options;
+    options.batch = 2;
+    options.lanes = 2;
+    Schedule schedule = make(40, options);
+    std::vector<bool> is_drawn(40, false);
+    const auto draw = [&](const Batch& batch) {
+        for (const size_t k : batch.cases) {
+            EXPECT_FALSE(is_drawn[k]);
+            is_drawn[k] = true;
+            EXPECT_EQ(schedule.attempts(k), 1U);
+            EXPECT_EQ(schedule.drawn(k, 0), Schedule::Drawn::judge);
+            EXPECT_TRUE(schedule.judged(k, Schedule::Judged::good));
+        }
+    };
+    draw(*schedule.next(0));
+    schedule.hand_over(1, 0, *schedule.next(1));
+    while (const std::optional<Batch> batch = schedule.next(0)) {
+        draw(*batch);
+    }
+    EXPECT_EQ(std::count(is_drawn.begin(), is_drawn.end(), true), 40);
 }
 
 }  // namespace
