@@ -55,6 +55,7 @@ OrStop<probe::Datasheet> measure(const Program& program, const ProbeOptions& opt
     run::Session session(config, std::move(first->client), device, signals);
     bool is_interrupted = false;
     std::string failure;
+    Progress progress(ProgressStyle::automatic, 0);
     const probe::Draw draw = [&](std::vector<cases::Case> cases) {
         std::vector<probe::Drawn> out(cases.size(), {{}, "it was not drawn"});
         if (is_interrupted || !failure.empty()) {
@@ -71,7 +72,11 @@ OrStop<probe::Datasheet> measure(const Program& program, const ProbeOptions& opt
     };
     probe::Datasheet sheet =
         probe::measure(draw, {config.limits, device.max_target_size, device.has_primitive_id},
-                       [&](std::string_view) { return !is_interrupted && failure.empty(); });
+                       [&](std::string_view what) {
+                           progress.show_words(fmt::format("measuring {}", what));
+                           return !is_interrupted && failure.empty();
+                       });
+    progress.clear();
     if (is_interrupted) {
         return tl::unexpected(
             stop_with(report::kExitInterrupted, "interrupted; nothing was written"));

@@ -46,18 +46,23 @@ OrStop<run::Session> start_session(const Program& program, const RunOptions& opt
 using Drawer = std::function<run::Session::Results(const std::vector<cases::Case>&)>;
 
 OrStop<Drawer> make_drawer(const Program& program, const ReduceOptions& options,
-                           run::SignalFd& signals) {
+                           run::SignalFd& signals, const std::function<void()>& on_wait) {
     if (options.captures_command.empty()) {
         OrStop<run::Session> session = start_session(program, options.run, signals);
         if (!session) {
             return tl::unexpected(session.error());
         }
-        return [all = std::make_shared<run::Session>(std::move(*session))](
-                   const std::vector<cases::Case>& cases) { return all->draw(cases); };
+        return [all = std::make_shared<run::Session>(std::move(*session)),
+                on_wait](const std::vector<cases::Case>& cases) {
+            return all->draw(cases, [&on_wait](size_t) {
+                on_wait();
+                return true;
+            });
+        };
     }
     OrStop<CapturesCommand> command =
         CapturesCommand::open({options.captures_command, options.run.device.timeout,
-                               limits_of(options.judged), options.run.profile},
+                               limits_of(options.judged), options.run.profile, on_wait},
                               signals);
     if (!command) {
         return tl::unexpected(command.error());
@@ -113,15 +118,19 @@ int reduce_command(const Program& program, const ReduceOptions& options) {
             stop_with(report::kExitUsage, "the case cannot be reduced: " + text.error().message));
     }
     run::SignalFd signals;
-    OrStop<Drawer> drawer = make_drawer(program, options, signals);
+    size_t drawn = 0;
+    Progress progress(options.run.quiet ? ProgressStyle::none : ProgressStyle::automatic, 0);
+    OrStop<Drawer> drawer = make_drawer(program, options, signals, [&] {
+        progress.show_words(fmt::format("reducing: {} drawn", cases::counted(drawn, "case")));
+    });
     if (!drawer) {
         return report_stop(drawer.error());
     }
-    size_t drawn = 0;
     std::string failure;
     bool is_interrupted = false;
+    const auto is_over = [&] { return is_interrupted || !failure.empty(); };
     const fuzz::Draw draw = [&](const std::vector<cases::Case>& cases) {
-        if (is_interrupted || !failure.empty()) {
+        if (is_over()) {
             return std::vector<CaseRecord>(cases.size());
         }
         drawn += cases.size();
@@ -141,9 +150,10 @@ int reduce_command(const Program& program, const ReduceOptions& options) {
     }
     std::optional<fuzz::Entry> entry;
     if (symptom) {
-        entry = fuzz::reduce_case(*text, *symptom, draw, kMostRounds);
+        entry = fuzz::reduce_case(*text, *symptom, draw, kMostRounds, is_over);
     }
-    if (is_interrupted) {
+    progress.clear();
+    if (is_interrupted && !entry) {
         complain("interrupted; nothing was written");
         return report::kExitInterrupted;
     }
@@ -162,6 +172,11 @@ int reduce_command(const Program& program, const ReduceOptions& options) {
         say(out);
     } else if (auto written = replace_text(options.run.output, out); !written) {
         return report_stop(stop_with(report::kExitInternal, written.error().message));
+    }
+    if (is_interrupted) {
+        complain(
+            "interrupted; what it had come to is written, and may be larger than it has to be");
+        return report::kExitInterrupted;
     }
     const auto reduced = cases::load_text(entry->text, "reduced", "reduced");
     if (!options.run.quiet && reduced) {

@@ -222,7 +222,7 @@ std::string described(const std::string& text, const Symptom& symptom) {
 }
 
 std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom, const Draw& draw,
-                                 size_t most_rounds) {
+                                 size_t most_rounds, const std::function<bool()>& is_over) {
     const auto document = cases::read_toml(text, "reduced");
     const std::optional<cases::Case> original = load_one(text, "original");
     if (!document || !original) {
@@ -249,7 +249,9 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
     }
     ReduceOptions options;
     options.most_rounds = most_rounds;
+    options.is_over = is_over;
     const Reduced reduced = reduce(*document, shown, options);
+    const bool is_cut = is_over && is_over();
     // Once more, for what it shows is told.
     const std::optional<cases::Case> smallest = load_one(to_text(reduced.document), "reduced");
     const CaseRecord last = smallest ? draw({*smallest}).front() : CaseRecord();
@@ -257,8 +259,8 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
     entry.symptom = symptom;
     // What the reducer brought in, as a constant for values, is no need of the cause.
     const std::set<std::string> before = essentials_of(text);
-    const std::set<std::string> after =
-        essentials_of(to_text(like_failure(reduced.document, symptom, draw, options)));
+    const std::set<std::string> after = essentials_of(to_text(
+        is_cut ? reduced.document : like_failure(reduced.document, symptom, draw, options)));
     std::set_intersection(after.begin(), after.end(), before.begin(), before.end(),
                           std::inserter(entry.essentials, entry.essentials.end()));
     entry.text = to_text(described(reduced.document, symptom));
@@ -276,7 +278,9 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
             entry.needs.push_back(reduced.needs[k]);
         }
     }
-    entry.passes = passing(reduced.document, draw);
+    if (!is_cut) {
+        entry.passes = passing(reduced.document, draw);
+    }
     entry.is_minimal = reduced.is_minimal;
     entry.count = 1;
     entry.also.insert({symptom.kind, symptom.rule});

@@ -48,9 +48,9 @@ struct Entry {
 using Draw = std::function<std::vector<report::CaseRecord>(const std::vector<cases::Case>&)>;
 
 // Makes a case file of one leaf as small as it can be while it shows a symptom. Nothing if it does
-// not show it, or is no case.
+// not show it, or is no case. After a drawing of which `is_over` is true it ends with what it has.
 std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom, const Draw& draw,
-                                 size_t most_rounds);
+                                 size_t most_rounds, const std::function<bool()>& is_over = {});
 
 // The comment lines that say what an entry needs and what passes.
 std::string need_text(const Entry& entry);

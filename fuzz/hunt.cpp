@@ -366,11 +366,12 @@ void Hunt::reduce_one(Open& open) {
     const Symptom symptom = open.waiting.symptoms.front();
     ++counts_.reductions;
     bool is_cut = false;  // by the end of the time: it waits for another hunt
+    const auto is_at_end = [&] { return is_cut || is_interrupted_ || !failure_.empty(); };
     std::optional<Entry> fresh = reduce_case(
         open.text, symptom,
         [&](const std::vector<cases::Case>& cases) {
             is_cut = is_cut || is_over();
-            if (is_cut || is_interrupted_ || !failure_.empty()) {
+            if (is_at_end()) {
                 return std::vector<CaseRecord>(cases.size());
             }
             counts_.reduction_cases += cases.size();
@@ -378,8 +379,8 @@ void Hunt::reduce_one(Open& open) {
             is_cut = std::any_of(records.begin(), records.end(), is_left);
             return records;
         },
-        options_.most_rounds);
-    if (is_cut || is_interrupted_ || !failure_.empty()) {
+        options_.most_rounds, is_at_end);
+    if (is_at_end()) {
         return;
     }
     open.waiting.symptoms.erase(open.waiting.symptoms.begin());

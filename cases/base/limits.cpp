@@ -54,8 +54,8 @@ std::string tight_limits() {
     for (const Enough& e : kEnough) {
         rlimit limit{};
         if (::getrlimit(e.resource, &limit) == 0 && limit.rlim_cur < e.enough) {
-            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", limit.rlim_cur / e.unit,
-                                e.name);
+            text +=
+                fmt::format("{}{} {}", text.empty() ? "" : ", ", limit.rlim_cur / e.unit, e.name);
         }
     }
     return text.empty() ? text : "a driver may fail for want of what is limited here: " + text;

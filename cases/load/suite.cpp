@@ -6,11 +6,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <set>
 #include <system_error>
 
+#include "cases/base/limits.hpp"
 #include "cases/base/parallel.hpp"
 #include "cases/load/loader.hpp"
 #include "cases/toml/toml_reader.hpp"
@@ -30,6 +33,7 @@ Expected<std::string> read_file(const fs::path& file) {
     if (!fs::is_regular_file(file, error)) {
         return tl::unexpected(Error{where, "this is not a file; name a case file"});
     }
+    errno = 0;
     std::ifstream stream(file, std::ios::binary);
     std::string text;
     // Pieces: most files are small. One byte more than is allowed is enough to say that the file is
@@ -40,7 +44,8 @@ Expected<std::string> read_file(const fs::path& file) {
         text.append(piece.data(), static_cast<size_t>(stream.gcount()));
     }
     if (stream.bad() || !(stream.eof() || stream.good())) {
-        return tl::unexpected(Error{where, "the file cannot be read"});
+        const std::string why = errno == EMFILE ? descriptor_limit(errno) : std::strerror(errno);
+        return tl::unexpected(Error{where, "the file cannot be read: " + why});
     }
     text.resize(std::min(text.size(), kMaxFileSize + 1));
     return text;

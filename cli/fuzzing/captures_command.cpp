@@ -127,6 +127,9 @@ CapturesCommand::End CapturesCommand::start(const fs::path& in, const fs::path& 
         std::array<pollfd, 2> fds{{{signals_->fd(), POLLIN, 0}, {child->output.get(), POLLIN, 0}}};
         ::poll(fds.data(), fds.size(), 5);
         read_all(child->output.get(), said);
+        if (options_.on_wait) {
+            options_.on_wait();
+        }
         is_interrupted_ = is_interrupted_ || signals_->has_come();
         is_late = std::chrono::duration<double>(Clock::now() - begin).count() > options_.seconds;
         if (is_interrupted_ || is_late) {

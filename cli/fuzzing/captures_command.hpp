@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct CapturesOptions {
     double seconds = 30;  // for one start of the command
     ref::Limits limits = {};
     cases::Profile profile = cases::Profile::direct3d;
+    std::function<void()> on_wait = {};  // called again and again while a command runs
 };
 
 class CapturesCommand {

@@ -3,9 +3,6 @@
 #include "cli/fuzzing/hunt_status.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
-
-#include <cstdio>
 
 #include "cases/base/counted.hpp"
 
@@ -14,44 +11,14 @@ namespace cli {
 using cases::counted;
 
 HuntStatus::HuntStatus(const FuzzOptions& options)
-    : is_shown_(!options.run.quiet && options.run.progress == ProgressStyle::automatic &&
-                ::isatty(STDERR_FILENO) != 0),
+    : progress_(options.run.quiet ? ProgressStyle::none : options.run.progress, 0),
       begin_(std::chrono::steady_clock::now()) {}
 
 void HuntStatus::show(const fuzz::HuntCounts& c, size_t causes) {
-    const double now = seconds();
-    if (!is_shown_ || now - last_ < 0.2) {
-        return;
-    }
-    last_ = now;
-    std::fprintf(
-        stderr, "\r%s\x1b[K",
+    progress_.show_words(
         fmt::format("{} judged, {:.0f}/s, {}, {}", counted(c.drawn, "case"),
                     c.drawing_seconds > 0 ? static_cast<double>(c.drawn) / c.drawing_seconds : 0.0,
-                    counted(c.poses, "pose"), counted(causes, "cause"))
-            .c_str());
-    std::fflush(stderr);
-}
-
-void HuntStatus::show_words(const char* words) {
-    const double now = seconds();
-    if (is_shown_ && now - last_ >= 0.2) {
-        last_ = now;
-        std::fprintf(stderr, "\r%s, %.0f s\x1b[K", words, now);
-        std::fflush(stderr);
-    }
-}
-
-void HuntStatus::clear() const {
-    if (is_shown_) {
-        std::fputs("\r\x1b[K", stderr);
-        std::fflush(stderr);
-    }
-}
-
-void HuntStatus::restart() {
-    begin_ = std::chrono::steady_clock::now();
-    last_ = -1;
+                    counted(c.poses, "pose"), counted(causes, "cause")));
 }
 
 double HuntStatus::seconds() const {

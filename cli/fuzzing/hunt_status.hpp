@@ -5,26 +5,26 @@
 #pragma once
 
 #include <chrono>
+#include <string>
 
 #include "cli/options/options.hpp"
+#include "cli/prepare/outputs.hpp"
 #include "fuzz/hunt.hpp"
 
 namespace cli {
 
-// One line while it goes on, on a terminal only.
 class HuntStatus {
   public:
     explicit HuntStatus(const FuzzOptions& options);
     void show(const fuzz::HuntCounts& counts, size_t causes);
-    void show_words(const char* words);
-    void clear() const;
-    void restart();
+    void show_words(const std::string& words) { progress_.show_words(words); }
+    void clear() { progress_.clear(); }
+    void restart() { begin_ = std::chrono::steady_clock::now(); }
     double seconds() const;  // since it was made, or restarted
 
   private:
-    bool is_shown_ = false;
+    Progress progress_;
     std::chrono::steady_clock::time_point begin_;
-    double last_ = -1;
 };
 
 }  // namespace cli

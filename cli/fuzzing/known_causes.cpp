@@ -68,7 +68,8 @@ class Reducer {
     std::optional<Entry> reduce(const Open& open, const Symptom& symptom) {
         return fuzz::reduce_case(
             open.text, symptom,
-            [this](const std::vector<cases::Case>& cases) { return draw(cases); }, kMostRounds);
+            [this](const std::vector<cases::Case>& cases) { return draw(cases); }, kMostRounds,
+            [this] { return is_over(); });
     }
 
   private:

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/prepare/on_threads.hpp"
 
-#include <unistd.h>
-
 #include <optional>
 
 #include "cases/base/parallel.hpp"
@@ -17,8 +15,7 @@ void for_each_on_threads(size_t count, const std::function<void(size_t)>& work) 
     for (size_t k = 0; k < count; ++k) {
         pool.submit([&work, k] { work(k); }, [] {});
     }
-    Progress progress(::isatty(STDERR_FILENO) == 1 ? ProgressStyle::automatic : ProgressStyle::none,
-                      count);
+    Progress progress(ProgressStyle::automatic, count);
     while (pool.outstanding() > 0) {
         pool.wait();
         pool.collect();

@@ -3,6 +3,7 @@
 #include "cli/prepare/outputs.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <poll.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -355,25 +356,41 @@ Progress::Progress(ProgressStyle style, size_t total, std::string_view what)
     }
 }
 
-void Progress::show(size_t done, std::optional<size_t> unexpected) {
+bool Progress::is_due() {
     const double now = steady_seconds();
     const double interval = kind_ == Kind::line ? 0.2 : 10.0;
     if (kind_ == Kind::none || now - last_ < interval) {
-        return;
+        return false;
     }
     last_ = now;
+    return true;
+}
+
+void Progress::show_line(const std::string& text) {
+    std::fprintf(stderr, kind_ == Kind::line ? "\r\x1b[K%s" : "%s\n", text.c_str());
+    std::fflush(stderr);
+    shown_ = kind_ == Kind::line;
+}
+
+void Progress::show(size_t done, std::optional<size_t> unexpected) {
+    if (!is_due()) {
+        return;
+    }
     if (kind_ == Kind::line) {
         winsize size{};
         const bool known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
-        const std::string text =
-            progress_line(done, total_, unexpected, now - begin_, known ? size.ws_col - 1U : 79U);
-        std::fprintf(stderr, "\r\x1b[K%s", text.c_str());
-        std::fflush(stderr);
-        shown_ = true;
+        show_line(progress_line(done, total_, unexpected, last_ - begin_,
+                                known ? size.ws_col - 1U : 79U));
     } else {
-        const size_t percent = total_ == 0 ? 100 : done * 100 / total_;
-        std::fprintf(stderr, "%zu of %zu %s (%zu%%)%s\n", done, total_, what_.c_str(), percent,
-                     unexpected ? fmt::format(", {} unexpected", *unexpected).c_str() : "");
+        show_line(fmt::format("{} of {} {} ({}%){}", done, total_, what_,
+                              total_ == 0 ? 100 : done * 100 / total_,
+                              unexpected ? fmt::format(", {} unexpected", *unexpected) : ""));
+    }
+}
+
+void Progress::show_words(const std::string& words) {
+    if (is_due()) {
+        show_line(fmt::format("{}, {:.0f} s", words, last_ - begin_));
     }
 }
 

@@ -88,10 +88,14 @@ class Progress {
     // `what` is counted: "cases".
     Progress(ProgressStyle style, size_t total, std::string_view what = "cases");
     void show(size_t done, std::optional<size_t> unexpected);
+    // The same of what has no total: "312 cases drawn". The seconds so far follow.
+    void show_words(const std::string& words);
     // Removes the line, so that something else can be printed.
     void clear();
 
   private:
+    bool is_due();
+    void show_line(const std::string& text);
     enum class Kind { none, line, plain } kind_ = Kind::none;
     size_t total_ = 0;
     std::string what_;

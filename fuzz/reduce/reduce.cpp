@@ -147,7 +147,7 @@ class Reducer {
     }
 
   private:
-    bool is_spent() const { return out_.rounds >= options_.most_rounds; }
+    bool is_spent() const { return is_over_ || out_.rounds >= options_.most_rounds; }
 
     // Whether it has been asked about, and does not show the finding.
     bool is_refused(const std::string& text) const {
@@ -171,6 +171,13 @@ class Reducer {
         const std::vector<bool> answers = shows_(open);
         if (answers.size() != open.size()) {
             throw std::logic_error("the reducer needs one answer a text");
+        }
+        is_over_ = options_.is_over && options_.is_over();
+        if (is_over_) {
+            for (const std::string& text : open) {
+                answers_.erase(key_of(text));
+            }
+            return;
         }
         for (size_t k = 0; k < open.size(); ++k) {
             answers_[key_of(open[k])] = answers[k];
@@ -213,7 +220,8 @@ class Reducer {
         ask(texts);
         std::vector<Candidate*> good;
         for (Candidate& c : batch) {
-            if (answers_[key_of(c.text)]) {
+            if (const auto answer = answers_.find(key_of(c.text));
+                answer != answers_.end() && answer->second) {
                 good.push_back(&c);
             }
         }
@@ -281,6 +289,7 @@ class Reducer {
     const Shows& shows_;
     ReduceOptions options_;
     std::map<Key, bool> answers_;
+    bool is_over_ = false;
     Reduced out_;
 };
 

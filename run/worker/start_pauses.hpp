@@ -27,7 +27,8 @@ class StartPauses {
     Clock::time_point next() const { return next_; }
 
   private:
-    static constexpr uint32_t kMost = 8;  // failures in a row; their pauses are half a minute in all
+    static constexpr uint32_t kMost =
+        8;  // failures in a row; their pauses are half a minute in all
     static constexpr std::chrono::milliseconds kFirst{250};  // twice as long after each
     uint32_t failures_ = 0;
     Clock::time_point next_;

@@ -1,11 +1,14 @@
 # SPDX-FileCopyrightText: The Edgecase authors
 # SPDX-License-Identifier: Apache-2.0
 """edgecase reduce: a failing case made as small as it can be, on lavapipe and with other renderers."""
+import pathlib
+import signal
 import subprocess
 import sys
+import time
 import unittest
 
-from support import SOURCE, ProgramTest
+from support import PROGRAM, SOURCE, ProgramTest
 
 
 class Reduce(ProgramTest):
@@ -17,7 +20,7 @@ class Reduce(ProgramTest):
         """lavapipe's scissor with several samples: a mesh in four draws becomes two triangles."""
         self.suite = SOURCE / "cases" / "suite"
         done = self.reduce("multisample/scissor-tiled:samples=4", "-o", "smaller.toml", check=0)
-        self.assertRegex(done.stderr, r"\Afrom 4 draws, 248 triangles, 16 x 16 with 4 samples to 2 draws, 2 triangles, \d+ x \d+ with 4 samples")
+        self.assertRegex(done.stderr, r"(?m)^from 4 draws, 248 triangles, 16 x 16 with 4 samples to 2 draws, 2 triangles, \d+ x \d+ with 4 samples")
         text = (self.folder / "smaller.toml").read_text()
         self.assertRegex(text, r"\A# double of scissor.half-open \[vulkan\], reduced from multisample/scissor-tiled:samples=4\.\n")
         self.assertIn("# It passes with 1 sample in place of 4.\n", text)
@@ -45,7 +48,7 @@ class Reduce(ProgramTest):
     def test_a_renderer_without_vulkan(self):
         """docs/examples' renderer with its planted mistake: samples on edges go to the bottom and right ones."""
         done = self.reduce("fam/c3", "--captures-command", self.command("--reverse-ties"), "-o", "smaller.toml", check=0)
-        self.assertRegex(done.stderr, r"\Afrom 1 draw, 2 triangles, 8 x 8 to 1 draw, 2 triangles, [1-7] x [1-7], after drawing \d+ cases\n\Z")
+        self.assertRegex(done.stderr, r"(?m)^from 1 draw, 2 triangles, 8 x 8 to 1 draw, 2 triangles, [1-7] x [1-7], after drawing \d+ cases\n\Z")
         text = (self.folder / "smaller.toml").read_text()
         self.assertTrue(text.startswith("# order of tie.top-left [direct3d], reduced from fam/c3.\n"), text)
         # What is left fails with the mistake and passes without it, by the way that docs/other-renderers.md tells.
@@ -73,6 +76,40 @@ class Reduce(ProgramTest):
         self.assertTrue(done.stdout.startswith("# timeout, reduced from fam/c3.\n"), done.stdout)
         self.assert_no_orphans()
         self.assertEqual(list(self.folder.glob("edgecase-reduce-*")), [])
+
+    def test_names_of_folders_are_words_to_the_shell(self):
+        """Whatever stands in TMPDIR and wherever the command has its folders: they are never read as commands."""
+        hostile = ("t%in; touch pwned #", "$(touch pwned)", "`touch pwned`", "a'b\"c\\d", "two  words", "*", "-n", "%out", "new\nline")
+        for name in hostile:
+            folder = self.folder / "tmp" / name
+            folder.mkdir(parents=True)
+            for words in ("%in %out", "\"%in\" \"%out\"", "'%in' '%out'", "--in=%in --out=%out", "'a \"'%in\"' b\"%out"):
+                done = self.edgecase("reduce", "fam/c3", "--captures-command", f"printf '%s|' {words} >said; exit 9",
+                                     env=self.environment() | {"TMPDIR": str(folder)}, check=7)
+                self.assertIn("exit code 9", done.stderr)
+                said = (self.folder / "said").read_text()
+                with self.subTest(name=name, words=words, said=said):
+                    self.assertEqual(said.count("|"), 2 if " b" not in words else 1)
+                    self.assertEqual(said.count(f"/tmp/{name}/edgecase-reduce-"), 2)
+                    self.assertFalse(list(self.folder.rglob("pwned")))
+
+    def test_an_interruption_keeps_what_was_reached(self):
+        ready = self.folder / "ready"
+        script = self.folder / "renderer.sh"  # fails always, and waits from the sixth call on
+        script.write_text(f'#!/bin/sh\necho >>{ready}\n[ $(wc -l <{ready}) -lt 6 ] || {{ touch {ready}.now; sleep 60; }}\nkill -SEGV $$\n')
+        script.chmod(0o755)
+        process = subprocess.Popen([PROGRAM, "reduce", "fam/c3", "--captures-command", "./renderer.sh %in %out", "-o", "smaller.toml"],
+                                   env=self.environment() | {"TMPDIR": str(self.folder)}, cwd=self.folder, stderr=subprocess.PIPE)
+        while not pathlib.Path(f"{ready}.now").exists():
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        _, said = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130, said)
+        self.assertIn(b"interrupted; what it had come to is written", said)
+        text = (self.folder / "smaller.toml").read_text()
+        self.assertTrue(text.startswith("# crash by SIGSEGV, reduced from fam/c3.\n"), text)
+        self.edgecase("list", "smaller.toml", check=0)
+        self.assert_no_orphans()
 
     def test_wrong_commands(self):
         def refused(command, sentence, code=7, *words):

@@ -230,7 +230,7 @@ std::string kind_of(std::string words) {
 // again. Counts the kinds of the steps that were taken.
 Reduced checked(const Document& document, const Shows& shows,
                 std::map<std::string, size_t>& kinds) {
-    constexpr ReduceOptions kOptions = {.batch = 32};
+    const ReduceOptions kOptions = {.batch = 32};
     std::set<std::string> asked;
     const Shows once = [&](const std::vector<std::string>& texts) {
         EXPECT_LE(texts.size(), kOptions.batch);

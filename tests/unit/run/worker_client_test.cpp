@@ -124,9 +124,13 @@ std::optional<State> expected(State state, FrameType type) {
     using T = FrameType;
     static const std::map<State, std::map<T, State>> legal = {
         {State::asked_device,
-         {{T::step, State::asked_device}, {T::hello, State::idle}, {T::no_device, State::answered}}},
+         {{T::step, State::asked_device},
+          {T::hello, State::idle},
+          {T::no_device, State::answered}}},
         {State::asked_list,
-         {{T::step, State::asked_list}, {T::devices, State::answered}, {T::no_device, State::answered}}},
+         {{T::step, State::asked_list},
+          {T::devices, State::answered},
+          {T::no_device, State::answered}}},
         {State::busy, {{T::step, State::busy}, {T::result, State::busy}}}};  // batch_done: below
     const auto found = legal.find(state);
     if (found == legal.end() || !found->second.contains(type)) {
@@ -137,9 +141,10 @@ std::optional<State> expected(State state, FrameType type) {
 
 const cases::Case& some_case() {
     static const cases::Case c =
-        cases::load_text("format = 1\ndescription = \"One.\"\nrules = [\"cover.inside\"]\n"
-                         "[target]\nsize = [2, 2]\n[[draw]]\nvertices = [[0,0], [2,0], [0,2]]\n",
-                         "one", "one")
+        cases::load_text(
+            "format = 1\ndescription = \"One.\"\nrules = [\"cover.inside\"]\n"
+            "[target]\nsize = [2, 2]\n[[draw]]\nvertices = [[0,0], [2,0], [0,2]]\n",
+            "one", "one")
             ->front();
     return c;
 }
@@ -182,7 +187,8 @@ TEST(Protocol, EveryMessageInEveryStateIsLegalOrADeath) {
                 EXPECT_TRUE(std::get<Death>(events.back()).malformed);
                 continue;
             }
-            if (type == FrameType::step) {  // which is no event: a second message tells that it came
+            if (type ==
+                FrameType::step) {  // which is no event: a second message tells that it came
                 EXPECT_EQ(worker.client().state(), *then);
                 continue;
             }
@@ -221,9 +227,9 @@ TEST(Protocol, EveryMessageThatIsCutIsADeath) {
             const std::string whole = message(type);
             const std::set<size_t> cuts = {1, 31, whole.size() - 1};
             for (const size_t cut : cuts) {
-                SCOPED_TRACE(testing::Message() << "state " << static_cast<int>(way.state)
-                                                << ", frame " << static_cast<int>(type) << " at "
-                                                << cut);
+                SCOPED_TRACE(testing::Message()
+                             << "state " << static_cast<int>(way.state) << ", frame "
+                             << static_cast<int>(type) << " at " << cut);
                 Reached leaves(way, Worker::End::leaves);
                 leaves.says(std::string_view(whole).substr(0, cut));
                 EXPECT_TRUE(is_death(leaves.events(100)));
