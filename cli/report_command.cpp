@@ -60,7 +60,7 @@ OrStop<Source> load_one(const ReportOptions& options) {
             Stop{report::kExitUsage,
                  {"several folders need --merge; 'edgecase compare' sets runs side by side"}});
     }
-    cases::Expected<report::Run> run = report::load_journal(options.directories.front());
+    cases::Expected<report::Run> run = report::load_for_reports(options.directories.front());
     if (!run) {
         return tl::unexpected(Stop{report::kExitInvalidFile, {cases::to_string(run.error())}});
     }

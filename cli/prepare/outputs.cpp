@@ -250,7 +250,7 @@ bool has_failed(const report::Run& run) {
 int conclude(const std::filesystem::path& folder, const RunOptions& options, Ci ci,
              std::FILE* console, report::ConsoleStyle style, const Ending& ending) {
     cases::give_back_memory();
-    cases::Expected<report::Run> run = report::load_journal(folder);
+    cases::Expected<report::Run> run = report::load_for_reports(folder);
     if (!run) {
         print_errors({run.error()});
         return report::kExitInternal;

@@ -160,6 +160,7 @@ Json run_json(const Run& run) {
         {"shards", run.shards},
         {"jobs", run.jobs},
         {"interrupted", run.interrupted},
+        {"shortened_cases", run.shortened_cases},
         {"missing_shards", run.missing_shards},
         {"fail_at", cases::to_string(fail_level(run))},
         {"exit_code", exit_code(run)},

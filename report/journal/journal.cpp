@@ -192,11 +192,35 @@ cases::Expected<void> Journal::write_stop(const Run& run) {
 
 namespace {
 
+constexpr size_t kDetailedBytes = size_t{64} << 20;  // of "end" records
+
+// Takes away what grows with pictures and findings, but for the gravest of these. False: nothing.
+bool shorten(CaseRecord& record) {
+    constexpr size_t kFindings = 16, kTextBytes = 1024;
+    const bool is_long = record.pictures.width > 0 || record.reference.width > 0 ||
+                         !record.evidence.empty() || !record.messages.empty() ||
+                         record.findings.size() > kFindings ||
+                         record.stderr_text.size() > kTextBytes;
+    record.pictures = {};
+    record.reference = {};
+    record.geometry = {};
+    record.evidence = {};
+    record.messages = {};
+    std::ranges::stable_sort(record.findings, {}, &diff::Finding::level);
+    record.findings.resize(std::min(record.findings.size(), kFindings));
+    record.findings.shrink_to_fit();
+    record.stderr_text = record.stderr_text.substr(0, kTextBytes);
+    return is_long;
+}
+
 // Puts records together, in the order of the file.
 class Rebuilder {
   public:
-    // `ended`: what decode makes of an "end" record, if it is known.
-    void add(const Json& record, std::optional<CaseRecord> ended) {
+    // `is_bounded`: later records are shortened.
+    explicit Rebuilder(bool is_bounded) : is_bounded_(is_bounded) {}
+
+    // `ended`: what decode makes of an "end" record, if it is known; `bytes`: of its line.
+    void add(const Json& record, std::optional<CaseRecord> ended, size_t bytes) {
         if (!record.is_object() || !record.contains("record") || !record["record"].is_string()) {
             throw std::invalid_argument("this is not a record of a journal");
         }
@@ -214,6 +238,12 @@ class Rebuilder {
             CaseRecord done = ended ? std::move(*ended) : decode<CaseRecord>(record);
             const size_t at = known(done.id);
             open_.erase(at);
+            detailed_ += bytes;
+            if (is_bounded_ && detailed_ > kDetailedBytes && shorten(done)) {
+                shortened_.insert(at);
+            } else {
+                shortened_.erase(at);
+            }
             run_.cases[at] = std::move(done);
         } else if (type == "stop") {
             decode<RunEnd>(record, "record", run_);
@@ -230,6 +260,7 @@ class Rebuilder {
                 in_flight->push_back(run_.cases[at].id);
             }
         }
+        run_.shortened_cases = shortened_.size();
         return std::move(run_);
     }
 
@@ -285,16 +316,21 @@ class Rebuilder {
     bool begun_ = false;
     std::map<std::string, size_t> index_;
     std::set<size_t> open_;  // begun and not ended
+    bool is_bounded_ = false;
+    size_t detailed_ = 0;  // bytes of "end" records
+    std::set<size_t> shortened_;
 };
 
 // A line of the journal, read without the lines before it.
 struct Line {
-    std::optional<Json> record;       // none: this is not JSON
+    std::optional<Json> record;  // none: this is not JSON
+    size_t bytes = 0;
     std::optional<CaseRecord> ended;  // of a right "end" record
 };
 
 Line read_line(const std::string& text) {
     Line line;
+    line.bytes = text.size();
     try {
         line.record = Json::parse(text);
         if (line.record->is_object() && line.record->value("record", "") == "end") {
@@ -322,23 +358,21 @@ std::vector<Line> read_lines(std::istream& stream) {
     return lines;
 }
 
-}  // namespace
-
-cases::Expected<Run> load_journal(const std::filesystem::path& dir,
-                                  std::vector<std::string>* in_flight) {
+cases::Expected<Run> load(const std::filesystem::path& dir, std::vector<std::string>* in_flight,
+                          bool is_bounded) {
     const std::string file = (dir / "journal.jsonl").string();
     std::ifstream stream(file, std::ios::binary);
     if (!stream) {
         return failure(fmt::format("cannot read {}: {}; name the directory of a run", file,
                                    std::strerror(errno)));
     }
-    Rebuilder rebuilder;
+    Rebuilder rebuilder(is_bounded);
     uint32_t number = 0;
     const auto add = [&](Line& line) -> cases::Expected<void> {
         ++number;
         try {
             if (line.record) {
-                rebuilder.add(*line.record, std::move(line.ended));
+                rebuilder.add(*line.record, std::move(line.ended), line.bytes);
                 return {};
             }
         } catch (const Json::exception&) {  // as if it were none
@@ -362,6 +396,17 @@ cases::Expected<Run> load_journal(const std::filesystem::path& dir,
         return failure("the journal ends before its first record; start the run again", file);
     }
     return rebuilder.take(in_flight);
+}
+
+}  // namespace
+
+cases::Expected<Run> load_journal(const std::filesystem::path& dir,
+                                  std::vector<std::string>* in_flight) {
+    return load(dir, in_flight, false);
+}
+
+cases::Expected<Run> load_for_reports(const std::filesystem::path& dir) {
+    return load(dir, nullptr, true);
 }
 
 }  // namespace report

@@ -99,6 +99,9 @@ std::string header(const Run& run) {
     const Device& d = run.device;
     std::string text = fmt::format("<h1>{}</h1>\n", cases::markup(headline(run)));
     text += levels_list(run);
+    if (const std::string shortened = shortened_text(run); !shortened.empty()) {
+        text += fmt::format("<p>{}</p>\n", cases::markup(shortened));
+    }
     text += fmt::format(
         "<dl class=\"key\">\n{}{}", key_fact("device", d.name.empty() ? "no device" : d.name),
         key_fact("driver", d.driver_name + (d.driver_info.empty() ? "" : " ") + d.driver_info));

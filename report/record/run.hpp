@@ -321,6 +321,9 @@ struct RunEnd {
 struct Run : RunHeader, RunEnd {
     Device device;
     std::vector<CaseRecord> cases;  // selection order; those without an end are not_run
+    // Of them: whose pictures, numbers of samples and findings beyond the first are in the journal
+    // alone, since reports of them all would have no bound (load_for_reports).
+    size_t shortened_cases = 0;
 };
 
 // What happened to a case whatever was expected of it: pass for xpass, fail for an expected

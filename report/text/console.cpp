@@ -361,6 +361,9 @@ std::string console_summary(const Run& run, const std::string& report_path,
     if (const std::string unseen = new_pictures_text(run); !unseen.empty()) {
         text += unseen + "; --strict makes them unexpected\n";
     }
+    if (const std::string shortened = shortened_text(run); !shortened.empty()) {
+        text += shortened + '\n';
+    }
     text += doors_text(run, style.verbose);
     if (style.verbose) {
         text += free_text(run);

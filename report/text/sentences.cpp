@@ -302,6 +302,15 @@ std::string why_it_happened(const CaseRecord& record) {
     return words.empty() ? "no reason was given" : "the driver's last words: " + words;
 }
 
+std::string shortened_text(const Run& run) {
+    return run.shortened_cases == 0
+               ? std::string()
+               : fmt::format(
+                     "pictures, numbers of samples and further findings of {} are in "
+                     "journal.jsonl alone; the reports have those of the first",
+                     cases::counted(run.shortened_cases, "case"));
+}
+
 std::string missing_shards_text(const Run& run) {
     const bool is_one = run.missing_shards.size() == 1;
     return fmt::format("shard{} {} {}", is_one ? "" : "s", fmt::join(run.missing_shards, ", "),

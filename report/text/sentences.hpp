@@ -71,6 +71,8 @@ std::string exit_text(int code, const std::string& why = {});
 std::string exit_text(const Run& run);
 // "shard 2 is" or "shards 2, 5 are", of the shards that a merged run lacks.
 std::string missing_shards_text(const Run& run);
+// What of how many cases is in the journal alone; empty if nothing is.
+std::string shortened_text(const Run& run);
 // That they are missing, and what to do.
 std::string missing_shards_sentence(const Run& run);
 
