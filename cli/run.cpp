@@ -227,8 +227,8 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
     if (auto written = journal->write_stop(header); !written && failure.empty()) {
         failure = written.error().message;
     }
-    const std::string resume =
-        "; go on with 'edgecase run --resume " + shell_quote(p.folder.string()) + "'";
+    const std::string resume = "; go on with 'edgecase run --resume " +
+                               shell_quote(p.folder.string()) + words_to_agree(options) + "'";
     if (!failure.empty()) {
         failure = "the run stopped early: " + failure + resume;
     }

@@ -54,8 +54,8 @@ Expected<std::string> read_file(const fs::path& file, Pipes pipes) {
     }
     struct stat status {};
     const bool is_known = ::fstat(fd, &status) == 0;
-    const bool is_taken = is_known && (S_ISREG(status.st_mode) ||
-                                       (pipes == Pipes::read && S_ISFIFO(status.st_mode)));
+    const bool is_taken =
+        is_known && (S_ISREG(status.st_mode) || (pipes == Pipes::read && S_ISFIFO(status.st_mode)));
     Expected<std::string> text = failure("it is a folder, a pipe or a device");
     if (is_taken) {
         text = status.st_size > off_t{kMostBytes} ? too_large() : read_all(fd);

@@ -72,9 +72,8 @@ class NewFile {
     bool take_over(const struct stat& old) const {
         struct stat now {};
         const bool is_owned =
-            ::fstat(fd_, &now) == 0 &&
-            ((now.st_uid == old.st_uid && now.st_gid == old.st_gid) ||
-             ::fchown(fd_, old.st_uid, old.st_gid) == 0);
+            ::fstat(fd_, &now) == 0 && ((now.st_uid == old.st_uid && now.st_gid == old.st_gid) ||
+                                        ::fchown(fd_, old.st_uid, old.st_gid) == 0);
         return is_owned && ::fchmod(fd_, old.st_mode & 0777U) == 0;
     }
 

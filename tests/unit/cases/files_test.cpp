@@ -94,10 +94,11 @@ TEST_F(Files, a_program_that_is_killed_leaves_the_old_file_alone) {
     put("a", "old");
     for (const Link link : {Link::followed, Link::replaced}) {
         const int code = in_child([&] {
-            return write_file(dir_ / "a", link, [](const Put& put) {
-                       put(std::string(200'000, 'x'));
-                       ::raise(SIGKILL);
-                   })
+            return write_file(dir_ / "a", link,
+                              [](const Put& put) {
+                                  put(std::string(200'000, 'x'));
+                                  ::raise(SIGKILL);
+                              })
                        ? 0
                        : 1;
         });
@@ -127,10 +128,9 @@ TEST_F(Files, a_file_that_is_named_is_written_where_its_link_leads) {
 
 TEST_F(Files, what_is_no_ordinary_file_is_written_as_it_is) {
     EXPECT_TRUE(write_file("/dev/null", Link::followed, [](const Put& put) { put("x"); }));
-    EXPECT_EQ(write_file("/dev/full", Link::followed, [](const Put& put) { put("x"); })
-                  .error()
-                  .message,
-              "No space left on device");
+    EXPECT_EQ(
+        write_file("/dev/full", Link::followed, [](const Put& put) { put("x"); }).error().message,
+        "No space left on device");
     fs::create_symlink("/dev/full", dir_ / "full");
     EXPECT_FALSE(write("full", Link::followed, "x"));
     fs::create_directory(dir_ / "folder");
