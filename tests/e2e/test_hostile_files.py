@@ -218,9 +218,9 @@ class Hunts(Hostile):
                 done = self.edgecase("fuzz", "--renderer=reference", "--cases=4", *words, check=3)
                 self.assertRegex(done.stderr, r"\Aedgecase: [^\n]* is malformed: [^\n]*\n\Z")
         # Files are named by what a cause shows, too.
-        for causes in ([self.causes[0] | {"symptom": "extra of ../../outside/folder/x [vulkan]"}],):
-            (self.good / "fuzz.json").write_text(json.dumps(ledger | {"causes": causes}))
-            self.attack("hunt", "symptom", lambda: None)
+        causes = [self.causes[0] | {"symptom": "extra of x/../../../outside/folder/y [vulkan]"}]
+        (self.good / "fuzz.json").write_text(json.dumps(ledger | {"causes": causes}))
+        self.attack("hunt", "symptom", lambda: None)
         for name in (str(self.folder / "pipe"), "/dev/zero", "../outside/keep.toml", LONG):
             if not (self.folder / "pipe").exists():
                 os.mkfifo(self.folder / "pipe")
@@ -254,6 +254,23 @@ class Exchange(Hostile):
             index = json.loads((self.good / "index.json").read_text())
             index["cases"] = [{"id": name, "file": name, "folder": name, "needs": []}]
             self.attack("captures", name[:40], lambda index=index: (self.given / "index.json").write_text(json.dumps(index)))
+
+    def test_what_a_link_leads_to_is_not_read(self):
+        """Also if it would fit."""
+        self.make_captures()
+        shutil.copytree(self.good, self.outside / "export")
+        for name, words, code in (("fam/c1/coverage.u8", [], 7), ("fam/c1", [], 7), ("fam", ["fam/c1"], 7), ("own-cases", [], 3),
+                                  ("own-cases/own.toml", [], 3), ("index.json", ["--exported", self.given], 3)):
+            for folder in (self.given, self.made):
+                shutil.rmtree(folder, ignore_errors=True)
+            shutil.copytree(self.good, self.given)
+            diff = ["diff", "--captures", self.given, "-o", self.made, *words]
+            self.edgecase(*diff, check=0)
+            self.replaced(name, "folder")
+            (self.given / name).rmdir()
+            (self.given / name).symlink_to(self.outside / "export" / name)
+            done = self.edgecase(*diff, check=code)
+            self.assertRegex(done.stdout + done.stderr, "link leads out of the|is no list of exported cases", name)
 
 
 class Named(Hostile):
