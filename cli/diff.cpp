@@ -6,13 +6,13 @@
 #include <poll.h>
 
 #include <algorithm>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "capture/exchange/plane_files.hpp"
 #include "cases/base/counted.hpp"
+#include "cases/base/input_file.hpp"
 #include "cases/base/printable.hpp"
 #include "cases/select/selector.hpp"
 #include "cli/bench/clock.hpp"
@@ -55,6 +55,14 @@ void judge_folder(CaseRecord& record, std::vector<std::string>& skipped, const c
     if (const std::string wrong = run::check_before_running(c); !wrong.empty()) {
         say(Status::error, wrong);
         return;
+    }
+    std::error_code none;
+    if (fs::exists(folder, none)) {
+        if (const auto place = cases::place_inside(work.options.captures, folder); !place) {
+            say(Status::error, "'" + folder.string() + "' cannot be read: " +
+                                   place.error().message + "; put a copy in its place");
+            return;
+        }
     }
     const cases::Expected<capture::ReadPlanes> read =
         capture::read_planes(folder, ref::as_drawn(c, work.limits).value_or(c));
@@ -112,8 +120,7 @@ OrStop<std::set<std::string>> exported_ids(const fs::path& folder) {
     const fs::path file = folder / "index.json";
     std::set<std::string> ids;
     try {
-        std::ifstream in(file);
-        const auto index = nlohmann::json::parse(in);
+        const auto index = nlohmann::json::parse(cases::read_inside(folder, file).value_or(""));
         if (index.at("schema") == "edgecase-export-1") {
             for (const auto& entry : index.at("cases")) {
                 ids.insert(entry.at("id").get<std::string>());

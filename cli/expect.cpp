@@ -6,16 +6,13 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <set>
-#include <sstream>
 #include <variant>
 
 #include "cases/base/counted.hpp"
+#include "cases/base/input_file.hpp"
 #include "cases/base/printable.hpp"
 #include "cli/commands.hpp"
 #include "cli/prepare/outputs.hpp"
@@ -134,15 +131,13 @@ OrStop<run::Update> make_update(const Program& program, const ExpectOptions& opt
     std::error_code none;
     std::string text = run::new_expectation_file(*run);
     if (fs::exists(options.file, none)) {
-        std::ifstream in(options.file, std::ios::binary);
-        std::ostringstream all;
-        all << in.rdbuf();
-        if (!in) {
+        const cases::Expected<std::string> all = cases::read_file(options.file);
+        if (!all) {
             return tl::unexpected(
                 stop_with(report::kExitInvalidFile,
-                          "'" + options.file + "' cannot be read: " + std::strerror(errno)));
+                          "'" + options.file + "' cannot be read: " + all.error().message));
         }
-        before = text = all.str();
+        before = text = *all;
     }
     const auto file = run::parse_expectations(text, options.file, run::today_utc(), true);
     if (!file) {
@@ -261,7 +256,7 @@ OrStop<std::monostate> update_pictures(const Program& program, const ExpectOptio
                 : options.dry_run ? "; not written (--dry-run)"
                                   : "");
     if (!same && !options.dry_run) {
-        if (const auto written = replace_text(options.file, text); !written) {
+        if (const auto written = write_text(options.file, text); !written) {
             return tl::unexpected(stop_with(report::kExitInternal, written.error().message));
         }
     }
@@ -311,7 +306,7 @@ int expect_command(const Program& program, const ExpectOptions& options) {
     if (same || options.dry_run) {
         return report::kExitOk;
     }
-    if (const auto written = replace_text(options.file, update->text); !written) {
+    if (const auto written = write_text(options.file, update->text); !written) {
         return report_stop(stop_with(report::kExitInternal, written.error().message));
     }
     return report::kExitOk;

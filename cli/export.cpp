@@ -6,15 +6,14 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <system_error>
 #include <variant>
 
 #include "capture/exchange/export_case.hpp"
 #include "capture/exchange/plane_files.hpp"
+#include "cases/base/input_file.hpp"
+#include "cases/base/output_file.hpp"
 #include "cases/base/printable.hpp"
 #include "cli/commands.hpp"
 #include "cli/prepare/loop_config.hpp"
@@ -29,16 +28,13 @@ namespace fs = std::filesystem;
 namespace {
 
 // Writes into a folder that is made if it is not there.
-OrStop<std::monostate> write_below(const fs::path& file, const std::string& text) {
-    std::error_code error;
-    fs::create_directories(file.parent_path(), error);
-    if (error) {
+OrStop<std::monostate> write_below(const fs::path& folder, const fs::path& name,
+                                   const std::string& text) {
+    if (auto made = cases::make_folders(folder, folder / name); !made) {
         return tl::unexpected(
-            stop_with(report::kExitUsage, "the folder '" + file.parent_path().string() +
-                                              "' cannot be made: " + error.message() +
-                                              "; choose another with -o"));
+            stop_with(report::kExitUsage, made.error().message + "; choose another with -o"));
     }
-    if (auto written = write_text(file.string(), text); !written) {
+    if (auto written = replace_text(folder / name, text); !written) {
         return tl::unexpected(stop_with(report::kExitInternal, written.error().message));
     }
     return std::monostate{};
@@ -82,8 +78,7 @@ int export_command(const Program& program, const ExportOptions& options) {
     for (const size_t k : suite->selected) {
         const cases::Case& c = suite->cases[k];
         const std::string name = capture::folder_of(c.id);
-        if (auto written = write_below(folder / (name + ".json"), capture::export_case(c));
-            !written) {
+        if (auto written = write_below(folder, name + ".json", capture::export_case(c)); !written) {
             return report_stop(written.error());
         }
         if (k >= suite->outside) {
@@ -95,16 +90,19 @@ int export_command(const Program& program, const ExportOptions& options) {
                         {"needs", capture::needs_of(c)}});
     }
     for (const auto& [place, file] : carried) {
-        std::ifstream in(file, std::ios::binary);
-        const std::string text{std::istreambuf_iterator<char>(in), {}};
-        if (auto written = write_below(folder / kCarried / place, text); !written) {
+        const cases::Expected<std::string> text = cases::read_file(file);
+        if (!text) {
+            return report_stop({report::kExitInvalidFile,
+                                {"'" + file + "' cannot be read: " + text.error().message}});
+        }
+        if (auto written = write_below(folder, fs::path(kCarried) / place, *text); !written) {
             return report_stop(written.error());
         }
     }
     const nlohmann::ordered_json index = {{"schema", "edgecase-export-1"},
                                           {"tool", {{"name", "edgecase"}, {"version", kVersion}}},
                                           {"cases", std::move(list)}};
-    if (auto written = write_below(folder / "index.json", index.dump(1) + "\n"); !written) {
+    if (auto written = write_below(folder, "index.json", index.dump(1) + "\n"); !written) {
         return report_stop(written.error());
     }
     say(fmt::format("{} case{} in {}\n", suite->selected.size(),

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "cases/base/counted.hpp"
+#include "cases/base/output_file.hpp"
 #include "cases/base/printable.hpp"
 #include "cli/commands.hpp"
 #include "cli/fuzzing/hunt_folder.hpp"
@@ -109,8 +110,8 @@ class FuzzCommand {
         }
         run::Session session(config, std::move(first->client), first->device, signals);
         // From here on the hunt can go on, whatever ends it.
-        if (auto written = write_ledger(); !written) {
-            return report_stop(stop_with(report::kExitInternal, written.error().message));
+        if (auto kept = keep_earlier(); !kept) {
+            return report_stop(stop_with(report::kExitInternal, kept.error().message));
         }
         if (const std::optional<int> ended = know(*expected, session)) {
             return *ended;
@@ -161,12 +162,12 @@ class FuzzCommand {
             for (Entry& entry : loaded->entries) {
                 entry.is_known = true;
                 entry.count = 0;
-                entry.file = (fs::absolute(known) / entry.file).lexically_normal().string();
+                entry.file.clear();  // keep_earlier() copies it
                 // What is not reduced explains next to nothing. Hunts that know the same third one
                 // each bring its causes.
                 if (entry.is_reduced &&
                     std::none_of(ledger_.entries.begin(), ledger_.entries.end(),
-                                 [&](const Entry& e) { return e.file == entry.file; })) {
+                                 [&](const Entry& e) { return e.text == entry.text; })) {
                     ledger_.entries.push_back(std::move(entry));
                 }
             }
@@ -242,8 +243,6 @@ class FuzzCommand {
             std::fflush(stdout);
         }
         const double begin = status_.seconds();
-        std::error_code none;
-        fs::create_directories(folder_ / "known", none);
         const KnownCauses known = reduce_known(
             expected, ledger_.entries, session,
             [this] { status_.show_words("reducing what expectation files explain"); },
@@ -261,9 +260,9 @@ class FuzzCommand {
         if (auto written = write_ledger(); !written) {
             return report_stop(stop_with(report::kExitInternal, written.error().message));
         }
-        const auto causes = static_cast<size_t>(std::count_if(
-            ledger_.entries.begin(), ledger_.entries.end(),
-            [](const Entry& entry) { return entry.is_known && entry.file.starts_with("known/"); }));
+        const auto causes = static_cast<size_t>(
+            std::count_if(ledger_.entries.begin(), ledger_.entries.end(),
+                          [](const Entry& entry) { return entry.file.starts_with(fuzz::kKnown); }));
         if (!options_.run.quiet) {
             say(fmt::format("known by {}: {} that {} as expected, by {}{}, reduced in {:.0f} s\n",
                             counted(expected.files, "expectation file"),
@@ -286,13 +285,31 @@ class FuzzCommand {
     // A cause that expectation files explain, as soon as it is reduced: a hunt that is ended before
     // all are goes on with it.
     cases::Expected<void> keep_known(Entry entry) {
-        name_file(entry, "known", ledger_.entries, folder_);
-        if (auto written = replace_text(folder_ / entry.file, found_text(entry, ledger_));
-            !written) {
+        name_file(entry, fuzz::kKnown, ledger_.entries, folder_);
+        if (auto written = write_below(entry.file, found_text(entry, ledger_)); !written) {
             return written;
         }
         ledger_.entries.push_back(std::move(entry));
         return write_ledger();
+    }
+
+    // Copies what earlier hunts found, so that this one can go on without their folders.
+    cases::Expected<void> keep_earlier() {
+        for (Entry& entry : ledger_.entries) {
+            if (!entry.file.empty()) {
+                continue;
+            }
+            name_file(entry, fuzz::kEarlier, ledger_.entries, folder_);
+            if (auto written = write_below(entry.file, entry.text); !written) {
+                return written;
+            }
+        }
+        return write_ledger();
+    }
+
+    cases::Expected<void> write_below(const std::string& name, const std::string& text) const {
+        auto made = cases::make_folders(folder_, folder_ / name);
+        return made ? replace_text(folder_ / name, text) : made;
     }
 
     cases::Expected<void> write_ledger() const {
@@ -348,9 +365,8 @@ class FuzzCommand {
             if (!entry.file.empty()) {
                 continue;
             }
-            name_file(entry, "found", ledger_.entries, folder_);
-            if (auto written = replace_text(folder_ / entry.file, found_text(entry, ledger_));
-                !written) {
+            name_file(entry, fuzz::kFound, ledger_.entries, folder_);
+            if (auto written = write_below(entry.file, found_text(entry, ledger_)); !written) {
                 return written;
             }
             status_.clear();
@@ -382,12 +398,11 @@ class FuzzCommand {
     cases::Expected<void> keep_not_reduced(const Hunt& hunter) {
         const std::set<std::string> before = std::exchange(not_reduced_, {});
         for (Entry& entry : hunter.not_reduced()) {
-            entry.file = fmt::format("found/not-reduced-{}.toml", entry.first_case);
+            entry.file = fuzz::file_of_not_reduced(entry.first_case);
             not_reduced_.insert(entry.file);
             if (!before.contains(entry.file)) {
                 entry.text = fuzz::described(entry.text, entry.symptom);
-                if (auto written = replace_text(folder_ / entry.file, found_text(entry, ledger_));
-                    !written) {
+                if (auto written = write_below(entry.file, found_text(entry, ledger_)); !written) {
                     return written;
                 }
             }

@@ -8,10 +8,9 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
-#include <sstream>
 
+#include "cases/base/input_file.hpp"
 #include "cli/commands.hpp"
 #include "cli/prepare/loop_config.hpp"
 #include "cli/prepare/outputs.hpp"
@@ -96,10 +95,10 @@ OrStop<probe::Datasheet> sheet_of(const Program& program, const ProbeOptions& op
                                   const std::string& name, run::SignalFd& signals) {
     std::error_code none;
     if (fs::exists(name, none)) {
-        std::ifstream in(name, std::ios::binary);
-        std::ostringstream text;
-        text << in.rdbuf();
-        const cases::Expected<probe::Datasheet> sheet = probe::from_json(text.str());
+        const cases::Expected<std::string> text = cases::read_file(name, cases::Pipes::read);
+        const cases::Expected<probe::Datasheet> sheet =
+            text ? probe::from_json(*text)
+                 : cases::Expected<probe::Datasheet>(tl::unexpected(text.error()));
         if (!sheet) {
             return tl::unexpected(
                 stop_with(report::kExitInvalidFile,

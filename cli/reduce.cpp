@@ -170,7 +170,7 @@ int reduce_command(const Program& program, const ReduceOptions& options) {
     const std::string out = note + entry->text;
     if (options.run.output.empty()) {
         say(out);
-    } else if (auto written = replace_text(options.run.output, out); !written) {
+    } else if (auto written = write_text(options.run.output, out); !written) {
         return report_stop(stop_with(report::kExitInternal, written.error().message));
     }
     if (is_interrupted) {

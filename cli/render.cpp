@@ -132,7 +132,7 @@ Json queries_json(const Reference& r) {
     return list;
 }
 
-void put_json(Reference& r, const Put& put) {
+void put_json(Reference& r, const cases::Put& put) {
     const ref::Expectation& e = r.expectation;
     JsonList samples({{"schema", "edgecase-reference-2"},
                       {"id", r.c.id},
@@ -243,7 +243,7 @@ Drawing allowed_picture(const cases::Case& c, const RenderOptions& options) {
     const auto r =
         std::make_shared<Reference>(Reference{c, ref::expect(c, limits, options.profile),
                                               ref::ValueReference(c, limits, options.profile)});
-    return {[r](const Put& put) { put_json(*r, put); }, [r] { return values_image(*r); },
+    return {[r](const cases::Put& put) { put_json(*r, put); }, [r] { return values_image(*r); },
             [r] { return coverage_image(*r); }};
 }
 

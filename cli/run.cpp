@@ -209,8 +209,8 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
         teller->begin(ids);
     }
     const run::Clock::time_point begin = run::Clock::now();
-    const std::string resume =
-        "; go on with 'edgecase run --resume " + shell_quote(p.folder.string()) + "'";
+    const std::string resume = "; go on with 'edgecase run --resume " +
+                               shell_quote(p.folder.string()) + words_to_agree(options) + "'";
     run::SignalFd::set_last_words(cases::printable(
         fmt::format("interrupted, and no reports were written within a second{}, or have them "
                     "by 'edgecase report {}'",

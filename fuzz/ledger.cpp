@@ -4,10 +4,9 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "cases/base/input_file.hpp"
 #include "cases/base/printable.hpp"
 
 namespace fuzz {
@@ -52,10 +51,17 @@ Json to_json(const Entry& entry) {
             {"also", also_of(entry)}};
 }
 
+// Whether a text can be a part of a file's name.
+bool is_plain(std::string_view text) {
+    return text.find_first_not_of(
+               "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+               "0123456789.-_") == text.npos;
+}
+
 // These throw nlohmann's exceptions, which load_ledger() turns into an error.
 Symptom symptom_of(const std::string& text) {
     const auto parsed = parse_symptom(text);
-    if (!parsed) {
+    if (!parsed || !is_plain(parsed->rule)) {  // files are named by the rule
         throw std::runtime_error("'" + text + "' is no symptom");
     }
     return *parsed;
@@ -71,6 +77,20 @@ Waiting waiting_of(const Json& json) {
         throw std::runtime_error("a case waits without a symptom");
     }
     return waiting;
+}
+
+// Whether a file has a name that a hunt gives: it is read, and may be deleted.
+bool is_own_file(const Entry& entry) {
+    if (!entry.is_reduced) {
+        return entry.file == file_of_not_reduced(entry.first_case);
+    }
+    const size_t slash = entry.file.find('/');
+    const std::string folder = entry.file.substr(0, slash);
+    if (slash == std::string::npos ||
+        (folder != kFound && folder != kKnown && folder != kEarlier)) {
+        return false;
+    }
+    return entry.file.ends_with(".toml") && is_plain(entry.file.substr(slash + 1));
 }
 
 Entry entry_of(const Json& json, const fs::path& folder) {
@@ -95,15 +115,23 @@ Entry entry_of(const Json& json, const fs::path& folder) {
             }
         }
     }
-    std::ifstream in(folder / entry.file, std::ios::binary);
-    entry.text.assign(std::istreambuf_iterator<char>(in), {});
-    if (!in) {
-        throw std::runtime_error("the file '" + entry.file + "' cannot be read");
+    if (!is_own_file(entry)) {
+        throw std::runtime_error("'" + entry.file + "' is no name of a file of a hunt");
     }
+    cases::Expected<std::string> text = cases::read_inside(folder, folder / entry.file);
+    if (!text) {
+        throw std::runtime_error("the file '" + entry.file +
+                                 "' cannot be read: " + text.error().message);
+    }
+    entry.text = std::move(*text);
     return entry;
 }
 
 }  // namespace
+
+std::string file_of_not_reduced(uint64_t number) {
+    return fmt::format("{}/not-reduced-{}.toml", kFound, number);
+}
 
 std::string to_json(const Ledger& ledger) {
     const HuntCounts& c = ledger.counts;
@@ -157,14 +185,13 @@ std::string to_json(const Ledger& ledger) {
 
 cases::Expected<Ledger> load_ledger(const fs::path& folder) {
     const fs::path file = folder / kLedgerFile;
-    std::ifstream in(file, std::ios::binary);
-    const std::string text(std::istreambuf_iterator<char>(in), {});
-    if (!in) {
-        return cases::failure("'{}' is not the folder of a hunt: {} cannot be read",
-                              folder.string(), kLedgerFile);
+    const cases::Expected<std::string> text = cases::read_inside(folder, file);
+    if (!text) {
+        return cases::failure("'{}' is not the folder of a hunt: {} cannot be read: {}",
+                              folder.string(), kLedgerFile, text.error().message);
     }
     try {
-        const Json json = Json::parse(text);
+        const Json json = Json::parse(*text);
         if (json.at("schema") != kSchema) {
             return cases::failure("{} has another schema than {}", file.string(), kSchema);
         }

@@ -40,11 +40,20 @@ struct Ledger {
 };
 
 inline constexpr const char* kLedgerFile = "fuzz.json";
+// The folders of its entries' files: what it found, what expectation files explain, and copies of
+// what earlier hunts found (--known).
+inline constexpr const char* kFound = "found";
+inline constexpr const char* kKnown = "known";
+inline constexpr const char* kEarlier = "earlier";
+
+// Where an entry is kept that is not reduced, made of the case with this number.
+std::string file_of_not_reduced(uint64_t number);
 
 // The JSON of a ledger (docs/schema/fuzz-1.json); the entries' texts are left out.
 std::string to_json(const Ledger& ledger);
 
-// Reads FOLDER/fuzz.json and the files of its entries. Errors: what is missing or malformed.
+// Reads FOLDER/fuzz.json and the files of its entries, which have the names that a hunt gives them
+// and truly lie in the folder. Errors: what is missing or malformed.
 cases::Expected<Ledger> load_ledger(const std::filesystem::path& folder);
 
 // The command that drew it: "edgecase fuzz ties/** --seed 1".

@@ -6,13 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <functional>
 #include <map>
 #include <system_error>
 
 #include "capture/capture.hpp"
 #include "capture/exchange/plane_numbers.hpp"
+#include "cases/base/input_file.hpp"
 #include "cases/base/number_text.hpp"
 #include "cases/base/printable.hpp"
 #include "cases/format/color_format.hpp"
@@ -133,9 +133,16 @@ class Reader {
         std::map<std::string, fs::path> files;  // by plane
         const std::vector<PlaneSpec> specs = planes_of(case_);
         for (const fs::path& file : files_in(folder_)) {
-            if (file.filename() == kUnsupportedFile && fs::is_regular_file(file)) {
-                std::ifstream stream(file);
-                std::getline(stream, out_.unsupported);
+            std::error_code none;
+            if (fs::exists(file, none)) {
+                if (auto place = cases::place_inside(folder_, file); !place) {
+                    return cases::failure(quoted(file) + " cannot be read: " +
+                                          place.error().message + "; put a copy in its place");
+                }
+            }
+            if (file.filename() == kUnsupportedFile && fs::is_regular_file(file, none)) {
+                const std::string text = cases::read_file(file).value_or("");
+                out_.unsupported = text.substr(0, text.find('\n'));
                 if (out_.unsupported.empty()) {
                     return cases::failure("{} is empty; write the reason into its first line",
                                           quoted(file));
@@ -145,7 +152,6 @@ class Reader {
             const auto spec = std::find_if(specs.begin(), specs.end(), [&](const PlaneSpec& s) {
                 return s.name == file.stem().string();
             });
-            std::error_code none;
             if (fs::is_directory(file, none)) {
                 if (spec == specs.end()) {
                     continue;

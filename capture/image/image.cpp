@@ -17,6 +17,7 @@
 
 #include "capture/image/image_io/image_io.hpp"
 #include "cases/base/limits.hpp"
+#include "cases/base/output_file.hpp"
 #include "cases/base/parallel.hpp"
 #include "cases/base/printable.hpp"
 
@@ -169,11 +170,19 @@ cases::Expected<void> write_image(const std::filesystem::path& file, const Image
                               32,
                               1};
     std::array<char, 1024> error{};
-    if (module->write(file.c_str(), &plain, error.data(), error.size()) != 0) {
-        return cases::failure("cannot write {}: {}", cases::printable(file.string()),
-                              cases::printable(error.data()));
-    }
-    return {};
+    std::string bytes;
+    const auto keep_bytes = [](void* context, const void* from, size_t size) {
+        static_cast<std::string*>(context)->assign(static_cast<const char*>(from), size);
+    };
+    const bool is_made =
+        module->write(file.c_str(), &plain, keep_bytes, &bytes, error.data(), error.size()) == 0;
+    const cases::Expected<void> written =
+        is_made ? cases::write_file(file, cases::Link::followed,
+                                    [&bytes](const cases::Put& put) { put(bytes); })
+                : cases::failure(std::string(error.data()));
+    return written ? written
+                   : cases::failure("cannot write {}: {}", cases::printable(file.string()),
+                                    cases::printable(written.error().message));
 }
 
 cases::Expected<Image> read_image(const std::filesystem::path& file, uint32_t width,

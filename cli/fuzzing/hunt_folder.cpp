@@ -10,18 +10,24 @@
 #include <algorithm>
 #include <cerrno>
 
+#include "cases/base/output_file.hpp"
+#include "fuzz/ledger.hpp"
+
 namespace cli {
 
 namespace fs = std::filesystem;
 using fuzz::Entry;
 
 OrStop<fs::path> open_hunt_folder(const fs::path& path) {
-    std::error_code error;
-    fs::create_directories(path / "found", error);
-    if (error) {
-        return tl::unexpected(
-            stop_with(report::kExitUsage,
-                      "the folder '" + path.string() + "' cannot be made: " + error.message()));
+    // What is kept below them is written, and some of it deleted: of this hunt's folder alone.
+    for (const char* name : {fuzz::kFound, fuzz::kKnown, fuzz::kEarlier}) {
+        std::error_code none;
+        if (name != fuzz::kFound && !fs::exists(fs::symlink_status(path / name, none))) {
+            continue;  // made when it is needed
+        }
+        if (auto made = cases::make_folders(path, path / name / "file"); !made) {
+            return tl::unexpected(stop_with(report::kExitUsage, made.error().message));
+        }
     }
     const int fd = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (fd >= 0 && ::flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {

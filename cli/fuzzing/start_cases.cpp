@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <utility>
 
 #include "cases/base/checksum.hpp"
+#include "cases/base/input_file.hpp"
 #include "cases/toml/toml_reader.hpp"
 #include "fuzz/change/changed_source.hpp"
 
@@ -24,8 +23,7 @@ struct File {
 };
 
 File read(const std::string& name) {
-    std::ifstream in(name, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    const std::string text = cases::read_file(name).value_or("");
     File file{cases::stable_hash(text, 0), {}};
     // Only few files have one, and parsing all of them takes time.
     if (text.find("fuzz") != std::string::npos) {

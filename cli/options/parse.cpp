@@ -96,8 +96,9 @@ Stop parse_error(const CLI::ParseError& error, const CLI::App& app, const std::s
 
 // A resumed run has the options of the interrupted one, so others would be ignored.
 OrStop<std::monostate> check_resume(const CLI::App& run, const std::vector<std::string>& words) {
-    const std::vector<std::string> may = {"--resume",  "--jobs",  "--quiet",
-                                          "--verbose", "--color", "--progress"};
+    // The last four only repeat what the run began with (prepare_resume).
+    const std::vector<std::string> may = {"--resume",   "--jobs", "--quiet", "--verbose", "--color",
+                                          "--progress", "--icd",  "--json",  "--junit",   "--html"};
     for (const CLI::Option* option : run.get_options()) {
         const std::string name = option->get_name();
         const bool is_variable = !option->get_envname().empty() && !is_given(*option, words);

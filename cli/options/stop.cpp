@@ -37,7 +37,11 @@ int report_stop(const Stop& stop) {
 }
 
 void complain(std::string_view text) {
-    std::fprintf(stderr, "edgecase: %s\n", cases::printable(text).c_str());
+    std::string line = cases::printable(text);
+    for (size_t at = line.find('\n'); at != line.npos; at = line.find('\n', at)) {
+        line.replace(at, 1, "\\x0a");  // a name that is made to look like a line of ours
+    }
+    std::fprintf(stderr, "edgecase: %s\n", line.c_str());
 }
 
 void say(std::string_view text) {

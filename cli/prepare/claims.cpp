@@ -6,10 +6,9 @@
 
 #include <algorithm>
 #include <exception>
-#include <fstream>
-#include <iterator>
 #include <string_view>
 
+#include "cases/base/input_file.hpp"
 #include "cases/model/rule.hpp"
 #include "cases/model/rule_ids.hpp"
 #include "cases/toml/toml_reader.hpp"
@@ -29,8 +28,7 @@ std::string_view condition_of(const std::string& rule) {
 }  // namespace
 
 cases::SourceLocation rule_place(const cases::Case& c, std::string_view rule) {
-    std::ifstream in(c.where.file, std::ios::binary);
-    const std::string text(std::istreambuf_iterator<char>(in), {});
+    const std::string text = cases::read_file(c.where.file).value_or("");
     const auto document = cases::read_toml(text, c.where.file);
     const cases::TomlValue* const rules = document ? document->find("rules") : nullptr;
     if (rules != nullptr) {

@@ -74,7 +74,7 @@ bool is_hit(const capture::Capture& capture, size_t index) {
 }
 
 void drawing_json(const cases::Case& c, const capture::Capture& capture,
-                  const std::string& renderer, const Put& put) {
+                  const std::string& renderer, const cases::Put& put) {
     JsonList samples({{"schema", "edgecase-drawing-1"},
                       {"id", c.id},
                       {"renderer", renderer},
@@ -143,7 +143,7 @@ capture::Image drawing_picture(const cases::Case& c, const capture::Capture& cap
 
 }  // namespace
 
-JsonList::JsonList(const Json& object, const std::string& name, const Put& put) : put_(put) {
+JsonList::JsonList(const Json& object, const std::string& name, const cases::Put& put) : put_(put) {
     std::string text = dump(object, 1);
     text.resize(text.find_last_not_of("\n}") + 1);
     put_(text + fmt::format(",\n \"{}\": [", name));
@@ -224,10 +224,11 @@ OrStop<Drawing> draw_picture(const cases::Case& c, const std::string& renderer) 
     const auto capture = std::make_shared<const capture::Capture>(
         algorithm != nullptr ? rasterizers::draw_by_algorithm(whole, *algorithm)
                              : rasterizers::draw_by_reference(whole));
-    return Drawing{
-        [&c, capture, renderer](const Put& put) { drawing_json(c, *capture, renderer, put); },
-        [&c, capture] { return drawing_values(c, *capture); },
-        [&c, capture] { return drawing_picture(c, *capture); }};
+    return Drawing{[&c, capture, renderer](const cases::Put& put) {
+                       drawing_json(c, *capture, renderer, put);
+                   },
+                   [&c, capture] { return drawing_values(c, *capture); },
+                   [&c, capture] { return drawing_picture(c, *capture); }};
 }
 
 namespace {
@@ -239,7 +240,7 @@ double number_of(cases::ColorFormat format, const cases::TexelCodes& codes, uint
 }
 
 void blit_json(const cases::Case& c, const ref::BlitReference& reference, cases::Profile profile,
-               const Put& put) {
+               const cases::Put& put) {
     JsonList texels({{"schema", "edgecase-blit-1"},
                      {"id", c.id},
                      {"profile", std::string(cases::to_string(profile))},
@@ -287,13 +288,14 @@ capture::Image blit_image(const cases::Case& c, const ref::BlitReference& refere
 
 Drawing blit_picture(const cases::Case& c, cases::Profile profile) {
     const auto reference = std::make_shared<const ref::BlitReference>(c);
-    return {[&c, reference, profile](const Put& put) { blit_json(c, *reference, profile, put); },
-            [&c, reference] {
-                return blit_image(c, *reference, {"R", "G", "B", "A"}, false);
-            },
-            [&c, reference] {
-                return blit_image(c, *reference, {"R", "G", "B"}, true);
-            }};
+    return {
+        [&c, reference, profile](const cases::Put& put) { blit_json(c, *reference, profile, put); },
+        [&c, reference] {
+            return blit_image(c, *reference, {"R", "G", "B", "A"}, false);
+        },
+        [&c, reference] {
+            return blit_image(c, *reference, {"R", "G", "B"}, true);
+        }};
 }
 
 }  // namespace cli

@@ -19,7 +19,7 @@ namespace cli {
 // One picture in the three forms that "render" writes; each is made when it is asked for, and may
 // refer to the case.
 struct Drawing {
-    std::function<void(const Put& put)> json;
+    std::function<void(const cases::Put& put)> json;
     std::function<capture::Image()> values;   // as many channels as there are values
     std::function<capture::Image()> picture;  // to look at: R, G, B in 0..1, the samples of a
                                               // pixel in turn
@@ -29,7 +29,7 @@ struct Drawing {
 class JsonList {
   public:
     // The object without that member, which is not empty.
-    JsonList(const nlohmann::ordered_json& object, const std::string& name, const Put& put);
+    JsonList(const nlohmann::ordered_json& object, const std::string& name, const cases::Put& put);
     void add(const nlohmann::ordered_json& entry);
     // What `entry` gives of each number below `count`, in that order, without the nulls. Threads
     // make them, `lanes` at a time, each with a lane of its own (below `lanes`).
@@ -38,7 +38,7 @@ class JsonList {
     void end();
 
   private:
-    const Put& put_;
+    const cases::Put& put_;
     bool is_empty_ = true;
 };
 

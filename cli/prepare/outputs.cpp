@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/prepare/outputs.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/ioctl.h>
@@ -18,6 +17,7 @@
 #include <future>
 
 #include "cases/base/heap.hpp"
+#include "cases/base/output_file.hpp"
 #include "cases/base/parallel.hpp"
 #include "cli/options/stop.hpp"
 #include "cli/prepare/ci.hpp"
@@ -26,8 +26,6 @@
 #include "report/journal/journal.hpp"
 #include "report/page/html.hpp"
 #include "report/text/sentences.hpp"
-#include "run/process/frame.hpp"
-#include "run/process/process.hpp"
 
 namespace cli {
 
@@ -38,80 +36,28 @@ double steady_seconds() {
         .count();
 }
 
-cases::Error system_error(const std::string& file) {
-    return {{}, "'" + file + "' cannot be written: " + std::strerror(errno)};
-}
-
-// Tells the pieces to a descriptor, some at once; false (with errno): one could not be written.
-bool write_pieces_to(int fd, const std::function<void(const Put&)>& tell) {
-    constexpr size_t kAtOnce = size_t{1} << 16U;
-    std::string waiting;
-    bool good = true;
-    int error = 0;
-    const auto flush = [&] {
-        if (good && !run::write_all(fd, waiting)) {
-            good = false;
-            error = errno;
-        }
-        waiting.clear();
-    };
-    tell([&](std::string_view piece) {
-        waiting += piece;
-        if (waiting.size() >= kAtOnce) {
-            flush();
-        }
-    });
-    flush();
-    errno = error;
-    return good;
-}
-
-// Writes to `path` what errors call `name`.
-cases::Expected<void> write_as(const std::string& path, const std::function<void(const Put&)>& tell,
-                               const std::string& name) {
-    run::Fd fd(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-    if (!fd.is_open() || !write_pieces_to(fd.get(), tell)) {
-        return tl::unexpected(system_error(name));
-    }
-    if (::close(fd.release()) != 0) {  // some file systems tell of a full disk only now
-        return tl::unexpected(system_error(name));
-    }
-    return {};
+cases::Expected<void> told_of(const std::string& name, const cases::Expected<void>& written) {
+    return written ? written
+                   : cases::failure("'{}' cannot be written: {}", name, written.error().message);
 }
 
 }  // namespace
 
-cases::Expected<void> write_pieces(const std::string& file,
-                                   const std::function<void(const Put&)>& tell) {
+cases::Expected<void> write_pieces(const std::string& file, const cases::Tell& tell) {
     if (file == "-") {
         std::fflush(stdout);
-        if (!write_pieces_to(STDOUT_FILENO, tell)) {
-            return tl::unexpected(system_error("standard output"));
-        }
-        return {};
+        return told_of("standard output", cases::write_to(STDOUT_FILENO, tell));
     }
-    return write_as(file, tell, file);
+    return told_of(file, cases::write_file(file, cases::Link::followed, tell));
 }
 
 cases::Expected<void> write_text(const std::string& file, const std::string& text) {
-    return write_pieces(file, [&text](const Put& put) { put(text); });
+    return write_pieces(file, [&text](const cases::Put& put) { put(text); });
 }
 
 cases::Expected<void> replace_text(const std::filesystem::path& file, const std::string& text) {
-    const std::filesystem::path other = file.string() + ".new";
-    std::error_code error;
-    std::filesystem::remove(other, error);  // what an interrupted program left, or a link
-    if (auto written = write_as(
-            other.string(), [&text](const Put& put) { put(text); }, file.string());
-        !written) {
-        std::filesystem::remove(other, error);
-        return written;
-    }
-    std::filesystem::rename(other, file, error);
-    if (error) {
-        return cases::failure("'" + file.string() + "' cannot be written: " + error.message());
-    }
-    return {};
+    return told_of(file.string(), cases::write_file(file, cases::Link::replaced,
+                                                    [&text](const auto& put) { put(text); }));
 }
 
 namespace {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "cases/base/error.hpp"
+#include "cases/base/output_file.hpp"
 #include "cli/options/options.hpp"
 #include "report/record/run.hpp"
 #include "report/text/console.hpp"
@@ -25,14 +26,12 @@ struct ReportFiles {
     std::string json, junit, html;
 };
 
-// Writes text to a file or "-". Error: one sentence with the file and errno's reason, also for a
-// full disk.
+// Writes text to a file that the user named, or "-": all of it, or the file stays as it was. Error:
+// one sentence with the file and errno's reason, also for a full disk.
 cases::Expected<void> write_text(const std::string& file, const std::string& text);
-// The same of a text that is too long to be held at once: `tell` puts piece after piece.
-using Put = std::function<void(std::string_view piece)>;
-cases::Expected<void> write_pieces(const std::string& file,
-                                   const std::function<void(const Put& put)>& tell);
-// Puts a whole file in the place of what had its name, be it a link: never a half-written one.
+// The same of a text that is too long to be held at once.
+cases::Expected<void> write_pieces(const std::string& file, const cases::Tell& tell);
+// The same of a file in a folder of ours: where a link has its name, the file takes its place.
 cases::Expected<void> replace_text(const std::filesystem::path& file, const std::string& text);
 
 // Writes all reports of a run and returns what could not be written.

@@ -151,10 +151,60 @@ std::string what_changed(const Run& earlier) {
     return {};
 }
 
+// By which options a run reaches out of its folder: one loads a library, the others write files.
+using Outside = std::vector<std::pair<std::string, std::string>>;
+Outside outside_of(const RunOptions& o) {
+    Outside all = {
+        {"--icd", o.device.icd}, {"--json", o.json}, {"--junit", o.junit}, {"--html", o.html}};
+    std::erase_if(all, [](const auto& one) { return one.second.empty() || one.second == "-"; });
+    for (auto& [option, file] : all) {
+        file = fs::absolute(file).lexically_normal().string();
+    }
+    return all;
+}
+
+// A journal may be a stranger's, so whoever goes on with its run says these again.
+OrStop<std::monostate> check_agreed(const RunOptions& then, const RunOptions& now,
+                                    const Outside& agreed, bool has_icd) {
+    if (!then.debugger.empty()) {
+        return tl::unexpected(stop_with(report::kExitUsage,
+                                        "the run began with --debugger, which "
+                                        "starts a program; start a new run"));
+    }
+    const Outside wanted = outside_of(then);
+    const auto lacks = [](const Outside& all) {
+        return [&all](const auto& one) { return std::ranges::find(all, one) == all.end(); };
+    };
+    if (std::ranges::any_of(wanted, lacks(agreed))) {
+        return tl::unexpected(stop_with(
+            report::kExitUsage,
+            "the run began with options that reach out of its folder, and its journal may be "
+            "another one's; if you trust it, go on with 'edgecase run --resume " +
+                shell_quote(now.resume) + words_to_agree(then) + "'"));
+    }
+    const auto extra = std::ranges::find_if(agreed, lacks(wanted));
+    if (extra != agreed.end() && (extra->first != "--icd" || !has_icd)) {
+        return tl::unexpected(stop_with(report::kExitUsage,
+                                        "the run did not begin with " + extra->first + " '" +
+                                            extra->second + "'; leave it out or start a new run"));
+    }
+    return std::monostate{};
+}
+
 }  // namespace
+
+std::string words_to_agree(const RunOptions& options) {
+    std::string words;
+    for (const auto& [option, file] : outside_of(options)) {
+        words += " " + option + " " + shell_quote(file);
+    }
+    return words;
+}
 
 OrStop<Prepared> prepare_resume(const Program& program, const RunOptions& now) {
     Prepared p;
+    const Outside agreed = outside_of(now);
+    const bool has_icd = std::getenv("EDGECASE_ICD") != nullptr;
     std::vector<std::string> in_flight;
     std::error_code ignored;
     p.folder = fs::absolute(now.resume, ignored);
@@ -181,6 +231,9 @@ OrStop<Prepared> prepare_resume(const Program& program, const RunOptions& now) {
     OrStop<RunOptions> options = parse_run_arguments(earlier->arguments);
     if (!options) {
         return tl::unexpected(options.error());
+    }
+    if (auto checked = check_agreed(*options, now, agreed, has_icd); !checked) {
+        return tl::unexpected(checked.error());
     }
     p.options = std::move(*options);
     p.options.resume = now.resume;  // its folder is not an earlier run's, whatever goes wrong

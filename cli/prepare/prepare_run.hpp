@@ -30,6 +30,8 @@ struct Prepared {
 OrStop<Prepared> prepare(const Program& program, const RunOptions& options);
 // A run that goes on from its journal.
 OrStop<Prepared> prepare_resume(const Program& program, const RunOptions& now);
+// The options by which a run reaches out of its folder (" --json FILE"), which go beside --resume.
+std::string words_to_agree(const RunOptions& options);
 
 // The folder of the reports with its journal, begun with the header or, of a resumed run, gone on
 // with.

@@ -7,17 +7,16 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <iostream>
 #include <map>
 #include <numeric>
 #include <set>
-#include <sstream>
 #include <utility>
 #include <variant>
 
 #include "cases/base/checksum.hpp"
 #include "cases/base/counted.hpp"
+#include "cases/base/input_file.hpp"
 #include "cases/load/loader.hpp"
 #include "cases/select/selector.hpp"
 #include "ref/position/limits.hpp"
@@ -224,10 +223,37 @@ OrStop<std::vector<std::string>> load_outside_files(const SuiteOptions& options,
     return selectors;
 }
 
+// The first link below a folder of an export that leads out of the export, which a stranger may
+// have made; empty: none does.
+fs::path link_out_of(const fs::path& folder) {
+    const fs::path exported = folder.parent_path();
+    const auto leads_out = [&](const fs::path& link) {
+        std::error_code none;  // of a link that leads nowhere, reading the file tells
+        return fs::is_symlink(link, none) && fs::exists(link, none) &&
+               !cases::place_inside(exported.empty() ? "." : exported, link);
+    };
+    if (leads_out(folder)) {
+        return folder;
+    }
+    std::error_code error;
+    for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end;
+         it.increment(error)) {
+        if (leads_out(it->path())) {
+            return it->path();
+        }
+    }
+    return {};
+}
+
 // Adds the cases that an export carries, but for those that selectors have named already.
 OrStop<std::monostate> load_carried(const std::string& folder, LoadedSuite& suite) {
     if (folder.empty() || !is_folder(folder)) {
         return std::monostate{};
+    }
+    if (const fs::path link = link_out_of(folder); !link.empty()) {
+        return tl::unexpected(invalid_files(
+            {{{link.string(), 0, 0},
+              "the link leads out of the export; put a copy of what it names in its place"}}));
     }
     cases::Suite carried = cases::load_suite(folder);
     if (!carried.errors.empty()) {
@@ -386,10 +412,7 @@ OrStop<cases::Case> load_one_case(const Program& program, const SuiteOptions& op
 namespace {
 
 std::string text_of(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::ostringstream text;
-    text << in.rdbuf();
-    return text.str();
+    return cases::read_file(file).value_or("");  // a journal may name anything
 }
 
 }  // namespace

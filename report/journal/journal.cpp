@@ -22,6 +22,7 @@
 #include <utility>
 #include <vector>
 
+#include "cases/base/input_file.hpp"
 #include "cases/base/parallel.hpp"
 #include "report/journal/json_codec.hpp"
 
@@ -95,9 +96,17 @@ Journal& Journal::operator=(Journal&& other) noexcept {
 cases::Expected<Journal> Journal::open(const std::filesystem::path& dir, bool append) {
     const std::string file = (dir / "journal.jsonl").string();
     const int flags = append ? O_RDWR | O_APPEND : O_WRONLY | O_CREAT | O_APPEND;
-    const int fd = ::open(file.c_str(), flags | O_CLOEXEC, 0644);
+    // Neither a link is followed nor the reader of a pipe waited for: the folder may be a
+    // stranger's.
+    const int fd = ::open(file.c_str(), flags | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0644);
     if (fd < 0) {
         const int error = errno;
+        if (error == ELOOP) {
+            return failure(
+                fmt::format("{} is a link; remove it, or choose another directory with "
+                            "-o",
+                            file));
+        }
         if (append && error == ENOENT) {
             return failure(
                 fmt::format("{} does not exist, so there is no run to go on with", file));
@@ -114,7 +123,7 @@ cases::Expected<Journal> Journal::open(const std::filesystem::path& dir, bool ap
                         "directory with -o",
                         file));
     }
-    if (!append && ::ftruncate(fd, 0) != 0 && errno != EINVAL) {  // no ordinary file: /dev/full
+    if (!append && ::ftruncate(fd, 0) != 0) {
         return failure(fmt::format("cannot empty {}: {}", file, std::strerror(errno)));
     }
     if (append && !drop_torn_line(fd)) {
@@ -128,7 +137,7 @@ cases::Expected<Journal> Journal::open(const std::filesystem::path& dir, bool ap
 
 bool put_aside_journal(const std::filesystem::path& dir) {
     const std::filesystem::path file = dir / "journal.jsonl";
-    const int fd = ::open(file.c_str(), O_RDWR | O_CLOEXEC);
+    const int fd = ::open(file.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (fd < 0) {
         return false;
     }
@@ -361,7 +370,15 @@ std::vector<Line> read_lines(std::istream& stream) {
 cases::Expected<Run> load(const std::filesystem::path& dir, std::vector<std::string>* in_flight,
                           bool is_bounded) {
     const std::string file = (dir / "journal.jsonl").string();
-    std::ifstream stream(file, std::ios::binary);
+    const cases::Expected<std::filesystem::path> place = cases::place_inside(dir, file);
+    if (!place) {
+        return failure(fmt::format("cannot read {}: {}; name the directory of a run", file,
+                                   place.error().message));
+    }
+    if (!std::filesystem::is_regular_file(*place)) {  // opening a pipe waits for its writer
+        return failure(fmt::format("cannot read {}: it is no ordinary file", file));
+    }
+    std::ifstream stream(*place, std::ios::binary);
     if (!stream) {
         return failure(fmt::format("cannot read {}: {}; name the directory of a run", file,
                                    std::strerror(errno)));

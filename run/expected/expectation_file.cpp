@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <sstream>
 #include <utility>
 
+#include "cases/base/input_file.hpp"
 #include "cases/base/printable.hpp"
 #include "cases/base/regex.hpp"
 #include "cases/model/door.hpp"
@@ -303,20 +303,19 @@ cases::ExpectedAll<ExpectationFile> parse_expectations(std::string_view text,
 }
 
 cases::ExpectedAll<ExpectationFile> load_expectations(const std::filesystem::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    std::ostringstream text;
+    const cases::Expected<std::string> text = cases::read_file(path, cases::Pipes::read);
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored)) {
         return tl::unexpected(
             Errors{{{path.string(), 0, 0}, "this is a folder; name an expectation file in it"}});
     }
-    if (!in || !(text << in.rdbuf())) {
+    if (!text || text->empty()) {
         return tl::unexpected(Errors{{{path.string(), 0, 0},
                                       std::filesystem::exists(path, ignored)
                                           ? "the expectation file is empty or cannot be read"
                                           : "there is no such expectation file"}});
     }
-    return parse_expectations(text.str(), path, today_utc());
+    return parse_expectations(*text, path, today_utc());
 }
 
 std::vector<uint32_t> find_version(std::string_view text, size_t begin) {

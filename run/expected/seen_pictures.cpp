@@ -6,9 +6,9 @@
 #include <fnmatch.h>
 
 #include <algorithm>
-#include <fstream>
 #include <sstream>
 
+#include "cases/base/input_file.hpp"
 #include "cases/base/printable.hpp"
 
 namespace run {
@@ -103,16 +103,15 @@ cases::ExpectedAll<SeenPictures> parse_pictures(std::string_view text,
 }
 
 cases::ExpectedAll<SeenPictures> load_pictures(const std::filesystem::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    std::ostringstream text;
-    if (!in || !(text << in.rdbuf())) {
+    const cases::Expected<std::string> text = cases::read_file(path);
+    if (!text) {
         std::error_code ignored;
         return tl::unexpected(cases::Errors{{{path.string(), 0, 0},
                                              std::filesystem::exists(path, ignored)
                                                  ? "the file of pictures cannot be read"
                                                  : "there is no such file of pictures"}});
     }
-    return parse_pictures(text.str(), path);
+    return parse_pictures(*text, path);
 }
 
 std::string to_text(const SeenPictures& seen) {

@@ -261,7 +261,7 @@ class Usage(ProgramTest):
         self.refused(["run", "fam/c1", "--resume", "x"], "--resume")
 
     def test_resume_refuses_what_it_would_ignore(self):
-        for option in (["--profile", "vulkan"], ["--seed", "3"], ["--json", "x"], ["-o", "y"], ["--batch", "16"]):
+        for option in (["--profile", "vulkan"], ["--seed", "3"], ["-o", "y"], ["--batch", "16"]):
             name = {"-o": "--output"}.get(option[0], option[0])
             self.refused(["run", "--resume", "x", *option], name)
 

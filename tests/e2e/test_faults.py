@@ -191,16 +191,53 @@ class Output(ProgramTest):
             done = self.edgecase("render", "fam/c1", "-o", self.folder / name, check=7)
             self.assertIn("No space left", done.stderr, name)
 
-    def test_an_export_on_a_full_disk(self):
-        (self.folder / "export" / "fam").mkdir(parents=True)
-        (self.folder / "export" / "fam" / "c1.json").symlink_to("/dev/full")
-        self.assertIn("No space left", self.edgecase("export", "fam/c1", "-o", self.folder / "export", check=7).stderr)
+    def limited(self, kibibytes, *words):
+        """The program where no file may be larger, as on a disk that gets full."""
+        done = subprocess.run(["bash", "-c", f'ulimit -f {kibibytes}; exec "$@"', "bash", PROGRAM, *map(str, words)],
+                              env=self.environment(), cwd=self.folder, capture_output=True, text=True, timeout=120, check=False)
+        self.assertEqual(done.returncode, 7, f"{words}\n{done.stdout}{done.stderr}")
+        self.assertIn("File too large", done.stderr, words)
 
     def test_a_file_that_may_not_grow(self):
-        done = subprocess.run(["bash", "-c", 'ulimit -f 4; exec "$@"', "bash", PROGRAM, "run", "--renderer=reference", "-o",
-                               str(self.out)], env=self.environment(), cwd=self.folder, capture_output=True, text=True, check=False)
-        self.assertEqual(done.returncode, 7, done.stdout + done.stderr)
-        self.assertIn("File too large", done.stderr)
+        self.limited(4, "run", "--renderer=reference", "-o", self.out)
+
+    def test_a_file_is_written_whole_or_stays_as_it_was(self):
+        self.run_suite(check=0)
+        self.run_suite("--renderer=tiles", out=self.folder / "tiles")
+        place = self.folder / "place"
+        place.mkdir()
+        for name, words in {"a.json": ("render", "fam/c1", "-o"), "a.png": ("render", "fam/c1", "-o"), "a.exr": ("render", "fam/c1", "-o"),
+                            "a.c": ("export", "--reproducer", "fam/c1", "-o"), "b.html": ("compare", self.out, self.folder / "tiles", "--html"),
+                            "b.json": ("compare", self.out, self.folder / "tiles", "--json"),
+                            "c.json": ("probe", "--renderer=flat-parts", "--json"),
+                            "c.html": ("probe", "--renderer=flat-parts", "--html")}.items():
+            file = place / name
+            old = {".json": "{", ".html": "<!DOCTYPE html>"}.get(file.suffix, "") + "old"  # what an earlier report begins with
+            file.write_text(old)
+            file.chmod(0o640)
+            self.limited(0, *words, file)
+            self.assertEqual(file.read_text(), old, words)
+            self.edgecase(*words, file, check=0)
+            self.assertGreater(file.stat().st_size, len(old), words)
+            self.assertEqual(file.stat().st_mode & 0o777, 0o640, words)
+            self.assertEqual([f.name for f in place.iterdir()], [name], words)
+            file.unlink()
+
+    def test_reports_and_exports_are_written_whole_or_stay_as_they_were(self):
+        self.run_suite(check=0)
+        self.edgecase("export", "-o", "export", check=0)
+        before = {f: f.read_bytes() for folder in (self.out, self.folder / "export") for f in folder.rglob("*") if f.is_file()}
+        self.limited(0, "report", self.out, "--ci", "gitlab")
+        self.limited(0, "export", "-o", "export")
+        self.limited(0, "export", "-o", "fresh")
+        after = {f: f.read_bytes() for folder in (self.out, self.folder / "export", self.folder / "fresh")
+                 for f in folder.rglob("*") if f.is_file()}
+        self.assertEqual(after, before)
+        # The page is larger than the journal: what an earlier run left there is gone, and nothing half stands in its place.
+        self.run_suite("--html", "page.html", check=0)
+        self.limited(40, "run", "--renderer=reference", "-o", self.out, "--html", "page.html")
+        self.assertFalse((self.folder / "page.html").exists())
+        self.assertEqual({f.name for f in self.out.iterdir()}, {"journal.jsonl", "results.json", "junit.xml"})
 
     def test_reports_replace_links(self):
         self.run_suite(check=0)

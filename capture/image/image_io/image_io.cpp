@@ -6,13 +6,9 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <exception>
 #include <limits>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -34,27 +30,15 @@ bool ends_with(const std::string& text, const std::string& end) {
            text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-// What the file system says; empty if it took all.
-std::string write_bytes(const char* path, const std::vector<unsigned char>& bytes) {
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path, "wb"),
-                                                               &std::fclose);
-    if (!file || std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size() ||
-        std::fflush(file.get()) != 0) {
-        return std::strerror(errno);
-    }
-    return {};
-}
-
-std::string write(const char* path, const EdgecaseImage& image) {
-    const auto output = OIIO::ImageOutput::create(path);
+std::string write(const char* name, const EdgecaseImage& image, std::vector<unsigned char>& bytes) {
+    const auto output = OIIO::ImageOutput::create(name);
     if (!output || output->supports("ioproxy") == 0) {
         return "no writer for this kind of file: " + OIIO::geterror();
     }
-    // Into memory first: the writers of some formats do not tell what the file system refuses.
-    std::vector<unsigned char> bytes;
+    // Into memory: the writers of some formats do not tell what the file system refuses.
     OIIO::Filesystem::IOVecOutput memory(bytes);
     output->set_ioproxy(&memory);
-    const bool png = ends_with(path, ".png");
+    const bool png = ends_with(name, ".png");
     OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height),
                          static_cast<int>(image.channels),
                          png ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::FLOAT);
@@ -72,12 +56,12 @@ std::string write(const char* path, const EdgecaseImage& image) {
     } else {
         spec.attribute("compression", "zip");  // lossless for every bit of a float
     }
-    if (!output->open(path, spec) || !output->write_image(OIIO::TypeDesc::FLOAT, pixels) ||
+    if (!output->open(name, spec) || !output->write_image(OIIO::TypeDesc::FLOAT, pixels) ||
         !output->close()) {
         const std::string reason = output->geterror();
         return reason.empty() ? "unknown error" : reason;
     }
-    return write_bytes(path, bytes);
+    return {};
 }
 
 std::string read(const char* path, uint32_t wanted_width, uint32_t wanted_height,
@@ -129,10 +113,16 @@ uint32_t edgecase_image_io_version() {
     return kImageIoVersion;
 }
 
-int edgecase_write_image(const char* path, const EdgecaseImage* image, char* error, size_t size) {
+int edgecase_write_image(const char* name, const EdgecaseImage* image, EdgecaseByteSink sink,
+                         void* context, char* error, size_t size) {
     try {
-        const std::string sentence = write(path, *image);
-        return sentence.empty() ? 0 : fail(sentence, error, size);
+        std::vector<unsigned char> bytes;
+        const std::string sentence = write(name, *image, bytes);
+        if (!sentence.empty()) {
+            return fail(sentence, error, size);
+        }
+        sink(context, bytes.data(), bytes.size());
+        return 0;
     } catch (const std::exception& e) {
         return fail(e.what(), error, size);
     }

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-inline constexpr uint32_t kImageIoVersion = 3;
+inline constexpr uint32_t kImageIoVersion = 4;
 
 extern "C" {
 
@@ -21,12 +21,14 @@ struct EdgecaseImage {
     uint32_t is_float;  // 1: floats in the file read; 0: whole numbers, divided by the largest
 };
 using EdgecaseImageSink = void (*)(void* context, const EdgecaseImage* image);
+using EdgecaseByteSink = void (*)(void* context, const void* bytes, size_t size);
 
 uint32_t edgecase_image_io_version();
 // Of an image that has not `width` x `height` pixels, `pixels` is null: a file of a few bytes may
 // claim gigabytes. Each returns 0, or 1 with one sentence in `error` (zero-terminated, cut to
-// `size` bytes).
-int edgecase_write_image(const char* path, const EdgecaseImage* image, char* error, size_t size);
+// `size` bytes). What is written is the contents of a file of such a name; the caller keeps it.
+int edgecase_write_image(const char* name, const EdgecaseImage* image, EdgecaseByteSink sink,
+                         void* context, char* error, size_t size);
 int edgecase_read_image(const char* path, uint32_t width, uint32_t height, EdgecaseImageSink sink,
                         void* context, char* error, size_t size);
 }

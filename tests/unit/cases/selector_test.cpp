@@ -139,7 +139,9 @@ TEST(Selector, ManyStarsEnd) {
     for (int n = 0; n < 10000; ++n) {
         pattern += "**/";
     }
-    EXPECT_FALSE(glob_matches(pattern + "x", std::string(200, 'a') + "/b"));
+    std::string id(200, 'a');
+    id += "/b";
+    EXPECT_FALSE(glob_matches(pattern + "x", id));
 }
 
 TEST(Selector, ReadsStandardInput) {

@@ -5,11 +5,14 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -361,16 +364,41 @@ TEST_F(JournalTest, one_line_a_record) {
 }
 
 TEST_F(JournalTest, a_full_disk_is_a_sentence) {
-    if (!fs::exists("/dev/full")) {
-        FAIL() << "/dev/full is missing";
-    }
-    fs::create_symlink("/dev/full", file());
     auto journal = Journal::open(dir_, false);
     ASSERT_TRUE(journal);
+    // A file that may not grow, as on a full disk.
+    rlimit before{};
+    ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit none{0, before.rlim_max};
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &none), 0);
     const auto written = journal->write_begin("a/b", 1);
+    ::setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, handler);
     ASSERT_FALSE(written);
-    EXPECT_NE(written.error().message.find("No space left on device"), std::string::npos);
+    EXPECT_NE(written.error().message.find("File too large"), std::string::npos);
     EXPECT_NE(written.error().message.find(file().string()), std::string::npos);
+}
+
+TEST_F(JournalTest, a_link_or_a_pipe_is_no_journal) {
+    const fs::path other = dir_.parent_path() / (dir_.filename().string() + "-other");
+    std::ofstream(other) << "mine\n";
+    fs::create_symlink(other, file());
+    for (const bool append : {false, true}) {
+        const auto opened = Journal::open(dir_, append);
+        ASSERT_FALSE(opened);
+        EXPECT_NE(opened.error().message.find("is a link"), std::string::npos);
+    }
+    EXPECT_FALSE(put_aside_journal(dir_));
+    EXPECT_NE(load_journal(dir_).error().message.find("a link leads out of the folder"),
+              std::string::npos);
+    EXPECT_EQ(fs::file_size(other), 5);
+    fs::remove(other);
+    fs::remove(file());
+    ASSERT_EQ(::mkfifo(file().c_str(), 0600), 0);
+    EXPECT_FALSE(Journal::open(dir_, false));
+    EXPECT_FALSE(Journal::open(dir_, true));
+    EXPECT_NE(load_journal(dir_).error().message.find("is no ordinary file"), std::string::npos);
 }
 
 TEST_F(JournalTest, what_cannot_be_opened_is_a_sentence) {
