@@ -420,6 +420,9 @@ report::Device to_report(const vk_harness::DeviceInfo& device) {
     d.api_version = std::to_string((device.api_version >> 22) & 0x7fU) + "." +
                     std::to_string((device.api_version >> 12) & 0x3ffU) + "." +
                     std::to_string(device.api_version & 0xfffU);
+    if (const uint32_t variant = device.api_version >> 29; variant > 0) {  // not Vulkan itself
+        d.api_version += " (variant " + std::to_string(variant) + ")";
+    }
     return d;
 }
 

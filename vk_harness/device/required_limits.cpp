@@ -62,8 +62,8 @@ std::vector<WrongLimit> wrong_limits(const VkPhysicalDeviceLimits& l,
                                      const VkPhysicalDeviceFeatures& f, uint32_t api_version,
                                      bool is_subset) {
     // A variant other than 0 is another API, whose versions are not Vulkan's.
-    const bool is_1_4 = VK_API_VERSION_VARIANT(api_version) == 0 &&
-                        api_version >= VK_MAKE_API_VERSION(0, 1, 4, 0);
+    const bool is_1_4 =
+        VK_API_VERSION_VARIANT(api_version) == 0 && api_version >= VK_MAKE_API_VERSION(0, 1, 4, 0);
     std::vector<RequiredLimit> rows;
     const auto add = [&](const char* name, double claimed, Bound bound, double required,
                          std::string when = {}) {
