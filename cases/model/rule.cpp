@@ -17,7 +17,7 @@ constexpr std::array kRules = {
          "device's version and its optional features. A run judges it whatever is selected, under "
          "the id device/limits. A device that claims fewer than 4 subpixel bits is held to the 4 "
          "that are required.",
-         "limits-minmax", "", "vk_harness/device/required_limits.cpp"},
+         "limits-minmax", "", "vk_harness/limits/required_limits.cpp"},
     Rule{rule::cover_inside, Profile::vulkan, "A sample strictly inside a triangle is covered",
          "Whatever positions the device may use for the vertices, the sample is inside: it must be "
          "hit.",

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "cases/model/words.hpp"
-#include "vk_harness/device/required_limits.hpp"
+#include "vk_harness/limits/required_limits.hpp"
 
 namespace vk_harness {
 

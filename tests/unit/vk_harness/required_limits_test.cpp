@@ -3,7 +3,7 @@
 //
 // The barest device that the specification's table "Required Limits" allows, written down from the
 // table, and what is one step worse.
-#include "vk_harness/device/required_limits.hpp"
+#include "vk_harness/limits/required_limits.hpp"
 
 #include <gmock/gmock.h>
 
@@ -77,12 +77,18 @@ TEST(RequiredLimits, TheBarestDeviceMeetsThem) {
 
 TEST(RequiredLimits, OneStepWorseIsWrong) {
     using Spoil = std::function<void(VkPhysicalDeviceLimits&)>;
-#define LESS(member) \
-    { #member, [](VkPhysicalDeviceLimits& l) { l.member -= 1; } }
-#define MORE(member) \
-    { #member, [](VkPhysicalDeviceLimits& l) { l.member += 1; } }
-#define ONE_SAMPLE(member) \
-    { #member, [](VkPhysicalDeviceLimits& l) { l.member ^= VK_SAMPLE_COUNT_4_BIT; } }
+#define LESS(member)                                              \
+    {                                                             \
+        #member, [](VkPhysicalDeviceLimits& l) { l.member -= 1; } \
+    }
+#define MORE(member)                                              \
+    {                                                             \
+        #member, [](VkPhysicalDeviceLimits& l) { l.member += 1; } \
+    }
+#define ONE_SAMPLE(member)                                                            \
+    {                                                                                 \
+        #member, [](VkPhysicalDeviceLimits& l) { l.member ^= VK_SAMPLE_COUNT_4_BIT; } \
+    }
     const std::vector<std::pair<std::string, Spoil>> kSpoils = {
         LESS(maxImageDimension2D),
         LESS(maxImageArrayLayers),
@@ -133,10 +139,9 @@ TEST(RequiredLimits, OneStepWorseIsWrong) {
 
 TEST(RequiredLimits, OptionalFeaturesRequireMore) {
     VkPhysicalDeviceFeatures f{};
-    for (VkBool32* feature :
-         {&f.geometryShader, &f.dualSrcBlend, &f.fullDrawIndexUint32, &f.multiDrawIndirect,
-          &f.samplerAnisotropy, &f.multiViewport, &f.sampleRateShading, &f.shaderClipDistance,
-          &f.shaderCullDistance}) {
+    for (VkBool32* feature : {&f.geometryShader, &f.dualSrcBlend, &f.fullDrawIndexUint32,
+                              &f.multiDrawIndirect, &f.samplerAnisotropy, &f.multiViewport,
+                              &f.sampleRateShading, &f.shaderClipDistance, &f.shaderCullDistance}) {
         *feature = VK_TRUE;
     }
     VkPhysicalDeviceLimits l = barest();
@@ -170,14 +175,14 @@ TEST(RequiredLimits, OptionalFeaturesRequireMore) {
 
 TEST(RequiredLimits, Vulkan14RequiresMore) {
     const std::vector<std::string> found = wrong_names(barest(), {}, k1_4);
-    EXPECT_THAT(found, ElementsAre("maxImageDimension2D", "maxImageArrayLayers",
-                                   "maxPushConstantsSize", "bufferImageGranularity",
-                                   "maxFragmentCombinedOutputResources", "subTexelPrecisionBits",
-                                   "mipmapPrecisionBits", "maxSamplerLodBias",
-                                   "maxViewportDimensions[0]", "maxViewportDimensions[1]",
-                                   "viewportBoundsRange[0]", "viewportBoundsRange[1]",
-                                   "maxFramebufferWidth", "maxFramebufferHeight",
-                                   "maxColorAttachments", "standardSampleLocations"));
+    EXPECT_THAT(
+        found,
+        ElementsAre("maxImageDimension2D", "maxImageArrayLayers", "maxPushConstantsSize",
+                    "bufferImageGranularity", "maxFragmentCombinedOutputResources",
+                    "subTexelPrecisionBits", "mipmapPrecisionBits", "maxSamplerLodBias",
+                    "maxViewportDimensions[0]", "maxViewportDimensions[1]",
+                    "viewportBoundsRange[0]", "viewportBoundsRange[1]", "maxFramebufferWidth",
+                    "maxFramebufferHeight", "maxColorAttachments", "standardSampleLocations"));
     VkPhysicalDeviceLimits l = barest();
     l.maxImageDimension2D = 8192;
     l.maxImageArrayLayers = 2048;

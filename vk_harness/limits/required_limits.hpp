@@ -5,9 +5,11 @@
 // what cases may draw: targets, viewports, vertices, varyings, samples, interpolation, filters.
 #pragma once
 
+#define VK_ENABLE_BETA_EXTENSIONS  // as wherever volk is included
+#include <volk.h>
+
 #include <vector>
 
-#include "vk_harness/device/api.hpp"
 #include "vk_harness/public/harness.hpp"
 
 namespace vk_harness {

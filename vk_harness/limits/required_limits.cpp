@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "vk_harness/device/required_limits.hpp"
+#include "vk_harness/limits/required_limits.hpp"
 
 #include <fmt/format.h>
 
