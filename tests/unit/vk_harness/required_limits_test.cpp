@@ -169,7 +169,7 @@ TEST(RequiredLimits, OptionalFeaturesRequireMore) {
     l.maxClipDistances = l.maxCullDistances = l.maxCombinedClipAndCullDistances = 8;
     EXPECT_THAT(wrong_names(l, f), IsEmpty());
     l.subPixelInterpolationOffsetBits = 5;  // 0.46875 is required of it
-    EXPECT_THAT(wrong_names(l, f), ElementsAre("maxInterpolationOffset"));
+    ASSERT_THAT(wrong_names(l, f), ElementsAre("maxInterpolationOffset"));
     EXPECT_EQ(wrong_limits(l, f, k1_3, false)[0].required, "at least 0.46875");
 }
 
@@ -233,7 +233,7 @@ TEST(RequiredLimits, NaNMeetsNothingAndInfinityWhatIsLess) {
     l.viewportBoundsRange[1] = -INFINITY;
     l.maxSamplerLodBias = NAN;
     const std::vector<WrongLimit> wrong = wrong_limits(l, {}, k1_3, false);
-    EXPECT_THAT(names_of(wrong), ElementsAre("maxSamplerLodBias", "viewportBoundsRange[0]",
+    ASSERT_THAT(names_of(wrong), ElementsAre("maxSamplerLodBias", "viewportBoundsRange[0]",
                                              "viewportBoundsRange[1]"));
     EXPECT_EQ(wrong[1].claimed, "nan");
     EXPECT_EQ(wrong[2].claimed, "-inf");
