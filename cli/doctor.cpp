@@ -20,6 +20,7 @@
 #include "cli/prepare/run_plan.hpp"
 #include "cli/prepare/suite.hpp"
 #include "report/files/json.hpp"
+#include "report/text/sentences.hpp"
 #include "run/process/manifest.hpp"
 #include "run/worker/lacking.hpp"
 
@@ -304,6 +305,17 @@ std::vector<std::string> share_lines(const run::SuiteShare& share) {
     return lines;
 }
 
+Json wrong_limits_json(const vk_harness::DeviceInfo& device) {
+    Json wrong = Json::array();
+    for (const vk_harness::WrongLimit& limit : device.wrong_limits) {
+        wrong.push_back({{"name", limit.name},
+                         {"claimed", limit.claimed},
+                         {"required", limit.required},
+                         {"of", limit.of}});
+    }
+    return wrong;
+}
+
 Json to_json(const Diagnosis& d) {
     Json manifests = Json::array();
     for (const run::Manifest& m : d.manifests) {
@@ -329,6 +341,7 @@ Json to_json(const Diagnosis& d) {
                            {"depth_beside_stencil", device.depth_beside_stencil},
                            {"has_dynamic_rendering", device.has_dynamic_rendering},
                            {"has_dynamic_state", device.has_dynamic_state},
+                           {"wrong_limits", wrong_limits_json(device)},
                            {"suite", share_json(d.shares[k])},
                            {"missing", device.missing}});
     }
@@ -363,7 +376,8 @@ void print(const Diagnosis& d, const DeviceOptions& options) {
         const report::Device r = to_report(device);
         line("  " + std::to_string(device.index) + "  " + r.name + " (" + r.type + "), " +
              r.driver_name + " " + r.driver_info + ", Vulkan " + r.api_version);
-        line("     " + std::to_string(r.subpixel_bits) + " subpixel bits, targets up to " +
+        line("     " + std::to_string(r.subpixel_bits) + " subpixel bits" +
+             report::judged_bits_note(r) + ", targets up to " +
              std::to_string(device.max_target_size) + ", " +
              std::to_string(device.max_color_attachments) +
              " colour attachments, gl_PrimitiveID: " + (r.has_primitive_id ? "yes" : "no") +
@@ -371,6 +385,10 @@ void print(const Diagnosis& d, const DeviceOptions& options) {
              device.depth_beside_stencil +
              (device.has_dynamic_rendering ? "" : ", rendered by render pass objects") +
              (device.has_dynamic_state ? "" : ", state held by pipelines") + ", UUID " + r.uuid);
+        for (const vk_harness::WrongLimit& limit : device.wrong_limits) {
+            line("     wrong limit: " + limit.name + " is " + limit.claimed +
+                 ", and Vulkan requires " + limit.required + " " + limit.of);
+        }
         for (const std::string& missing : device.missing) {
             line("     missing: " + missing);
         }

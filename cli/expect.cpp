@@ -14,6 +14,7 @@
 #include "cases/base/counted.hpp"
 #include "cases/base/input_file.hpp"
 #include "cases/base/printable.hpp"
+#include "cases/model/device.hpp"
 #include "cli/commands.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
@@ -27,6 +28,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// What lines can speak of: the cases, and the device's limits.
+std::vector<std::string> known_ids(const LoadedSuite& suite) {
+    std::vector<std::string> ids = suite.ids();
+    ids.emplace_back(cases::kLimitsCase);
+    return ids;
+}
+
 // Form, statuses and dates of a file, and that its lines fit the suite and each other.
 int show(const Program& program, const ExpectOptions& options) {
     const std::string& name = options.file;
@@ -38,7 +46,8 @@ int show(const Program& program, const ExpectOptions& options) {
     if (!suite) {
         return report_stop(suite.error());
     }
-    if (const auto resolved = run::resolve_expectations({*file}, suite->ids(), true); !resolved) {
+    if (const auto resolved = run::resolve_expectations({*file}, known_ids(*suite), true);
+        !resolved) {
         return report_stop(invalid_files(resolved.error()));
     }
     std::array<size_t, report::kStatuses> count{};
@@ -156,7 +165,7 @@ OrStop<run::Update> make_update(const Program& program, const ExpectOptions& opt
     if (!loaded) {
         return tl::unexpected(loaded.error());
     }
-    std::vector<std::string> ids = loaded->ids();
+    std::vector<std::string> ids = known_ids(*loaded);
     const std::string left_out = settle_own_cases(*run, ids, is_beside(options.file, loaded->root));
     run::Update update = run::update_expectations(text, *file, *run, ids, words);
     if (!left_out.empty()) {

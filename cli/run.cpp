@@ -11,6 +11,7 @@
 
 #include "cases/base/printable.hpp"
 #include "cases/base/regex.hpp"
+#include "cases/model/device.hpp"
 #include "cli/commands.hpp"
 #include "cli/diagnose.hpp"
 #include "cli/options/parse.hpp"
@@ -136,8 +137,8 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
     if (auto applied = apply_expectations(p); !applied) {
         return stopped(options, applied.error());
     }
-    const JudgedDevice judged{device.subpixel_bits, device.sample_locations,
-                              device.depth_beside_stencil};
+    const JudgedDevice judged{cases::judged_subpixel_bits(device.subpixel_bits),
+                              device.sample_locations, device.depth_beside_stencil};
     for (run::PlannedCase& c : p.plan) {
         c.selector = shell_quote(selector_of(options, c.data.id));
         std::vector<std::string> doors;
@@ -152,6 +153,13 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
             c.reproducer = reproducer_line(program, options, c.data.id, judged);
             c.no_reproducer = may_be_too_large(c.data) ? "many values" : "";
         }
+    }
+    std::optional<CaseRecord> limits;
+    if (teller != nullptr) {
+        warn_of_limits(first->device);  // it is none of the tests that the runner knows
+    } else if (limits = limits_record(program, p, first->device); limits && !resumed) {
+        CaseRecord& planned = *p.header.cases.emplace(p.header.cases.begin());
+        static_cast<report::PlannedCase&>(planned) = *limits;
     }
     if (p.folder.empty()) {
         p.folder = new_folder("out", file_name_of(device.name));
@@ -189,6 +197,9 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
         options.quiet || !options.debugger.empty() ? ProgressStyle::none : options.progress,
         p.plan.size());
     std::vector<std::string> ids;
+    if (limits) {
+        ids.push_back(limits->id);
+    }
     for (const run::PlannedCase& c : p.plan) {
         ids.push_back(c.data.id);
     }
@@ -208,6 +219,13 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
     if (teller != nullptr) {
         teller->begin(ids);
     }
+    bool goes_on = true;
+    if (limits) {
+        if (auto written = journal->write_end(*limits); !written) {
+            return stopped(options, stop_with(report::kExitInternal, written.error().message));
+        }
+        goes_on = on_record(*limits);
+    }
     const run::Clock::time_point begin = run::Clock::now();
     const std::string resume = "; go on with 'edgecase run --resume " +
                                shell_quote(p.folder.string()) + words_to_agree(options) + "'";
@@ -220,7 +238,7 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
     run::RunLoop loop(config, plan, &*journal, signals, on_record,
                       [&](size_t done, size_t unconfirmed) {
                           progress.show(done, unexpected.count() + unconfirmed);
-                          return true;
+                          return goes_on;
                       });
     std::vector<run::WorkerClient> workers;
     workers.push_back(std::move(first->client));

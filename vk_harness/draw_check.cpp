@@ -5,12 +5,37 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/model/device.hpp"
 #include "cases/model/sample.hpp"
 #include "vk_harness/target/shader_interface.hpp"
 
 namespace vk_harness {
 
 namespace {
+
+// A number is on the reference's finest grid, and so on every finer one.
+bool is_on_finest_grid(float v) {
+    const double steps = std::ldexp(double{v}, static_cast<int>(cases::kMostSubpixelBits));
+    return !(std::floor(steps) < steps);
+}
+
+// A device may snap finer than the reference can follow; Vulkan sets no upper bound.
+std::optional<Rejection> check_grids(const DeviceInfo& device, const cases::Viewport& v) {
+    constexpr const char* kText =
+        "the device {} to 2^-{} pixels ({}), and the reference judges grids down to 2^-{}";
+    if (device.subpixel_bits > cases::kMostSubpixelBits) {
+        return unsupported(kText, "snaps vertices", device.subpixel_bits, "subPixelPrecisionBits",
+                           cases::kMostSubpixelBits);
+    }
+    // Bounds that are on the grid stay what they are.
+    const float bounds[] = {v.x, v.y, v.width, v.height};
+    if (device.viewport_subpixel_bits > cases::kMostSubpixelBits &&
+        !std::all_of(std::begin(bounds), std::end(bounds), is_on_finest_grid)) {
+        return unsupported(kText, "keeps viewports", device.viewport_subpixel_bits,
+                           "viewportSubPixelBits", cases::kMostSubpixelBits);
+    }
+    return std::nullopt;
+}
 
 std::optional<Rejection> check_viewport(const Capabilities& c, const cases::Viewport& v) {
     const float height = std::abs(v.height);
@@ -33,10 +58,10 @@ std::optional<Rejection> check_viewport(const Capabilities& c, const cases::View
     const float high = c.limits.viewportBoundsRange[1];
     const float ends[] = {v.x, v.y, v.x + v.width, v.y + v.height};
     if (std::any_of(std::begin(ends), std::end(ends),
-                    [low, high](float end) { return end < low || end > high; })) {
+                    [low, high](float end) { return !(end >= low && end <= high); })) {
         return unsupported("the viewport leaves the device's range of {} to {} pixels", low, high);
     }
-    return std::nullopt;
+    return check_grids(c.info, v);
 }
 
 std::optional<Rejection> check_depth(const Capabilities& c, const cases::DepthState& depth) {
@@ -89,8 +114,8 @@ std::optional<Rejection> check_attribute(const Capabilities& c, const cases::Dra
     }
     for (const float offset : a.probe_offset) {
         // Beyond the range the position is undefined; a device's range may end at 0.
-        if (a.probe == cases::Probe::at_offset && (offset < c.limits.minInterpolationOffset ||
-                                                   offset > c.limits.maxInterpolationOffset)) {
+        if (a.probe == cases::Probe::at_offset && !(offset >= c.limits.minInterpolationOffset &&
+                                                    offset <= c.limits.maxInterpolationOffset)) {
             return unsupported(
                 "interpolateAtOffset by {} pixels leaves the device's range of {} to {}", offset,
                 c.limits.minInterpolationOffset, c.limits.maxInterpolationOffset);
@@ -116,7 +141,7 @@ std::optional<Rejection> check_conservative(const DeviceInfo& device, const case
     if (draw.conservative == underestimate && !device.has_underestimation) {
         return unsupported("the device does not underestimate (primitiveUnderestimation)");
     }
-    if (draw.conservative_extra > device.most_overestimation) {
+    if (!(draw.conservative_extra <= device.most_overestimation)) {
         return unsupported(
             "the draw enlarges its triangles by {} pixels, the device allows {} "
             "(maxExtraPrimitiveOverestimationSize)",

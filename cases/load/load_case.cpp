@@ -12,6 +12,7 @@
 #include "cases/load/matrix.hpp"
 #include "cases/load/open_values.hpp"
 #include "cases/load/parts.hpp"
+#include "cases/model/device.hpp"
 #include "cases/model/rule.hpp"
 #include "cases/select/selector.hpp"
 #include "cases/toml/field_reader.hpp"
@@ -100,6 +101,11 @@ class CaseLoader {
             if (find_rule(*id) == nullptr) {
                 context_.error(element.where, fmt::format("no rule is called \"{}\"; {}", *id,
                                                           rule_hint(*id, '"')));
+            } else if (is_of_device(*id)) {
+                context_.error(element.where,
+                               fmt::format("the rule \"{}\" is of devices, not of what they draw; "
+                                           "'edgecase run {}' judges it, and no case can claim it",
+                                           *id, kLimitsCase));
             } else if (std::find(c_.rules.begin(), c_.rules.end(), *id) != c_.rules.end()) {
                 context_.error(element.where, fmt::format("the rule \"{}\" stands twice", *id));
             } else {
@@ -385,6 +391,12 @@ ExpectedAll<std::vector<Case>> load_text(std::string_view toml, const std::strin
     const Expected<TomlValue> root = read_toml(toml, file_name);
     if (!root) {
         return tl::unexpected(Errors{root.error()});
+    }
+    if (id_base == kLimitsCase) {
+        return tl::unexpected(Errors{
+            {root->where, fmt::format("runs tell of the device itself under the id '{}'; rename "
+                                      "the file",
+                                      kLimitsCase)}});
     }
     const ExpectedAll<Matrix> matrix = read_matrix(root->find("matrix"), root->find("leaves"));
     if (!matrix) {

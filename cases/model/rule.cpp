@@ -12,6 +12,12 @@ namespace cases {
 namespace {
 
 constexpr std::array kRules = {
+    Rule{rule::device_limits, Profile::vulkan, "The device's limits are what Vulkan requires",
+         "Each limit that bounds what cases may draw is in the table of required limits, by the "
+         "device's version and its optional features. A run judges it whatever is selected, under "
+         "the id device/limits. A device that claims fewer than 4 subpixel bits is held to the 4 "
+         "that are required.",
+         "limits-minmax", "", "vk_harness/limits/required_limits.cpp"},
     Rule{rule::cover_inside, Profile::vulkan, "A sample strictly inside a triangle is covered",
          "Whatever positions the device may use for the vertices, the sample is inside: it must be "
          "hit.",
@@ -584,6 +590,10 @@ constexpr std::array kRules = {
 
 std::span<const Rule> all_rules() {
     return kRules;
+}
+
+bool is_of_device(std::string_view id) {
+    return id == rule::device_limits;
 }
 
 const Rule* find_rule(std::string_view id) {

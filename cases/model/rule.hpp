@@ -25,6 +25,9 @@ struct Rule {
 
 // All rules, in the order of docs/rules.md.
 std::span<const Rule> all_rules();
+// Whether the rule is of the device by itself (kLimitsCase), so that no case can claim it, and no
+// sample exercises it.
+bool is_of_device(std::string_view id);
 // The rule of that id, or nothing.
 const Rule* find_rule(std::string_view id);
 

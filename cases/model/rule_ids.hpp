@@ -6,6 +6,7 @@
 
 namespace cases::rule {
 
+inline constexpr char device_limits[] = "device.limits";
 inline constexpr char cover_inside[] = "cover.inside";
 inline constexpr char cover_outside[] = "cover.outside";
 inline constexpr char cover_shared_edge[] = "cover.shared-edge";

@@ -12,6 +12,10 @@ using enum Strictness;
 // stand with the rules (rule.cpp).
 constexpr Statement kStatements[] = {
     // clang-format off
+    {"limits that are required of every device", exact, not_spoken,
+     "Each limit that bounds what cases may draw, against the table of required limits; what the device claims beyond them "
+     "decides which cases it can draw.",
+     {"device.limits"}, ""},
     {"the same command with the same state, twice", exact, exact,
      "Every bit of every attachment is the same, samples that are open included.",
      {"repeat.same"}, ""},

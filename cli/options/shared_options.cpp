@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/options/shared_options.hpp"
 
+#include "cases/model/device.hpp"
 #include "rasterizers/algorithms/device.hpp"
 
 namespace cli {
@@ -84,7 +85,7 @@ void add_fail_at(CLI::App* app, std::optional<cases::Profile>& level) {
 void add_judged_device(CLI::App* app, JudgedDevice& device) {
     add_value(app, "--subpixel-bits", device.subpixel_bits,
               "subpixel precision bits of the device, 4 to 16 [8]", "N", "Judging")
-        ->check(in_range(4U, 16U));
+        ->check(in_range(cases::kLeastSubpixelBits, cases::kMostSubpixelBits));
     add_value(app, "--sample-locations", device.sample_locations,
               "where its samples are, in 1/16 pixel, if not at the standard locations: a list a "
               "sample count, as \"12,4;4,12\"",

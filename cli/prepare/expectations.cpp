@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "cases/model/device.hpp"
 #include "cli/prepare/doors.hpp"
 #include "cli/prepare/suite.hpp"
 #include "run/expected/seen_pictures.hpp"
@@ -99,9 +100,10 @@ OrStop<std::map<std::string, run::ExpectationLine>> expectations_of(const RunOpt
     if (!files) {
         return tl::unexpected(files.error());
     }
-    auto expected = run::resolve_expectations(
-        *files, options.expect.empty() ? selection.suite_ids : selection.known_ids,
-        selection.whole_suite);
+    std::vector<std::string> ids =
+        options.expect.empty() ? selection.suite_ids : selection.known_ids;
+    ids.emplace_back(cases::kLimitsCase);
+    auto expected = run::resolve_expectations(*files, ids, selection.whole_suite);
     if (!expected) {
         return tl::unexpected(invalid_files(expected.error()));
     }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/prepare/loop_config.hpp"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <utility>
 
@@ -40,6 +42,13 @@ ref::Limits limits_of(const JudgedDevice& device) {
                           device.depth_beside_stencil);
 }
 
+void warn_of_limits(const vk_harness::DeviceInfo& device) {
+    for (const vk_harness::WrongLimit& limit : device.wrong_limits) {
+        complain(fmt::format("warning: the device's {} is {}, and Vulkan requires {} {}",
+                             limit.name, limit.claimed, limit.required, limit.of));
+    }
+}
+
 OrStop<ReadyWorker> ready_first_worker(run::LoopConfig& config, run::SignalFd& signals) {
     OrStop<run::WorkerClient> worker = start_first_worker(config);
     if (!worker) {
@@ -48,6 +57,7 @@ OrStop<ReadyWorker> ready_first_worker(run::LoopConfig& config, run::SignalFd& s
     OrStop<ReadyWorker> first = await_first_worker(std::move(*worker), config, signals);
     if (first) {
         set_limits(config, first->device);
+        warn_of_limits(first->device);
     }
     return first;
 }

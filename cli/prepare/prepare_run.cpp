@@ -11,6 +11,7 @@
 
 #include "cases/base/checksum.hpp"
 #include "cases/base/counted.hpp"
+#include "cases/model/device.hpp"
 #include "cases/model/rule.hpp"
 #include "cases/select/selector.hpp"
 #include "cli/options/parse.hpp"
@@ -20,6 +21,7 @@
 #include "cli/prepare/on_threads.hpp"
 #include "report/journal/journal.hpp"
 #include "report/text/sentences.hpp"
+#include "run/limits_case.hpp"
 #include "run/worker/fault.hpp"
 
 namespace cli {
@@ -259,7 +261,10 @@ OrStop<Prepared> prepare_resume(const Program& program, const RunOptions& now) {
     for (const cases::Case& c : loaded->cases) {
         by_id.emplace(c.id, &c);
     }
-    p.selection.whole_suite = earlier->cases.size() == loaded->cases.size();
+    const auto is_of_device = [](const CaseRecord& r) { return r.id == cases::kLimitsCase; };
+    p.selection.whole_suite =
+        earlier->cases.size() ==
+        loaded->cases.size() + (std::ranges::any_of(earlier->cases, is_of_device) ? 1U : 0U);
     const std::set<std::string> cut_off(in_flight.begin(), in_flight.end());
     for (const CaseRecord& record : earlier->cases) {
         const auto found = by_id.find(record.id);
@@ -271,7 +276,7 @@ OrStop<Prepared> prepare_resume(const Program& program, const RunOptions& now) {
                               "' is another case under the same id than the run began with; start "
                               "a new run"));
         }
-        if (record.status != report::Status::not_run) {
+        if (record.status != report::Status::not_run || is_of_device(record)) {
             continue;
         }
         if (found == by_id.end()) {
@@ -378,6 +383,9 @@ OrStop<std::monostate> apply_expectations(Prepared& p) {
                       "the run cannot go on: the expectation files are not those that it began "
                       "with; start a new run"));
     }
+    if (const auto found = expected->find(cases::kLimitsCase); found != expected->end()) {
+        p.of_limits = found->second;
+    }
     for (run::PlannedCase& c : p.plan) {
         if (const auto found = expected->find(c.data.id); found != expected->end()) {
             c.expected = found->second;
@@ -390,6 +398,33 @@ OrStop<std::monostate> apply_expectations(Prepared& p) {
         std::erase_if(record.doors, [&](const auto& word) { return is_skipped(p.header, word); });
     }
     return std::monostate{};
+}
+
+std::optional<CaseRecord> limits_record(const Program& program, const Prepared& p,
+                                        const vk_harness::DeviceInfo& device) {
+    const auto& all = p.header.cases;
+    const auto known = std::ranges::find(all, cases::kLimitsCase, &CaseRecord::id);
+    const bool is_named = p.of_limits && p.of_limits->glob == cases::kLimitsCase;
+    const bool is_due = p.is_resumed
+                            ? known != all.end() && known->status == report::Status::not_run
+                            : !device.wrong_limits.empty() || is_named || p.selection.names_limits;
+    if (!is_due) {
+        return std::nullopt;
+    }
+    CaseRecord record = run::judge_limits(device);
+    record.rerun = rerun_line(program, p.options, record.id);
+    if (p.of_limits && skips(*p.of_limits)) {
+        static_cast<diff::Outcome&>(record) = {};
+        record.status = report::Status::skip;
+        record.reason = p.of_limits->note;
+    }
+    if (p.of_limits) {
+        apply(*p.of_limits, record);
+    }
+    if (p.options.require_support) {
+        run::require_support(record);
+    }
+    return record;
 }
 
 }  // namespace cli

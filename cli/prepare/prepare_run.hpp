@@ -25,6 +25,7 @@ struct Prepared {
     std::filesystem::path folder;
     report::Run header;
     bool is_resumed = false;
+    std::optional<run::ExpectationLine> of_limits;  // what is expected of cases::kLimitsCase
 };
 
 OrStop<Prepared> prepare(const Program& program, const RunOptions& options);
@@ -40,5 +41,10 @@ OrStop<report::Journal> open_journal(const std::filesystem::path& folder, const 
 
 // Finds the expectation files for the device of the header and what they say of the planned cases.
 OrStop<std::monostate> apply_expectations(Prepared& p);
+
+// The final record of cases::kLimitsCase, if the run has to tell of it and has not yet: where a
+// limit is wrong, where it is selected, or where an expectation file names it.
+std::optional<report::CaseRecord> limits_record(const Program& program, const Prepared& p,
+                                                const vk_harness::DeviceInfo& device);
 
 }  // namespace cli

@@ -18,6 +18,7 @@
 
 #include "cases/base/checksum.hpp"
 #include "cases/base/counted.hpp"
+#include "cases/model/device.hpp"
 #include "report/journal/journal.hpp"
 #include "run/order.hpp"
 
@@ -43,7 +44,7 @@ OrStop<std::set<std::string>> failed_ids(const RunOptions& options, const Loaded
     for (const report::CaseRecord& record : earlier->cases) {
         if (!report::is_expected(record.status)) {
             failed.insert(record.id);
-            if (!selected.contains(record.id)) {
+            if (!selected.contains(record.id) && record.id != cases::kLimitsCase) {
                 left_out.push_back(&record);
             }
         }
@@ -110,9 +111,17 @@ std::string settings_of(const RunOptions& options) {
 }  // namespace
 
 OrStop<Selection> select_cases(const Program& program, const RunOptions& options) {
-    OrStop<LoadedSuite> suite = load_with_ids(program, options.suite);
+    Selection selection;
+    SuiteOptions wanted = options.suite;
+    selection.names_limits = std::erase(wanted.selectors, cases::kLimitsCase) > 0;
+    const bool is_alone = selection.names_limits && wanted.selectors.empty();
+    OrStop<LoadedSuite> suite = is_alone ? load_and_select(program, wanted, cases::Contents::ids)
+                                         : load_with_ids(program, wanted);
     if (!suite) {
         return tl::unexpected(suite.error());
+    }
+    if (is_alone) {
+        suite->selected.clear();
     }
     std::set<std::string> failed;
     if (!options.failed_in.empty()) {
@@ -121,8 +130,8 @@ OrStop<Selection> select_cases(const Program& program, const RunOptions& options
             return tl::unexpected(ids.error());
         }
         failed = std::move(*ids);
+        selection.names_limits = selection.names_limits || failed.contains(cases::kLimitsCase);
     }
-    Selection selection;
     selection.root = suite->root;
     selection.known_ids = suite->ids();
     selection.suite_ids = suite->suite_ids();
@@ -174,7 +183,7 @@ OrStop<Selection> select_cases(const Program& program, const RunOptions& options
     selection.of_all_shards = selection_text(std::move(ids));
     selection.own_hash = hash_of_files(own);
     selection.whole_suite = selection.cases.size() == selection.known_ids.size();
-    if (selection.cases.empty()) {
+    if (selection.cases.empty() && !selection.names_limits) {
         std::string why = "no case is selected";
         if (suite->cases.empty()) {
             why = "the suite '" + suite->root.string() + "' holds no case";
@@ -411,6 +420,9 @@ report::Device to_report(const vk_harness::DeviceInfo& device) {
     d.api_version = std::to_string((device.api_version >> 22) & 0x7fU) + "." +
                     std::to_string((device.api_version >> 12) & 0x3ffU) + "." +
                     std::to_string(device.api_version & 0xfffU);
+    if (const uint32_t variant = device.api_version >> 29; variant > 0) {  // not Vulkan itself
+        d.api_version += " (variant " + std::to_string(variant) + ")";
+    }
     return d;
 }
 

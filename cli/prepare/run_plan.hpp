@@ -25,11 +25,13 @@ struct Selection {
     std::vector<std::string> known_ids;  // of the whole suite, and of the cases outside of it
     std::vector<std::string> suite_ids;  // of the suite alone
     bool whole_suite = false;
+    bool names_limits = false;  // cases::kLimitsCase is selected, which is none of the cases
     LeftOutDoors left_out_doors;
     std::set<std::string> own_files;   // of the cases that are not the suite's
     std::set<std::string> part_files;  // of which some leaves are selected, and others are not
 };
-// Applies selectors, --quick, --failed-in, --shard and --shuffle. An empty selection is a Stop.
+// Applies selectors, --quick, --failed-in, --shard and --shuffle. An empty selection is a Stop,
+// unless the device's limits are selected.
 OrStop<Selection> select_cases(const Program& program, const RunOptions& options);
 
 // How a command line names a selected case: by its id, or by its file, and a leaf of it, if it is

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cases/model/derive.hpp"
+#include "cases/model/device.hpp"
 #include "cases/model/words.hpp"
 
 namespace ref {
@@ -33,7 +34,7 @@ cases::DepthFormat depth_beside_stencil(std::string_view word) {
 
 Limits limits_of(uint32_t subpixel_bits, std::string_view sample_locations,
                  std::string_view beside_stencil) {
-    Limits limits{static_cast<int>(subpixel_bits)};
+    Limits limits{static_cast<int>(cases::judged_subpixel_bits(subpixel_bits))};
     if (auto lists = cases::parse_sample_locations(sample_locations)) {
         limits.sample_locations = std::move(*lists);
     }

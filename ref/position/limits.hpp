@@ -36,7 +36,8 @@ struct Limits {
 cases::DepthFormat depth_beside_stencil(std::string_view word);
 
 // Of a device of which only this is known; `sample_locations` as cases::parse_sample_locations
-// takes them, none if it does not; `beside_stencil` as depth_beside_stencil takes it.
+// takes them, none if it does not; `beside_stencil` as depth_beside_stencil takes it. Of the bits
+// those that are judged (cases::judged_subpixel_bits).
 Limits limits_of(uint32_t subpixel_bits, std::string_view sample_locations,
                  std::string_view beside_stencil = {});
 

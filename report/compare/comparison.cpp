@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "cases/base/printable.hpp"
+#include "cases/model/device.hpp"
 #include "report/text/sentences.hpp"
 
 namespace report {
@@ -288,6 +289,18 @@ cases::Expected<Comparison> compare_runs(const std::vector<NamedRun>& runs, Stri
             const Status status = actual_status(record);
             result.unjudged += status == Status::error || status == Status::not_run ? 1U : 0U;
         }
+    }
+    // A run tells of the device's limits only where one is wrong, or where somebody asks.
+    static const CaseRecord kRightLimits = [] {
+        CaseRecord record;
+        record.id = cases::kLimitsCase;
+        record.status = Status::pass;
+        return record;
+    }();
+    if (const auto at = index.find(cases::kLimitsCase); at != index.end()) {
+        auto& records = result.cases[at->second].records;
+        std::replace(records.begin(), records.end(), static_cast<const CaseRecord*>(nullptr),
+                     &kRightLimits);
     }
     for (ComparedCase& c : result.cases) {
         c.other = run_with_other_case(c.records, runs);

@@ -142,11 +142,11 @@ std::string to_github_annotation(const std::vector<std::string>& sentences) {
 std::string to_github_summary(const Run& run) {
     const Device& d = run.device;
     std::string text = fmt::format("## Edgecase: {}\n\n", exit_text(run));
-    text +=
-        fmt::format("{}, {}{}{}{}, {} subpixel bits, profile {}, seed {}, {}\n\n", cell(d.name),
-                    cell(d.driver_name), d.driver_info.empty() ? "" : " ", cell(d.driver_info),
-                    d.api_version.empty() ? "" : ", Vulkan " + cell(d.api_version), d.subpixel_bits,
-                    cases::to_string(run.profile), run.seed, seconds_text(run.seconds));
+    text += fmt::format(
+        "{}, {}{}{}{}, {} subpixel bits{}, profile {}, seed {}, {}\n\n", cell(d.name),
+        cell(d.driver_name), d.driver_info.empty() ? "" : " ", cell(d.driver_info),
+        d.api_version.empty() ? "" : ", Vulkan " + cell(d.api_version), d.subpixel_bits,
+        judged_bits_note(d), cases::to_string(run.profile), run.seed, seconds_text(run.seconds));
     if (!run.missing_shards.empty()) {
         text += fmt::format("**{}.**\n\n", cell(missing_shards_sentence(run)));
     }

@@ -61,6 +61,7 @@ function partName(part) {
 
 function noPictureText(record) {
   if (record.part) { return ["To keep this page small its pictures stand in ", el("a", {href: partName(record.part) + "#case=" + encodeURIComponent(record.id)}, partName(record.part)), "."]; }
+  if (!record.file) { return "Nothing was drawn: this is about the device."; }
   if (record.findings) { return "No pictures were kept; --capture=failed keeps them."; }
   if (record.status === "pass" || record.status === "xpass") { return "Nothing is wrong here, so no pictures were kept; --capture=all keeps them, and \u201crender\u201d draws the reference."; }
   return "Nothing was compared, so there are no pictures.";

@@ -106,7 +106,7 @@ std::string header(const Run& run) {
         "<dl class=\"key\">\n{}{}", key_fact("device", d.name.empty() ? "no device" : d.name),
         key_fact("driver", d.driver_name + (d.driver_info.empty() ? "" : " ") + d.driver_info));
     text += key_fact("Vulkan", d.api_version);
-    text += key_fact("subpixel bits", fmt::format("{}", d.subpixel_bits));
+    text += key_fact("subpixel bits", fmt::format("{}{}", d.subpixel_bits, judged_bits_note(d)));
     text += key_fact("profile", std::string(cases::to_string(run.profile)));
     text += key_fact(
         "run", fmt::format("{}, {}", day_and_time(run.started),

@@ -14,6 +14,7 @@
 #include <unordered_map>
 
 #include "cases/base/printable.hpp"
+#include "cases/model/device.hpp"
 #include "cases/model/rule.hpp"
 #include "report/journal/json_codec.hpp"
 #include "report/text/causes.hpp"
@@ -351,7 +352,7 @@ PageData page_data(const Run& run, size_t part) {
                      {"meanings", std::move(meanings)},
                      {"totals", std::move(total)},
                      {"profile", cases::to_string(run.profile)},
-                     {"subpixel_bits", run.device.subpixel_bits},
+                     {"subpixel_bits", cases::judged_subpixel_bits(run.device.subpixel_bits)},
                      {"part", part},
                      {"without_pictures", data.left_out.size()},
                      {"diagnoses", diagnoses_json(run)},

@@ -284,11 +284,11 @@ std::string console_header(const Run& run, const ConsoleStyle& style) {
     // What draws without a driver (captures, an algorithm) has no Vulkan.
     const bool is_other = d.api_version.empty() && !d.name.empty();
     std::string text = fmt::format(
-        "{}  {}  {}{}{}{}  {} subpixel bits  profile {}  seed {}",
+        "{}  {}  {}{}{}{}  {} subpixel bits{}  profile {}  seed {}",
         painted("edgecase " + or_unknown(run.tool_version), "1", style), or_unknown(d.name),
         or_unknown(d.driver_name), d.driver_info.empty() ? "" : " ",
         cases::printable(d.driver_info), is_other ? "" : "  Vulkan " + or_unknown(d.api_version),
-        d.subpixel_bits, cases::to_string(run.profile), run.seed);
+        d.subpixel_bits, judged_bits_note(d), cases::to_string(run.profile), run.seed);
     std::replace(text.begin(), text.end(), '\n', ' ');
     text += '\n';
     return style.wrap ? wrapped(text, style.width) : text;

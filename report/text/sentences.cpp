@@ -11,6 +11,7 @@
 #include "cases/base/counted.hpp"
 #include "cases/base/number_text.hpp"
 #include "cases/base/printable.hpp"
+#include "cases/model/device.hpp"
 #include "ref/number/plane_budget.hpp"
 #include "report/record/levels.hpp"
 
@@ -148,6 +149,12 @@ std::string seconds_text(double seconds) {
 
 std::string ratio_text(double ratio) {
     return cases::number_text(ratio, 3);
+}
+
+std::string judged_bits_note(const Device& device) {
+    return !device.api_version.empty() && device.subpixel_bits < cases::kLeastSubpixelBits
+               ? fmt::format(" (judged as {})", cases::kLeastSubpixelBits)
+               : "";
 }
 
 std::string_view meaning(cases::Profile level) {

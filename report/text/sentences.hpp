@@ -24,6 +24,10 @@ std::string ratio_text(double ratio);
 // The largest error of a case, and what its run accepts: "1.08 of 2 allowed budgets".
 std::string accepted_text(const Run& run, const CaseRecord& record);
 
+// " (judged as 4)" behind the subpixel bits of a device of Vulkan that claims fewer than it must
+// have; else empty.
+std::string judged_bits_note(const Device& device);
+
 // What breaking a profile means: "not conformant", "very suspicious", "differs from top-left
 // hardware".
 std::string_view meaning(cases::Profile level);

@@ -316,10 +316,11 @@ namespace {
 // What a picture does not hold: what is written beside it, and other renderings that are compared
 // with it.
 bool is_in_picture(const FindingGroup& group) {
-    constexpr std::array<std::string_view, 6> kBeside = {
+    constexpr std::array<std::string_view, 7> kBeside = {
         cases::rule::write_outside,      cases::rule::repeat_same,
         cases::rule::repeat_scissor,     cases::rule::repeat_clears,
-        cases::rule::repeat_write_masks, cases::rule::repeat_attachments};
+        cases::rule::repeat_write_masks, cases::rule::repeat_attachments,
+        cases::rule::device_limits};
     return group.door.empty() &&
            std::find(kBeside.begin(), kBeside.end(), group.rule) == kBeside.end();
 }

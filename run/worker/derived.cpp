@@ -11,6 +11,7 @@
 #include <string>
 
 #include "cases/base/limits.hpp"
+#include "cases/model/device.hpp"
 #include "diff/verdict.hpp"
 #include "ref/expectation/expectation.hpp"
 
@@ -109,12 +110,16 @@ capture::CaptureView view_of(const Rendered& rendered) {
 
 ref::Limits limits_of(const vk_harness::DeviceInfo& device) {
     ref::Limits limits;
-    limits.subpixel_bits = static_cast<int>(device.subpixel_bits);
+    // Vulkan requires 4 bits of all three. What a device with more than the reference knows is not
+    // judged by stands in vk_harness/draw_check.cpp.
+    limits.subpixel_bits = static_cast<int>(cases::judged_subpixel_bits(device.subpixel_bits));
     // A device that rasterizes a sample only at the centre may have 0 bits, and asks for no offset.
+    // The steps of 64 bits are below the rounding of any offset and any level.
     limits.interpolation_offset_bits =
-        std::max(4, static_cast<int>(device.interpolation_offset_bits));
-    limits.mipmap_bits = std::max(4, static_cast<int>(device.mipmap_bits));
-    limits.viewport_bits = static_cast<int>(std::min(device.viewport_subpixel_bits, 16U));
+        static_cast<int>(std::clamp(device.interpolation_offset_bits, 4U, 64U));
+    limits.mipmap_bits = static_cast<int>(std::clamp(device.mipmap_bits, 4U, 64U));
+    limits.viewport_bits =
+        static_cast<int>(std::min(device.viewport_subpixel_bits, cases::kMostSubpixelBits));
     limits.first_strip_order = device.has_first_strip_order;
     limits.overestimation = device.overestimation;
     limits.overestimation_step = device.overestimation_step;

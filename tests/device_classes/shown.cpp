@@ -66,6 +66,7 @@ void show_limits(VkPhysicalDeviceProperties& properties) {
     DEVICE_CLASSES_LIMIT(viewportBoundsRange[1])
     DEVICE_CLASSES_LIMIT(minInterpolationOffset)
     DEVICE_CLASSES_LIMIT(maxInterpolationOffset)
+    DEVICE_CLASSES_LIMIT(subPixelInterpolationOffsetBits)
     DEVICE_CLASSES_LIMIT(maxClipDistances)
     DEVICE_CLASSES_LIMIT(maxCullDistances)
     DEVICE_CLASSES_LIMIT(maxCombinedClipAndCullDistances)

@@ -4,7 +4,8 @@
 // Pretends that the driver below has VK_EXT_conservative_rasterization and
 // VK_KHR_fragment_shading_rate, so that the program asks for them, enables them and draws with
 // them; the driver draws as ever. What a pipeline asks for is written to the file
-// EDGECASE_PRETENDED, a line each. Ends the process where the program's use is not valid.
+// EDGECASE_PRETENDED, a line each. Ends the process where the program's use is not valid. The
+// limits that EDGECASE_PRETENDED_LIMITS names are claimed in place of the driver's.
 #include <vulkan/vulkan.h>
 
 #include <algorithm>
@@ -12,7 +13,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <sstream>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "vulkan_layer/layer.hpp"
@@ -48,10 +51,57 @@ struct Driver : vulkan_layer::Device {
     std::abort();
 }
 
+// One claim of EDGECASE_PRETENDED_LIMITS: "maxViewports=1", "viewportBoundsRange[0]=nan"; "all=255"
+// is every byte.
+void claim(VkPhysicalDeviceProperties& properties, const std::string& name, double value) {
+    VkPhysicalDeviceLimits& l = properties.limits;
+    if (name == "all") {
+        std::memset(&l, static_cast<int>(value), sizeof l);
+        return;
+    }
+    if (name == "apiVersion") {
+        properties.apiVersion = static_cast<uint32_t>(value);
+        return;
+    }
+#define PRETENDED_LIMIT(member)                                                       \
+    if (name == #member) {                                                            \
+        l.member = static_cast<std::remove_reference_t<decltype((l.member))>>(value); \
+        return;                                                                       \
+    }
+    PRETENDED_LIMIT(subPixelPrecisionBits)
+    PRETENDED_LIMIT(viewportSubPixelBits)
+    PRETENDED_LIMIT(subPixelInterpolationOffsetBits)
+    PRETENDED_LIMIT(mipmapPrecisionBits)
+    PRETENDED_LIMIT(maxFramebufferWidth)
+    PRETENDED_LIMIT(maxViewports)
+    PRETENDED_LIMIT(viewportBoundsRange[0])
+    PRETENDED_LIMIT(viewportBoundsRange[1])
+    PRETENDED_LIMIT(framebufferColorSampleCounts)
+#undef PRETENDED_LIMIT
+    complain("EDGECASE_PRETENDED_LIMITS names a limit that the layer does not know");
+}
+
+void claim_limits(VkPhysicalDeviceProperties& properties) {
+    const char* const claims = std::getenv("EDGECASE_PRETENDED_LIMITS");
+    std::istringstream in(claims == nullptr ? "" : claims);
+    for (std::string word; std::getline(in, word, ',');) {
+        const size_t equals = std::min(word.find('='), word.size() - 1);
+        claim(properties, word.substr(0, equals), std::strtod(word.c_str() + equals + 1, nullptr));
+    }
+}
+
+VKAPI_ATTR void VKAPI_CALL get_properties(VkPhysicalDevice physical,
+                                          VkPhysicalDeviceProperties* out) {
+    next_of<PFN_vkGetPhysicalDeviceProperties>(physical, "vkGetPhysicalDeviceProperties")(physical,
+                                                                                          out);
+    claim_limits(*out);
+}
+
 VKAPI_ATTR void VKAPI_CALL get_properties2(VkPhysicalDevice physical,
                                            VkPhysicalDeviceProperties2* out) {
     next_of<PFN_vkGetPhysicalDeviceProperties2>(physical, "vkGetPhysicalDeviceProperties2")(
         physical, out);
+    claim_limits(out->properties);
     for (auto* s = static_cast<VkBaseOutStructure*>(out->pNext); s != nullptr; s = s->pNext) {
         if (s->sType ==
             VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_CONSERVATIVE_RASTERIZATION_PROPERTIES_EXT) {
@@ -208,6 +258,7 @@ VKAPI_ATTR VkResult VKAPI_CALL create_pipelines(VkDevice device, VkPipelineCache
 
 const std::vector<OwnCommand>& instance_commands() {
     static const std::vector<OwnCommand> kCommands = {
+        VULKAN_LAYER_OWN(GetPhysicalDeviceProperties, get_properties),
         VULKAN_LAYER_OWN(GetPhysicalDeviceProperties2, get_properties2),
         VULKAN_LAYER_OWN(GetPhysicalDeviceFeatures2, get_features2),
         VULKAN_LAYER_OWN(GetPhysicalDeviceFragmentShadingRatesKHR, get_sizes),
@@ -227,9 +278,9 @@ bool is_ready() {
 }
 
 std::span<const char* const> needed_instance_commands() {
-    static constexpr const char* kNames[] = {"vkGetPhysicalDeviceProperties2",
-                                             "vkGetPhysicalDeviceFeatures2",
-                                             "vkEnumerateDeviceExtensionProperties"};
+    static constexpr const char* kNames[] = {
+        "vkGetPhysicalDeviceProperties", "vkGetPhysicalDeviceProperties2",
+        "vkGetPhysicalDeviceFeatures2", "vkEnumerateDeviceExtensionProperties"};
     return kNames;
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "cases/model/words.hpp"
+#include "vk_harness/limits/required_limits.hpp"
 
 namespace vk_harness {
 
@@ -168,6 +169,7 @@ void query_optional_features(Capabilities& c) {
     if (is_subset) {
         c.portability = portability_support(portability);
     }
+    c.info.wrong_limits = wrong_limits(c.limits, features.features, c.info.api_version, is_subset);
     c.info.has_primitive_id = features.features.geometryShader == VK_TRUE;
     c.depth_clamp = features.features.depthClamp == VK_TRUE;
     c.depth_bias_clamp = features.features.depthBiasClamp == VK_TRUE;

@@ -19,6 +19,18 @@
 
 namespace vk_harness {
 
+// A limit that is not as Vulkan requires it, as texts: "maxViewports", "at least 16", "8", "of a
+// device with the feature multiViewport".
+struct WrongLimit {
+    std::string name, required, claimed, of;
+    static void fields(auto&& visit, auto&... w) {
+        visit("name", w.name...);
+        visit("required", w.required...);
+        visit("claimed", w.claimed...);
+        visit("of", w.of...);
+    }
+};
+
 // What a report has to say about a device.
 struct DeviceInfo {
     uint32_t index = 0;
@@ -46,6 +58,7 @@ struct DeviceInfo {
     // Without the first, cases are rendered by render pass objects; without the second, pipelines
     // hold the state that Vulkan 1.0 does not set between draws.
     bool has_dynamic_rendering = true, has_dynamic_state = true;
+    std::vector<WrongLimit> wrong_limits;
     std::vector<std::string> missing;  // features without which no case can run, one sentence each
     static void fields(auto&& visit, auto&... d) {
         visit("index", d.index...);
@@ -79,6 +92,7 @@ struct DeviceInfo {
         visit("depth_beside_stencil", d.depth_beside_stencil...);
         visit("has_dynamic_rendering", d.has_dynamic_rendering...);
         visit("has_dynamic_state", d.has_dynamic_state...);
+        visit("wrong_limits", d.wrong_limits...);
         visit("missing", d.missing...);
     }
 };

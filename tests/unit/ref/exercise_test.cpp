@@ -20,7 +20,7 @@ Exercise exercise_of_text(const std::string& text, const std::vector<std::string
 
 TEST(Exercise, EveryRuleSaysWhatExercisesIt) {
     for (const cases::Rule& rule : cases::all_rules()) {
-        EXPECT_FALSE(exercise_of(rule.id).empty()) << rule.id;
+        EXPECT_EQ(exercise_of(rule.id).empty(), cases::is_of_device(rule.id)) << rule.id;
     }
     EXPECT_TRUE(exercise_of("no.rule").empty());
 }

@@ -166,5 +166,23 @@ TEST(Derived, WhatThePlainPictureDoesWrongTooIsNoFaultOfAStage) {
     EXPECT_EQ(judged("geometry", spoil_value, both).different, 0U);
 }
 
+// Whatever a device claims, the reference gets numbers that it can judge by.
+TEST(Limits, AreKeptToWhatTheReferenceKnows) {
+    vk_harness::DeviceInfo device;
+    const ref::Limits few = limits_of(device);
+    EXPECT_EQ(few.subpixel_bits, 4);
+    EXPECT_EQ(few.interpolation_offset_bits, 4);
+    EXPECT_EQ(few.mipmap_bits, 4);
+    EXPECT_EQ(few.viewport_bits, 0);
+    device.subpixel_bits = device.interpolation_offset_bits = device.mipmap_bits =
+        device.viewport_subpixel_bits = ~0U;
+    const ref::Limits many = limits_of(device);
+    EXPECT_EQ(many.subpixel_bits, 16);
+    EXPECT_EQ(many.interpolation_offset_bits, 64);
+    EXPECT_EQ(many.mipmap_bits, 64);
+    EXPECT_EQ(many.viewport_bits, 16);
+    EXPECT_EQ(ref::limits_of(0, "").subpixel_bits, 4);
+}
+
 }  // namespace
 }  // namespace run
