@@ -3,6 +3,7 @@
 """What is disturbed: runs of a suite, hunts and reductions. Each tells how its outcome may differ from the undisturbed
 one: not at all, or in what it names."""
 import json
+import re
 import xml.etree.ElementTree
 
 import schema
@@ -156,6 +157,8 @@ class Reduction:
     def differences(self, base, now, end, said):
         if now is None and end.code == 0:
             said.append("the reduction ended with 0 and without a file")
+        if now not in (None, base) and not re.search("crash|timeout|timed out|device.lost|died|killed|malformed|flake", now + end.errors):
+            said.append(f"the reduction is another one, and no word says why: {end.errors.strip()[-200:]}")
         return 0 if now in (None, base) else 1
 
     def is_equal(self, base, now):

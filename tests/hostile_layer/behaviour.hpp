@@ -23,9 +23,9 @@ enum class Point { instance, properties, device, pipeline, allocate, map, submit
 
 struct Behaviour {
     const char* name;
-    Point point;                    // where it is by default
-    void (*act)() = nullptr;        // done once, at the chosen call
-    VkResult result = VK_SUCCESS;   // answered from the chosen call on, without asking the driver
+    Point point;                   // where it is by default
+    void (*act)() = nullptr;       // done once, at the chosen call
+    VkResult result = VK_SUCCESS;  // answered from the chosen call on, without asking the driver
 };
 
 // Ends, hangs and changes the process, or starts others.

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <cstring>
 #include <string>
+#include <thread>
 
 #include "behaviour.hpp"
 
@@ -45,15 +46,17 @@ void write_for_ever(int fd) {
     }
 }
 
-void scribble(int fd, off_t size) {
-    void* data = ::mmap(nullptr, static_cast<size_t>(size), PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
-    if (data == MAP_FAILED) {
-        return;
-    }
-    auto* bytes = static_cast<unsigned char*>(data);
-    for (off_t at = 0; at < size; at += 4096) {
-        if (::lseek(fd, at, SEEK_DATA) == at) {  // pages that are there
-            std::memset(bytes + at, 0x5a, 4096);
+// Writes over the pages that are there, again and again, beside what the worker does.
+[[noreturn]] void scribble() {
+    struct stat status {};
+    ::fstat(kShared, &status);
+    void* data = ::mmap(nullptr, static_cast<size_t>(status.st_size), PROT_READ | PROT_WRITE,
+                        MAP_SHARED, kShared, 0);
+    for (;; ::usleep(100)) {
+        const off_t begin = ::lseek(kShared, 0, SEEK_DATA);
+        if (data != MAP_FAILED && begin >= 0) {
+            const off_t end = ::lseek(kShared, begin, SEEK_HOLE);
+            std::memset(static_cast<char*>(data) + begin, 0x5a, static_cast<size_t>(end - begin));
         }
     }
 }
@@ -110,12 +113,7 @@ std::span<const Behaviour> descriptor_behaviours() {
              }
          }},
         {"results-without-end", Point::instance, [] { write_for_ever(kResults); }},
-        {"shared-scribbled", Point::wait,
-         [] {
-             struct stat status {};
-             ::fstat(kShared, &status);
-             scribble(kShared, status.st_size);
-         }},
+        {"shared-scribbled", Point::submit, [] { std::thread(scribble).detach(); }},
         {"shared-truncated", Point::submit,
          [] {
              if (::ftruncate(kShared, 0) != 0) {
@@ -126,7 +124,8 @@ std::span<const Behaviour> descriptor_behaviours() {
         {"output-without-end", Point::submit, [] { write_for_ever(STDOUT_FILENO); }},
         {"output-esc-and-nul", Point::submit,
          [] {
-             constexpr char kNoise[] = "\x1b]0;title\x07\x1b[31m \0 \xff ]]> </script>\n::error::x\n";
+             constexpr char kNoise[] =
+                 "\x1b]0;title\x07\x1b[31m \0 \xff ]]> </script>\n::error::x\n";
              write_to(STDERR_FILENO, kNoise, sizeof kNoise - 1);
              ::_exit(1);
          }},

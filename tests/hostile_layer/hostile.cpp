@@ -25,8 +25,7 @@ struct Driver : vulkan_layer::Device {
 
 template <typename Handle>
 const Driver& driver_of(Handle handle) {
-    return static_cast<const Driver&>(
-        vulkan_layer::device_of(vulkan_layer::dispatch_key(handle)));
+    return static_cast<const Driver&>(vulkan_layer::device_of(vulkan_layer::dispatch_key(handle)));
 }
 
 void alter(VkPhysicalDeviceProperties& properties) {
@@ -91,7 +90,8 @@ VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, uint32_t count, const VkSub
                                       VkFence fence) {
     const VkResult result = reach(Point::submit);
     if (result != VK_SUCCESS || is_on("submit-nothing")) {
-        return result != VK_SUCCESS ? result : driver_of(queue).QueueSubmit(queue, 0, nullptr, fence);
+        return result != VK_SUCCESS ? result
+                                    : driver_of(queue).QueueSubmit(queue, 0, nullptr, fence);
     }
     return driver_of(queue).QueueSubmit(queue, count, infos, fence);
 }
@@ -99,8 +99,9 @@ VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, uint32_t count, const VkSub
 VKAPI_ATTR VkResult VKAPI_CALL wait(VkDevice device, uint32_t count, const VkFence* fences,
                                     VkBool32 all, uint64_t timeout) {
     const VkResult result = reach(Point::wait);
-    return result != VK_SUCCESS ? result
-                                : driver_of(device).WaitForFences(device, count, fences, all, timeout);
+    return result != VK_SUCCESS
+               ? result
+               : driver_of(device).WaitForFences(device, count, fences, all, timeout);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL create_pipelines(VkDevice device, VkPipelineCache cache,

@@ -173,7 +173,8 @@ std::span<const Behaviour> process_behaviours() {
         {"clear-environment", Point::instance, [] { ::clearenv(); }},
         {"locale", Point::instance, [] { std::setlocale(LC_ALL, "C.UTF-8"); }},
         {"rounding", Point::instance, [] { std::fesetround(FE_UPWARD); }},
-        {"flush-to-zero", Point::instance, [] {
+        {"flush-to-zero", Point::instance,
+         [] {
 #ifdef __SSE2__
              ::_mm_setcsr(::_mm_getcsr() | 0x8040U);
 #endif
