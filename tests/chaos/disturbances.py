@@ -22,7 +22,6 @@ class Disturbance:
     disks: dict = dataclasses.field(default_factory=dict)      # folder -> bytes of a disk there, 0: read-only
     fills: list = dataclasses.field(default_factory=list)      # (share, folder): its disk is full from then on
     charges: int = 0                  # how many cases may have another status; -1: any number
-    may_kill: bool = False            # the program may die of a signal
     may_stop: bool = False            # or end without its results, with a sentence
     may_interrupt: bool = False       # or as by a signal (130)
     may_escape: bool = False          # a driver's process that left group and session may be left over
@@ -43,7 +42,7 @@ def to_parent(random):
                            signals=[(random.uniform(0, 1), "parent", signal.SIGSTOP), (pause, "continue", signal.SIGCONT)])
     chosen = [random.choice((*KILLING, *ENDING)) for _ in range(random.choice((1, 1, 2, 3)))]
     return Disturbance("signals to the parent", " ".join(one.name[3:] for one in chosen), may_interrupt=True,
-                       may_kill=any(one in KILLING for one in chosen), may_stop=True,
+                       may_stop=True,
                        signals=[(random.uniform(0, 1.1), "parent", one) for one in chosen])
 
 

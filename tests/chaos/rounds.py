@@ -183,7 +183,9 @@ def judge(place, work, base, base_code, on, end, said):
     if end.stopped:
         said.append(end.stopped)
     is_killed = end.code < 0
-    if is_killed and not on.may_kill and not end.stopped or not is_killed and end.code not in CODES:
+    # One that ends it, and comes before it looks at signals, kills it, too.
+    is_sent = any(target == "parent" and what == -end.code for _, target, what in on.signals)
+    if is_killed and not is_sent and not end.stopped or not is_killed and end.code not in CODES:
         said.append(f"it ended with {end.code}: {end.errors[-200:]}")
     left = place.left_over(2 if on.may_escape else 20)
     if len(left) > (place.acts() if on.may_escape else 0):
@@ -201,7 +203,7 @@ def judge(place, work, base, base_code, on, end, said):
     if not is_killed:
         said += [problem for problem in kept if not (on.draws_otherwise and (" instead of pass" in problem or "with other bits" in problem
                                                                               or "which is not there" in problem))]
-    if 0 <= on.charges < count and end.code != INTERRUPTED:
+    if 0 <= on.charges < count and end.code not in (INTERRUPTED, 7):
         said.append(f"{count} cases are not as undisturbed, after {on.charges} signals")
     if end.code in (2, 3, 4, 5, 7, INTERRUPTED) and not (end.errors + end.output).strip():
         said.append(f"it ended with {end.code} and without a word")

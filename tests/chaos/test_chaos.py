@@ -42,7 +42,7 @@ class Signals(Rounds):
     def test_the_parent_is_killed_and_interrupted(self):
         for name in ("suite", "hunt"):
             for what in (signal.SIGKILL, signal.SIGINT):
-                on = Disturbance("signals to the parent", what.name, signals=[(0.4, "parent", what)], may_kill=True, may_interrupt=True,
+                on = Disturbance("signals to the parent", what.name, signals=[(0.4, "parent", what)], may_interrupt=True,
                                  may_stop=True)
                 # One that was over before the signal came is equal.
                 self.perform(on, name, ("resumed", "equal", "named"))
@@ -118,6 +118,7 @@ class Checks(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.undisturbed = rounds.Undisturbed()
+        cls.undisturbed.of("reduce")
         cls.record = tempfile.mkdtemp(prefix="edgecase-chaos-")
         cls.addClassCleanup(shutil.rmtree, cls.record)
         for name in ("suite-reference", "hunt-reference"):
@@ -167,6 +168,11 @@ class Checks(unittest.TestCase):
         self.assertIn("of fuzz.json is not whole", self.problems(f"{self.RUN}rm $out/found/*; exit $code", workload="hunt-reference"))
         self.assertIn("which is not there", self.problems(f"{self.RUN}sed -i 's/\"symptom\": \"/&x/' $out/fuzz.json; exit $code",
                                                           workload="hunt-reference"))
+
+    def test_a_reduction(self):
+        self.assertIn("is another one, and no word", self.problems("echo '[ ]' > $EDGECASE_TEST_MARK/out/small.toml", workload="reduce"))
+        self.assertIn("small.toml is not whole", self.problems("echo '[ ' > $EDGECASE_TEST_MARK/out/small.toml", workload="reduce"))
+        self.assertIn("and without a file", self.problems("exit 0", workload="reduce"))
 
     def test_ends(self):
         for lines, told in ((self.RUN + "kill -9 $$", "it ended with -9"), (self.RUN + "exit 99", "it ended with 99"),
