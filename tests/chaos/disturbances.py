@@ -90,8 +90,10 @@ def of_the_clock(random):
 def of_frames(random, how=None):
     how = how or random.choice(("twice", "hello-twice", "short", "bit", "cut"))
     frame = random.randint(1, 12)
-    return Disturbance("frames", f"{how} {frame}", charges=0 if how == "short" else -1, may_stop=how != "short",
-                       env={"LD_PRELOAD": PRELOAD, "EDGECASE_CHAOS_FRAMES": how, "EDGECASE_CHAOS_FRAME": str(frame)})
+    starts = random.randint(1, 6)
+    return Disturbance("frames", f"{how} {frame} of {starts} workers", charges=0 if how == "short" else -1, may_stop=how != "short",
+                       env={"LD_PRELOAD": PRELOAD, "EDGECASE_CHAOS_FRAMES": how, "EDGECASE_CHAOS_FRAME": str(frame),
+                            "EDGECASE_CHAOS_STARTS": str(starts)})
 
 
 def behaviours():

@@ -7,8 +7,9 @@
 //   EDGECASE_CHAOS_FRAMES=HOW   of what a worker writes to its parent: `twice` (every frame),
 //                               `hello-twice` (the first), `short` (a few bytes a call), `bit`
 //                               (one bit of a frame is another), `cut` (the process ends half-way)
+//   EDGECASE_CHAOS_STARTS=N     only of the first N workers (EDGECASE_HOSTILE_FOLDER counts them)
 //   EDGECASE_CHAOS_FRAME=N      from which frame on (of `bit` and `cut`: which), else the second
-#include <dlfcn.h>
+#include <fcntl.h>
 #include <sys/syscall.h>
 #include <sys/time.h>
 #include <unistd.h>
@@ -44,6 +45,21 @@ ssize_t write_really(int fd, const void* bytes, size_t size) {
     return ::syscall(SYS_write, fd, bytes, size);
 }
 
+// Whether this worker is one of the first that are chosen.
+bool is_chosen() {
+    const char* starts = std::getenv("EDGECASE_CHAOS_STARTS");
+    const char* folder = std::getenv("EDGECASE_HOSTILE_FOLDER");
+    if (starts == nullptr || folder == nullptr) {
+        return true;
+    }
+    const std::string path = std::string(folder) + "/workers";
+    const int fd = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+    const bool is_counted = fd >= 0 && write_really(fd, ".", 1) == 1;
+    const off_t number = ::lseek(fd, 0, SEEK_END);
+    ::close(fd);
+    return is_counted && number <= std::strtol(starts, nullptr, 10);
+}
+
 // Which of its kinds this process does to its results; nullptr if it is no worker.
 const char* frames() {
     static const char* how = [] {
@@ -53,7 +69,7 @@ const char* frames() {
         // A parent may have a file of its own at this number; a worker has a pipe.
         const bool is_pipe = ::readlink("/proc/self/fd/4", target, sizeof target) > 4 &&
                              std::memcmp(target, "pipe", 4) == 0;
-        return words != nullptr && name != nullptr && is_pipe ? words : nullptr;
+        return words != nullptr && name != nullptr && is_pipe && is_chosen() ? words : nullptr;
     }();
     return how;
 }
