@@ -92,6 +92,25 @@ Stop why_nothing(const cases::Case& c, const CaseRecord& record, bool is_command
                                  c.id, report::to_string(record.status), why));
 }
 
+// Of a smaller case: nobody knows whether it fails as the first one did. (One that is an error is
+// no such case: nothing of it can be seen.)
+bool is_unsure(const CaseRecord& record) {
+    using enum report::Status;
+    return record.status == crash || record.status == timeout || record.status == device_lost ||
+           record.status == flake;
+}
+
+// What keeps the reduced case from being the smallest; empty if nothing is known to.
+std::string size_doubt(const CaseRecord& first, bool is_minimal, size_t unsure) {
+    const bool was_in_the_way = !is_unsure(first) && unsure > 0;
+    return is_minimal && !was_in_the_way
+               ? ""
+               : "; it may be larger than it has to be" +
+                     (was_in_the_way ? fmt::format(", since {} had no sure result",
+                                                   cases::counted(unsure, "case"))
+                                     : "");
+}
+
 // "2 draws, 14 triangles, 5 attributes, 64 x 64 with 4 samples".
 std::string size_text(const cases::Case& c) {
     const cases::Target& t = c.target;
@@ -126,6 +145,7 @@ int reduce_command(const Program& program, const ReduceOptions& options) {
     if (!drawer) {
         return report_stop(drawer.error());
     }
+    size_t unsure = 0;
     std::string failure;
     bool is_interrupted = false;
     const auto is_over = [&] { return is_interrupted || !failure.empty(); };
@@ -137,6 +157,8 @@ int reduce_command(const Program& program, const ReduceOptions& options) {
         run::Session::Results results = (*drawer)(cases);
         is_interrupted = results.interrupted;
         failure = results.failure;
+        unsure += static_cast<size_t>(
+            std::count_if(results.records.begin(), results.records.end(), is_unsure));
         return std::move(results.records);
     };
     cases::Case one = *loaded;
@@ -183,7 +205,7 @@ int reduce_command(const Program& program, const ReduceOptions& options) {
         std::fprintf(stderr, "%s\n",
                      fmt::format("from {} to {}, after drawing {}{}", size_text(*loaded),
                                  size_text(reduced->front()), cases::counted(drawn, "case"),
-                                 entry->is_minimal ? "" : "; it may be larger than it has to be")
+                                 size_doubt(record, entry->is_minimal, unsure))
                          .c_str());
     }
     return report::kExitOk;

@@ -279,6 +279,8 @@ class Nightly(CiTest):
         "tests": ["run-tests --all of 1/1"],
         "hunt": ["install-packages scripts/packages.txt", "build release edgecase",
                  "edgecase fuzz --time 20m --seed DAY -o out/hunt"],
+        "chaos": ["install-packages scripts/packages.txt scripts/packages-tests.txt",
+                  "build release --tests edgecase hostile_layer chaos_preload", "chaos.py --seed DAY --minutes 10"],
         "clang": ["install-packages scripts/packages.txt scripts/packages-tests.txt scripts/packages-fuzz.txt",
                   "build clang --tests",
                   f"ctest --test-dir build/clang -j {len(os.sched_getaffinity(0)) + 1} --no-tests=error --output-on-failure"],
@@ -295,7 +297,7 @@ class Nightly(CiTest):
         shutil.copy(SOURCE / ".ci/nightly", checkout / ".ci/nightly")
         for name in ("scripts/install-packages", "scripts/build", "scripts/fuzz", "scripts/run-tests",
                      "scripts/test-aarch64", "scripts/setup-drivers", "scripts/judge-webgpu", "path/ctest",
-                     "build/release/bin/edgecase"):
+                     "build/release/bin/edgecase", "tests/chaos/chaos.py"):
             path = checkout / name
             path.parent.mkdir(parents=True, exist_ok=True)
             shares = "SHARES=\"${EDGECASE_SUITE_SHARE:+ of $EDGECASE_SUITE_SHARE}\""
@@ -326,7 +328,7 @@ class Nightly(CiTest):
         for words in ((), ("door",)):
             done, log = self.part(*words)
             self.assertEqual((done[0].returncode, log), (2, []))
-            self.assertRegex(done[0].stderr, r"^\.ci/nightly: '.*' is no part; there are parsers, doors, tests, hunt, clang, aarch64 and webgpu\n$")
+            self.assertRegex(done[0].stderr, r"^\.ci/nightly: '.*' is no part; there are parsers, doors, tests, hunt, chaos, clang, aarch64 and webgpu\n$")
 
 if __name__ == "__main__":
     unittest.main()

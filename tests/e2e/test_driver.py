@@ -10,6 +10,8 @@ import subprocess
 import sys
 import unittest
 
+import jsonschema
+from captures_support import schema
 from support import CASE, PROGRAM, SOURCE, ProgramTest
 from shares import is_in_share  # support knows where
 
@@ -98,7 +100,9 @@ class Driver(ProgramTest):
                 "With several samples the scissor's left and upper border lie half a pixel too far out")
         done = self.run_driver("--no-expect", *families, check=1)
         self.assertEqual(re.findall(r"^diagnosis: (.*)$", done.stdout, re.M), list(told))
-        self.assertEqual([d["names"] for d in self.results()["diagnoses"]], [["one_over_w_cached"], ["scissor_half_early"]])
+        results = self.results()
+        self.assertEqual([d["names"] for d in results["diagnoses"]], [["one_over_w_cached"], ["scissor_half_early"]])
+        jsonschema.Draft7Validator(schema("results-1")).validate(results)
         for name in ("report.html", "results.json"):
             self.assertIn(told[0], (self.out / name).read_text())
         # The reports are made of the journal, and so is a diagnosis of a run that is over.

@@ -41,6 +41,13 @@ class Reduce(ProgramTest):
         self.assertTrue(done.stdout.startswith("# crash by SIGSEGV, reduced from fam/c3.\n"), done.stdout)
         self.assertEqual(done.stdout.count("[[draw]]"), 1)
 
+    def test_smaller_cases_that_die(self):
+        """Nobody knows whether they fail: the smallest that does may be none."""
+        done = self.reduce("fam/c3", "--renderer=reference", fault="flip-pixel@**,segv@1", check=0)
+        self.assertRegex(done.stderr, r"; it may be larger than it has to be, since \d+ cases? had no sure result\n\Z")
+        done = self.reduce("fam/c3", "--renderer=reference", fault="flip-pixel@**", check=0)
+        self.assertNotIn("since", done.stderr)
+
     def command(self, *words):
         """A command line that draws with the renderer of docs/examples."""
         return " ".join([sys.executable, str(SOURCE / "docs/examples/rasterize.py"), "%in", "%out", *words])
