@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "cases/base/counted.hpp"
+#include "cases/base/limits.hpp"
 #include "cases/base/output_file.hpp"
 #include "cases/base/printable.hpp"
 #include "cli/commands.hpp"
@@ -457,8 +458,11 @@ class FuzzCommand {
             }
             const fs::path file = folder_ / fmt::format("unjudged-{}.toml", told.size());
             const auto written = replace_text(file, text);
+            const bool is_limited = !cases::tight_limits().empty();
             complain("a case could not be judged: " + reason +
-                     (written ? "; it is kept as " + file.string() + ", please report it" : ""));
+                     (written ? "; it is kept as " + file.string() +
+                                    (is_limited ? "" : ", please report it")
+                              : ""));
         }
         if (fresh > 0 || !ledger_.waiting.empty()) {
             say(fmt::format("look at them: edgecase run {} --no-expect\n",

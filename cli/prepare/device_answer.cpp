@@ -103,7 +103,7 @@ const Stop kInterrupted{report::kExitInterrupted, {"interrupted before any case 
 
 OrStop<ReadyWorker> await_first_worker(run::WorkerClient client, const run::LoopConfig& config,
                                        run::SignalFd& signals) {
-    constexpr size_t kMostAlike = 3;
+    constexpr size_t kMostAlike = 3, kMostTimeouts = 2;  // each of which takes the time limit
     std::optional<run::WorkerClient> worker(std::move(client));
     run::StartPauses pauses;
     std::string last;
@@ -123,7 +123,7 @@ OrStop<ReadyWorker> await_first_worker(run::WorkerClient client, const run::Loop
         alike = how == last ? alike + 1 : 1;
         last = how;
         pauses.failed();
-        if (death.timed_out || alike >= kMostAlike || pauses.is_over()) {
+        if (alike >= (death.timed_out ? kMostTimeouts : kMostAlike) || pauses.is_over()) {
             return tl::unexpected(explain_death(death));
         }
         complain(how + "; it is started again");

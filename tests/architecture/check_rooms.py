@@ -191,11 +191,31 @@ def second_lists(root, table):
                     break
 
 
+# What only its home does, since limits, links and hostile names are met there: what, words of code, homes.
+HOMES = (
+    ("starts a thread", re.compile(r"std::(thread\(|async\(|jthread)|\bpthread_create\b"), {"cases/base/parallel.hpp"}),
+    ("makes a file", re.compile(r"std::ofstream\b|\bO_CREAT\b|\bO_TMPFILE\b|\bfopen\((?!\"/dev/null)"),
+     {"cases/base/output_file.cpp", "report/journal/journal.cpp", "cli/prepare/ci.cpp", "cli/bench.cpp", "shaders/compile.cpp"}),
+    ("starts a shell", re.compile(r"std::system\(|\bpopen\(|\"/bin/sh\""), {"cli/fuzzing/captures_command.cpp"}),
+)
+
+
+def homeless(root, table):
+    for room in sorted(table.rooms):
+        for path in sources(root, room):
+            name = str(path.relative_to(root))
+            for number, line in enumerate(code_of(path), 1):
+                for what, words, homes in HOMES:
+                    if name not in homes and path.suffix in (".cpp", ".hpp") and words.search(line.split("//")[0]):
+                        yield f"{name}:{number}: error: this {what}, which is done in {', '.join(sorted(homes))} alone"
+
+
 def problems(root: pathlib.Path, commands=None):
     table = Table(root)
     yield from folder_problems(root, table)
     yield from include_problems(root, table)
     yield from second_lists(root, table)
+    yield from homeless(root, table)
     if commands:
         yield from library_problems(commands, root)
 
@@ -251,6 +271,18 @@ PLANTED = {
             + "}\n",
         ),
         ["lists the fields of Draw a second time"],
+    ),
+    "a thread beside the others": (
+        lambda root: plant(root, "run/judge.cpp", "void f() { std::thread([] {}).detach(); }\n"),
+        ["this starts a thread, which is done in cases/base/parallel.hpp alone"],
+    ),
+    "a file that is written by itself": (
+        lambda root: plant(root, "fuzz/ledger.cpp", "std::ofstream file;\n"),
+        ["this makes a file, which is done in"],
+    ),
+    "a shell": (
+        lambda root: plant(root, "cli/reduce.cpp", 'int f() { return std::system("ls"); }\n'),
+        ["this starts a shell, which is done in cli/fuzzing/captures_command.cpp alone"],
     ),
     "a folder that two rows claim": (
         lambda root: plant(root, "docs/design.md", "| `diff/` | twice | `verdict.hpp` | `ref` |\n"),
