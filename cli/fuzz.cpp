@@ -111,6 +111,8 @@ class FuzzCommand {
         }
         run::Session session(config, std::move(first->client), first->device, signals);
         // From here on the hunt can go on, whatever ends it.
+        run::SignalFd::set_last_words(cases::printable(
+            "interrupted; go on with 'edgecase fuzz --resume " + folder_.string() + "'"));
         if (auto kept = keep_earlier(); !kept) {
             return report_stop(stop_with(report::kExitInternal, kept.error().message));
         }
@@ -470,6 +472,7 @@ class FuzzCommand {
         }
         if (state == Hunt::State::interrupted) {
             say("interrupted; go on with 'edgecase fuzz --resume " + folder_.string() + "'\n");
+            std::fflush(stdout);  // while threads end that make cases
             return report::kExitInterrupted;
         }
         if (state == Hunt::State::failed) {

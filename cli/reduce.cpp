@@ -148,7 +148,10 @@ int reduce_command(const Program& program, const ReduceOptions& options) {
     size_t unsure = 0;
     std::string failure;
     bool is_interrupted = false;
-    const auto is_over = [&] { return is_interrupted || !failure.empty(); };
+    const auto is_over = [&] {
+        is_interrupted = is_interrupted || signals.has_come();
+        return is_interrupted || !failure.empty();
+    };
     const fuzz::Draw draw = [&](const std::vector<cases::Case>& cases) {
         if (is_over()) {
             return std::vector<CaseRecord>(cases.size());

@@ -133,7 +133,9 @@ int report_command(const Program& program, const ReportOptions& options) {
     }
     const report::Run& run = source->run;
     const ReportFiles files{source->folder, options.json, options.junit, options.html};
-    cases::Errors errors = write_reports(run, files);
+    Progress progress(options.quiet ? ProgressStyle::none : ProgressStyle::automatic, 0);
+    cases::Errors errors = write_reports(run, files, progress);
+    progress.clear();
     std::FILE* console = console_beside(options.json, options.junit, options.html);
     report::ConsoleStyle style = console_style(console, options.color, options.verbose);
     style.folder =

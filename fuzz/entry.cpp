@@ -231,12 +231,13 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
     // A reduced case is as sound as the one that was drawn.
     const std::optional<cases::Profile> sound_at = loosest_sound(*original);
     std::set<std::string> unsupported;  // texts that the device cannot draw
+    const auto is_at_end = [&] { return is_over && is_over(); };
     const Shows shown = [&](const std::vector<std::string>& texts) {
         std::vector<bool> out(texts.size(), false);
         const auto [cases, of] = load_all(texts);
         const std::vector<CaseRecord> records =
             cases.empty() ? std::vector<CaseRecord>() : draw(cases);
-        for (size_t k = 0; k < of.size(); ++k) {
+        for (size_t k = 0; k < of.size() && !is_at_end(); ++k) {
             if (records[k].status == Status::unsupported) {
                 unsupported.insert(texts[of[k]]);
             }
@@ -251,7 +252,12 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
     options.most_rounds = most_rounds;
     options.is_over = is_over;
     const Reduced reduced = reduce(*document, shown, options);
-    const bool is_cut = is_over && is_over();
+    if (is_at_end()) {
+        Entry cut;
+        cut.symptom = symptom;
+        cut.text = to_text(reduced.document);
+        return cut;
+    }
     // Once more, for what it shows is told.
     const std::optional<cases::Case> smallest = load_one(to_text(reduced.document), "reduced");
     const CaseRecord last = smallest ? draw({*smallest}).front() : CaseRecord();
@@ -259,8 +265,8 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
     entry.symptom = symptom;
     // What the reducer brought in, as a constant for values, is no need of the cause.
     const std::set<std::string> before = essentials_of(text);
-    const std::set<std::string> after = essentials_of(to_text(
-        is_cut ? reduced.document : like_failure(reduced.document, symptom, draw, options)));
+    const std::set<std::string> after =
+        essentials_of(to_text(like_failure(reduced.document, symptom, draw, options)));
     std::set_intersection(after.begin(), after.end(), before.begin(), before.end(),
                           std::inserter(entry.essentials, entry.essentials.end()));
     entry.text = to_text(described(reduced.document, symptom));
@@ -278,9 +284,7 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
             entry.needs.push_back(reduced.needs[k]);
         }
     }
-    if (!is_cut) {
-        entry.passes = passing(reduced.document, draw);
-    }
+    entry.passes = passing(reduced.document, draw);
     entry.is_minimal = reduced.is_minimal;
     entry.count = 1;
     entry.also.insert({symptom.kind, symptom.rule});

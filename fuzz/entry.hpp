@@ -48,7 +48,8 @@ struct Entry {
 using Draw = std::function<std::vector<report::CaseRecord>(const std::vector<cases::Case>&)>;
 
 // Makes a case file of one leaf as small as it can be while it shows a symptom. Nothing if it does
-// not show it, or is no case. After a drawing of which `is_over` is true it ends with what it has.
+// not show it, or is no case. Where `is_over` is true, from some time on, it ends with a case that
+// shows the symptom, and says nothing else of it.
 std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom, const Draw& draw,
                                  size_t most_rounds, const std::function<bool()>& is_over = {});
 

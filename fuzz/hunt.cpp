@@ -164,6 +164,9 @@ Hunt::Chunk Hunt::make_chunk() {
         numbers += size;
         for (uint64_t k = std::max(begin, options_.first_case); k < std::min(next_case_, end);
              ++k) {
+            if (options_.is_interrupted()) {
+                return chunk;  // which nobody draws
+            }
             Source::Made made = source_->make(k);
             chunk.refused += made.refused;
             if (made.data) {
@@ -201,6 +204,10 @@ Hunt::State Hunt::step() {
             ahead_ = cases::beside([this] { return make_chunk(); });
         }
         Chunk chunk = ahead_.get();
+        if (options_.is_interrupted()) {
+            is_interrupted_ = true;
+            return State::interrupted;
+        }
         if (chunk.made.empty() && options_.most_cases != 0 &&
             chunk.next_case >= options_.most_cases) {
             if (open_.empty()) {
@@ -366,7 +373,10 @@ void Hunt::reduce_one(Open& open) {
     const Symptom symptom = open.waiting.symptoms.front();
     ++counts_.reductions;
     bool is_cut = false;  // by the end of the time: it waits for another hunt
-    const auto is_at_end = [&] { return is_cut || is_interrupted_ || !failure_.empty(); };
+    const auto is_at_end = [&] {
+        is_interrupted_ = is_interrupted_ || options_.is_interrupted();
+        return is_cut || is_interrupted_ || !failure_.empty();
+    };
     std::optional<Entry> fresh = reduce_case(
         open.text, symptom,
         [&](const std::vector<cases::Case>& cases) {

@@ -30,6 +30,7 @@ struct HuntOptions {
     std::vector<uint64_t> left;  // numbers below first_case that are drawn first
     std::optional<Clock::time_point> deadline;
     std::function<Clock::time_point()> now = Clock::now;
+    std::function<bool()> is_interrupted = run::SignalFd::has_come;
     uint32_t shard = 1, shards = 1;      // groups of numbers are dealt out in turn
     size_t most_rounds = 400;            // of one reduction: batches of candidates
     std::set<cases::Door> broken_doors;  // cases through them are counted, not drawn

@@ -26,8 +26,8 @@ OrStop<fs::path> open_hunt_folder(const fs::path& path) {
             continue;  // made when it is needed
         }
         if (auto made = cases::make_folders(path, path / name / "file"); !made) {
-            return tl::unexpected(stop_with(
-                report::kExitUsage, made.error().message + "; choose another with -o"));
+            return tl::unexpected(
+                stop_with(report::kExitUsage, made.error().message + "; choose another with -o"));
         }
     }
     const int fd = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);

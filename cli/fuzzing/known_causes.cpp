@@ -63,7 +63,10 @@ class Reducer {
         }
         return std::move(results.records);
     }
-    bool is_over() const { return out_.is_interrupted || !out_.failure.empty(); }
+    bool is_over() const {
+        out_.is_interrupted = out_.is_interrupted || run::SignalFd::has_come();
+        return out_.is_interrupted || !out_.failure.empty();
+    }
 
     std::optional<Entry> reduce(const Open& open, const Symptom& symptom) {
         return fuzz::reduce_case(

@@ -70,13 +70,15 @@ std::string part_file(const std::string& file, size_t part) {
         .string();
 }
 
-void write_pages(const report::Run& run, const ReportFiles& files, cases::Errors& errors) {
+void write_pages(const report::Run& run, const ReportFiles& files, Progress& progress,
+                 cases::Errors& errors) {
     if (files.folder.empty() && files.html.empty()) {
         return;
     }
     const std::string in_folder =
         files.folder.empty() ? std::string() : (files.folder / "report.html").string();
     report::for_each_page(run, [&](size_t part, const std::string& page) {
+        progress.show_words(fmt::format("writing part {} of the page", part));
         for (const std::string& first : {in_folder, files.html}) {
             if (first.empty() || (part > 1 && first == "-")) {
                 continue;
@@ -93,7 +95,7 @@ void write_pages(const report::Run& run, const ReportFiles& files, cases::Errors
 
 }  // namespace
 
-cases::Errors write_reports(const report::Run& run, const ReportFiles& files) {
+cases::Errors write_reports(const report::Run& run, const ReportFiles& files, Progress& progress) {
     cases::Errors errors;
     const auto write = [&](const std::string& in_folder, const std::string& extra,
                            std::string (*make)(const report::Run&)) {
@@ -115,7 +117,7 @@ cases::Errors write_reports(const report::Run& run, const ReportFiles& files) {
         }
     };
     cases::Errors of_pages;
-    const auto tell_pages = [&] { write_pages(run, files, of_pages); };
+    const auto tell_pages = [&] { write_pages(run, files, progress, of_pages); };
     const bool is_beside = files.html != "-";  // on standard output one comes after the other
     std::future<void> pages = is_beside ? cases::beside(tell_pages) : std::future<void>();
     write("results.json", files.json, report::to_json);
@@ -212,7 +214,9 @@ int conclude(const std::filesystem::path& folder, const RunOptions& options, Ci 
         cases::give_back_memory();
     }
     const ReportFiles files{folder, options.json, options.junit, options.html};
-    cases::Errors errors = write_reports(*run, files);
+    Progress progress(options.quiet ? ProgressStyle::none : options.progress, 0);
+    cases::Errors errors = write_reports(*run, files, progress);
+    progress.clear();
     const cases::Errors of_ci = write_ci(*run, ci, folder, console);
     errors.insert(errors.end(), of_ci.begin(), of_ci.end());
     const bool failed = !errors.empty() || !ending.failure.empty();

@@ -34,8 +34,10 @@ cases::Expected<void> write_pieces(const std::string& file, const cases::Tell& t
 // The same of a file in a folder of ours: where a link has its name, the file takes its place.
 cases::Expected<void> replace_text(const std::filesystem::path& file, const std::string& text);
 
-// Writes all reports of a run and returns what could not be written.
-cases::Errors write_reports(const report::Run& run, const ReportFiles& files);
+// Writes all reports of a run and returns what could not be written. Progress tells what is being
+// written, where that takes long.
+class Progress;
+cases::Errors write_reports(const report::Run& run, const ReportFiles& files, Progress& progress);
 // Takes away what write_reports() and write_ci() wrote of an earlier run, so that a run that ends
 // before it reports leaves nothing that looks like its result.
 void remove_reports(const ReportFiles& files);

@@ -147,7 +147,8 @@ class Reducer {
     }
 
   private:
-    bool is_spent() const { return is_over_ || out_.rounds >= options_.most_rounds; }
+    bool is_over() const { return options_.is_over && options_.is_over(); }
+    bool is_spent() const { return out_.rounds >= options_.most_rounds || is_over(); }
 
     // Whether it has been asked about, and does not show the finding.
     bool is_refused(const std::string& text) const {
@@ -172,8 +173,7 @@ class Reducer {
         if (answers.size() != open.size()) {
             throw std::logic_error("the reducer needs one answer a text");
         }
-        is_over_ = options_.is_over && options_.is_over();
-        if (is_over_) {
+        if (is_over()) {
             for (const std::string& text : open) {
                 answers_.erase(key_of(text));
             }
@@ -289,7 +289,6 @@ class Reducer {
     const Shows& shows_;
     ReduceOptions options_;
     std::map<Key, bool> answers_;
-    bool is_over_ = false;
     Reduced out_;
 };
 

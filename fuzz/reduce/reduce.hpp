@@ -33,7 +33,8 @@ using Shows = std::function<std::vector<bool>(const std::vector<std::string>& te
 struct ReduceOptions {
     size_t batch = 64;          // texts that are asked about at once, at least 1
     size_t most_rounds = 2000;  // calls of Shows
-    // Asked after each call: true ends the reduction, and the answers of that call do not count.
+    // True, from some time on, ends the reduction; the answers of a call that it ended do not
+    // count.
     std::function<bool()> is_over = {};
 };
 

@@ -95,6 +95,7 @@ bool make_pipe(Pipe& pipe) {
 // The groups of children that live, for the handler of a signal. A child more than there are places
 // dies with this process, too, but not what it has started.
 std::array<std::atomic<pid_t>, 64> groups{};
+std::atomic<int> debuggers = 0;
 
 void exchange_group(pid_t from, pid_t to) {
     for (std::atomic<pid_t>& group : groups) {
@@ -183,6 +184,7 @@ cases::Expected<ChildProcess> spawn(const Command& command, int shared) {
         ::setpgid(pid, pid);  // in both, so that neither has to wait for the other
         exchange_group(0, pid);
     }
+    debuggers += pid > 0 && command.keeps_terminal ? 1 : 0;
     ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
     if (pid < 0) {
         return cases::failure("a worker could not be started: " + cases::process_limit(error));
@@ -205,6 +207,10 @@ bool has_ended(const ChildProcess& child) {
     siginfo_t info{};
     return ::waitid(P_PID, static_cast<id_t>(child.pid), &info, WEXITED | WNOHANG | WNOWAIT) != 0 ||
            info.si_pid == child.pid;
+}
+
+bool has_debugger() {
+    return debuggers > 0;
 }
 
 void kill_all_children() {
@@ -233,6 +239,7 @@ ExitStatus kill_and_reap(ChildProcess& child, int grace_ms) {
     int status = 0;
     while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
     }
+    debuggers -= child.keeps_terminal ? 1 : 0;
     if (WIFSIGNALED(status)) {
         return {true, WTERMSIG(status)};
     }

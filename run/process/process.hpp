@@ -81,6 +81,9 @@ cases::Expected<ChildProcess> spawn(const Command& command, int shared = -1);
 // Whether the child itself has ended, whatever it has started and whoever holds its pipes.
 bool has_ended(const ChildProcess& child);
 
+// Whether a child that keeps the terminal lives: ctrl-c is a word to the debugger then.
+bool has_debugger();
+
 // Kills the process groups of all children of this process, and reaps none: for the handler of a
 // signal, which ends the process.
 void kill_all_children();

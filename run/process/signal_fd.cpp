@@ -51,9 +51,11 @@ void on_signal(int signal) {
     int none = 0;
     if (came.compare_exchange_strong(none, signal)) {
         came_ms = now_ms();
-        ::alarm(kSecondsToEnd);
+        if (!has_debugger()) {
+            ::alarm(kSecondsToEnd);
+        }
         ::eventfd_write(told_fd, 1);
-    } else if (now_ms() - came_ms > kSameWishMs) {
+    } else if (now_ms() - came_ms > kSameWishMs && !has_debugger()) {
         end_at_once(signal);
     }
     errno = error;

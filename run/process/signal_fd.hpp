@@ -13,7 +13,8 @@ namespace run {
 // While one lives, a signal asks for an end: its descriptor becomes and stays readable, and
 // whoever waits for something else waits for it, too. What has not ended the process a second
 // later, whatever it does, is ended with exit code 130, and so is what gets another signal. Nothing
-// but the handlers is needed for that, no thread that a limit may refuse. SIGHUP that is ignored
+// but the handlers is needed for that, no thread that a limit may refuse. A person who works with a
+// debugger is waited for. SIGHUP that is ignored
 // (nohup) stays ignored.
 class SignalFd {
   public:

@@ -65,7 +65,12 @@ WorkerClient::~WorkerClient() {
 
 void WorkerClient::kill() {
     if (state_ != State::dead && child_.request.is_open()) {
-        kill_and_reap(child_, 0);
+        if (SignalFd::has_come() &&
+            !child_.keeps_terminal) {  // it takes the system a while to free what it holds
+            kill_all_children();
+        } else {
+            kill_and_reap(child_, 0);
+        }
     }
     state_ = State::dead;
 }

@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """As much of JSON Schema as docs/schema uses, so that a night needs no package for it."""
 import json
+import re
 
 TYPES = {"object": dict, "array": list, "string": str, "boolean": bool, "null": type(None), "integer": int,
          "number": (int, float)}
 KNOWN = {"$schema", "$ref", "title", "description", "definitions", "type", "enum", "const", "anyOf", "required",
-         "properties", "additionalProperties", "items", "minimum", "minItems", "maxItems", "minLength"}
+         "properties", "additionalProperties", "items", "minimum", "minItems", "maxItems", "minLength", "pattern"}
 
 
 def problems(value, schema, root=None, at=""):
@@ -29,6 +30,8 @@ def problems(value, schema, root=None, at=""):
         said.append(f"{at}: {value} is too small")
     if isinstance(value, str) and len(value) < schema.get("minLength", 0):
         said.append(f"{at}: it is too short")
+    if isinstance(value, str) and not re.search(schema.get("pattern", ""), value):
+        said.append(f"{at}: '{value}' is not of the form {schema['pattern']}")
     if isinstance(value, dict):
         said += [f"{at}: {name} is missing" for name in schema.get("required", []) if name not in value]
         members = schema.get("properties", {})

@@ -2,9 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """A broken driver harms only the case that breaks it."""
 import json
+import os
 import re
 import shutil
+import signal
 import subprocess
+import time
 import unittest
 import xml.etree.ElementTree
 
@@ -325,6 +328,25 @@ class Debugger(ProgramTest):
         self.assertRegex(done.stdout, r"      debug: \S+ run fam/c3 --renderer reference --debugger gdb\n")
         done = self.run_suite("fam/c3", "--debugger", "env A=1", fault="segv@fam/c3", check=1)
         self.assertEqual(self.statuses()["fam/c3"], "crash")
+
+    def test_an_interruption_is_the_debuggers(self):
+        """Whoever works with it may take his time: the terminal's ctrl-c reaches both, and ends neither."""
+        ready, go = self.folder / "ready", self.folder / "go"
+        script = self.folder / "debugger"
+        script.write_text(f"#!/bin/sh\ntrap 'echo broken in' INT\ntouch {ready}\nwhile [ ! -e {go} ]; do sleep 0.05; done\necho goes on\n")
+        script.chmod(0o755)
+        process = subprocess.Popen([PROGRAM, "run", "--renderer=reference", "-o", self.out, "fam/c3", "--debugger", f"{script} -x"],
+                                   env=self.environment(), cwd=self.folder, stdout=subprocess.PIPE, start_new_session=True)
+        while not ready.exists():
+            time.sleep(0.01)
+        os.killpg(process.pid, signal.SIGINT)
+        time.sleep(2)  # a command without a debugger has ended by then
+        os.killpg(process.pid, signal.SIGINT)
+        time.sleep(0.2)
+        go.touch()
+        output, _ = process.communicate(timeout=60)
+        self.assertIn(b"goes on", output)
+        self.assertEqual(process.returncode, 130, output)
 
     def test_wrong_words(self):
         done = self.run_suite("--debugger", "gdb", check=2)
