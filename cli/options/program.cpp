@@ -91,7 +91,9 @@ cases::Expected<run::Command> debugged_worker_command(const Program& program,
 std::string shell_quote(const std::string& word) {
     constexpr const char* kHarmless =
         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./:=,+@%^";
-    if (!word.empty() && word.find_first_not_of(kHarmless) == std::string::npos) {
+    // zsh takes "=ls" for the path of ls.
+    if (!word.empty() && word.front() != '=' &&
+        word.find_first_not_of(kHarmless) == std::string::npos) {
         return word;
     }
     std::string quoted = "'";

@@ -55,9 +55,16 @@ cases::Expected<void> write_text(const std::string& file, const std::string& tex
     return write_pieces(file, [&text](const cases::Put& put) { put(text); });
 }
 
+namespace {
+
+cases::Expected<void> replace_pieces(const std::filesystem::path& file, const cases::Tell& tell) {
+    return told_of(file.string(), cases::write_file(file, cases::Link::replaced, tell));
+}
+
+}  // namespace
+
 cases::Expected<void> replace_text(const std::filesystem::path& file, const std::string& text) {
-    return told_of(file.string(), cases::write_file(file, cases::Link::replaced,
-                                                    [&text](const auto& put) { put(text); }));
+    return replace_pieces(file, [&text](const cases::Put& put) { put(text); });
 }
 
 namespace {
@@ -98,30 +105,26 @@ void write_pages(const report::Run& run, const ReportFiles& files, Progress& pro
 cases::Errors write_reports(const report::Run& run, const ReportFiles& files, Progress& progress) {
     cases::Errors errors;
     const auto write = [&](const std::string& in_folder, const std::string& extra,
-                           std::string (*make)(const report::Run&)) {
-        const bool has_folder = !files.folder.empty();
-        if (!has_folder && extra.empty()) {
-            return;
-        }
-        const std::string text = make(run);
+                           const cases::Tell& tell) {
         const auto check = [&](const cases::Expected<void>& written) {
             if (!written) {
                 errors.push_back(written.error());
             }
         };
-        if (has_folder) {
-            check(replace_text(files.folder / in_folder, text));
+        if (!files.folder.empty()) {
+            check(replace_pieces(files.folder / in_folder, tell));
         }
         if (!extra.empty()) {
-            check(write_text(extra, text));
+            check(write_pieces(extra, tell));
         }
     };
     cases::Errors of_pages;
     const auto tell_pages = [&] { write_pages(run, files, progress, of_pages); };
     const bool is_beside = files.html != "-";  // on standard output one comes after the other
     std::future<void> pages = is_beside ? cases::beside(tell_pages) : std::future<void>();
-    write("results.json", files.json, report::to_json);
-    write("junit.xml", files.junit, report::to_junit);
+    write("results.json", files.json,
+          [&run](const cases::Put& put) { report::tell_json(run, put); });
+    write("junit.xml", files.junit, [&run](const cases::Put& put) { put(report::to_junit(run)); });
     is_beside ? pages.get() : tell_pages();
     errors.insert(errors.end(), of_pages.begin(), of_pages.end());
     return errors;

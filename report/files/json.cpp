@@ -234,30 +234,32 @@ Json causes_json(const Run& run) {
 
 // The text whose last value is the empty list of cases, with the cases. One after the other: what
 // they are as values of the library takes ten times the memory of the text.
-std::string with_cases(std::string text, const Run& run) {
+void put_with_cases(std::string_view text, const Run& run, const cases::Put& put) {
     constexpr std::string_view kEmpty = "[]\n}", kIndent = "\n  ";
     if (run.cases.empty()) {
-        return text;
+        put(text);
+        return;
     }
-    text.resize(text.size() - kEmpty.size());
-    text += '[';
+    put(text.substr(0, text.size() - kEmpty.size()));
+    std::string piece = "[";
     for (const CaseRecord& record : run.cases) {
-        text += &record == &run.cases.front() ? kIndent : ",\n  ";
+        piece += &record == &run.cases.front() ? kIndent : ",\n  ";
         for (const char c : case_json(record, run.profile).dump(1)) {
             if (c == '\n') {  // between values: within texts it is escaped
-                text += kIndent;
+                piece += kIndent;
             } else {
-                text += c;
+                piece += c;
             }
         }
+        put(piece);
+        piece.clear();
     }
-    text += "\n ]\n}";
-    return text;
+    put("\n ]\n}");
 }
 
 }  // namespace
 
-std::string to_json(const Run& run) {
+void tell_json(const Run& run, const cases::Put& put) {
     Json total = encode_totals(run);
     total["cases"] = run.cases.size();
     Device device = run.device;
@@ -280,7 +282,14 @@ std::string to_json(const Run& run) {
         {"causes", causes_json(run)},
         {"cases", Json::array()},
     };
-    return with_cases(json.dump(1), run) + '\n';
+    put_with_cases(json.dump(1), run, put);
+    put("\n");
+}
+
+std::string to_json(const Run& run) {
+    std::string text;
+    tell_json(run, [&text](std::string_view piece) { text += piece; });
+    return text;
 }
 
 }  // namespace report

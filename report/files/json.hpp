@@ -6,11 +6,14 @@
 
 #include <string>
 
+#include "cases/base/output_file.hpp"
 #include "report/record/run.hpp"
 
 namespace report {
 
-// results.json, schema docs/schema/results-1.json. Floats never appear as NaN or infinity.
+// results.json, schema docs/schema/results-1.json, piece after piece, since it may be long. Floats
+// never appear as NaN or infinity.
+void tell_json(const Run& run, const cases::Put& put);
 std::string to_json(const Run& run);
 
 }  // namespace report

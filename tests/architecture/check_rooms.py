@@ -272,17 +272,11 @@ PLANTED = {
         ),
         ["lists the fields of Draw a second time"],
     ),
-    "a thread beside the others": (
-        lambda root: plant(root, "run/judge.cpp", "void f() { std::thread([] {}).detach(); }\n"),
-        ["this starts a thread, which is done in cases/base/parallel.hpp alone"],
-    ),
-    "a file that is written by itself": (
-        lambda root: plant(root, "fuzz/ledger.cpp", "std::ofstream file;\n"),
-        ["this makes a file, which is done in"],
-    ),
-    "a shell": (
-        lambda root: plant(root, "cli/reduce.cpp", 'int f() { return std::system("ls"); }\n'),
-        ["this starts a shell, which is done in cli/fuzzing/captures_command.cpp alone"],
+    "a thread, a file and a shell beside the others": (
+        lambda root: plant(root, "run/judge.cpp", "void f() { std::thread([] {}).detach(); }\nstd::ofstream file;\n"
+                                                  'int g() { return std::system("ls"); }\n'),
+        ["this starts a thread, which is done in cases/base/parallel.hpp alone", "this makes a file, which is done in",
+         "this starts a shell, which is done in cli/fuzzing/captures_command.cpp alone"],
     ),
     "a folder that two rows claim": (
         lambda root: plant(root, "docs/design.md", "| `diff/` | twice | `verdict.hpp` | `ref` |\n"),

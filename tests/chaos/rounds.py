@@ -235,10 +235,11 @@ def resume(place, work, base, on, said):
     has_begun = any(entry.stat().st_size > 0 for entry in place.out.glob("*/*") if entry.name in ("journal.jsonl", "fuzz.json"))
     if end.code == 3 and end.errors.strip() and (not has_begun or on.kind in ("limits", "disks")):
         return "named", end.code  # there is nothing to go on with
-    if work.is_equal(base, now):
+    if work.is_alike(base, now):
         return "resumed", end.code
     kept = []
     count = work.differences(base, now, end, kept)
     if now is None or kept or count > on.charges >= 0 or on.kind == "disks" or end.code not in (0, 1):
-        said.append(f"--resume ends with {end.code} and other results: {(kept + [end.errors.strip()[-200:]])[:3]}")
+        words = work.words_of(base, now) if now and hasattr(work, "words_of") else []
+        said.append(f"--resume ends with {end.code} and other results: {(kept + words + [end.errors.strip()[-200:]])[:4]}")
     return "named", end.code

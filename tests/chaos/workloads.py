@@ -3,11 +3,15 @@
 """What is disturbed: runs of a suite, hunts and reductions. Each tells how its outcome may differ from the undisturbed
 one: not at all, or in what it names."""
 import json
+import os
+import pathlib
 import re
+import subprocess
+import tempfile
 import xml.etree.ElementTree
 
 import schema
-from place import SOURCE
+from place import PROGRAM, SOURCE
 
 # Some 150 leaves; without expectation files some fail on lavapipe 22.3.
 SELECTORS = ["ties/**", "coverage/**", "depth-bias/clipped-exponent", "scissor/far-end", "stencil/faces*", "multisample/clipped",
@@ -28,6 +32,19 @@ def load(path, name, said):
     shape = json.loads((SOURCE / "docs" / "schema" / f"{name}.json").read_text(encoding="utf-8"))
     said += [f"{path.name}{problem}" for problem in schema.problems(value, shape)[:3]]
     return value
+
+
+def is_shown(text, symptom, words, env):
+    """Whether a case that a hunt has kept shows its symptom where nothing is disturbed."""
+    kind, _, rule = symptom.split(" [")[0].partition(" of ")
+    with tempfile.TemporaryDirectory() as folder:
+        file, out = pathlib.Path(folder, "found.toml"), pathlib.Path(folder, "out")
+        file.write_text(text, encoding="utf-8")
+        subprocess.run([PROGRAM, "run", file, "--no-expect", "--no-diagnosis", "-q", *words, "-o", out], env=os.environ | env,
+                       capture_output=True, timeout=120, check=False)
+        results = out / "results.json"
+        cases = json.loads(results.read_text(encoding="utf-8"))["cases"] if results.exists() else []
+        return any((f["kind"], f["rule"]) == (kind, rule) for case in cases for f in case["findings"])
 
 
 class Suite:
@@ -84,6 +101,9 @@ class Suite:
                 said.append(f"{name} is {case['status']} without a reason")
         return count
 
+    def is_alike(self, base, now):
+        return self.is_equal(base, now)
+
     def is_equal(self, base, now):
         return now is not None and all(now["cases"].get(name, {}).get(key) == case[key]
                                        for name, case in base["cases"].items() for key in self.KEYS)
@@ -123,17 +143,29 @@ class Hunt:
     def differences(self, base, now, end, said):
         if now is None:
             return 0
-        # A cause of a hunt that deaths disturbed is reduced along another way; its symptom is one that there is.
+        # A cause of a hunt that deaths disturbed is reduced along another way; its symptom is one that there is, or that
+        # the kept case shows without any disturbance.
         symptoms = {symptom for symptom, _ in base["causes"]}
-        others = [symptom for symptom, _ in now["causes"] if symptom not in symptoms]
-        said += [f"the hunt found '{symptom}', which is not there" for symptom in others
-                 if not symptom.startswith(("crash", "timeout", "device lost", "error", "flake"))]
+        others = [(symptom, text) for (symptom, _), text in now["causes"].items() if symptom not in symptoms]
+        said += [f"the hunt found '{symptom}', which is not there" for symptom, text in others
+                 if not symptom.startswith(("crash", "timeout", "device lost", "error", "flake"))
+                 and not is_shown(text, symptom, self.renderer, self.env)]
         if end.code == 0 and base["causes"]:
             said.append("the hunt ended with 0, and the undisturbed one found causes")
         return 0 if now["causes"] == base["causes"] and now["done"] == base["done"] else 1
 
+    def words_of(self, base, now):
+        """What of two hunts differs, for whoever reads the line of a wrong round."""
+        texts = [f"{symptom} needs {needs}" for symptom, needs in set(base["causes"]) ^ set(now["causes"])]
+        texts += [f"another text of {key[0]}" for key in set(base["causes"]) & set(now["causes"]) if base["causes"][key] != now["causes"][key]]
+        return texts + [f"{key} is {now['done'][key]} instead of {value}" for key, value in base["done"].items() if now["done"][key] != value]
+
     def is_equal(self, base, now):
         return now is not None and now["causes"] == base["causes"] and now["done"] == base["done"]
+
+    def is_alike(self, base, now):
+        """Of a hunt that goes on: its causes were met in another order, so another case of each may have been reduced."""
+        return now is not None and set(now["causes"]) == set(base["causes"]) and now["done"] == base["done"]
 
 
 class Reduction:
@@ -157,7 +189,8 @@ class Reduction:
     def differences(self, base, now, end, said):
         if now is None and end.code == 0:
             said.append("the reduction ended with 0 and without a file")
-        if now not in (None, base) and not re.search("crash|timeout|device lost|flake|had no sure result", now + end.errors):
+        reasons = "crash|timeout|device lost|flake|had no sure result|interrupted; what it had come to is written"
+        if now not in (None, base) and not re.search(reasons, now + end.errors):
             said.append(f"the reduction is another one, and no word says why: {end.errors.strip()[-200:]}")
         return 0 if now in (None, base) else 1
 
