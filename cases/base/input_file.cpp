@@ -12,6 +12,8 @@
 #include <cstring>
 #include <memory>
 
+#include "cases/base/limits.hpp"
+
 namespace cases {
 
 namespace fs = std::filesystem;
@@ -50,6 +52,7 @@ Expected<std::string> read_file(const fs::path& file, Pipes pipes) {
     // Without O_NONBLOCK, opening a pipe waits for its writer.
     const int fd = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
     if (fd < 0) {
+        throw_if_limit(errno);
         return failure(std::strerror(errno));
     }
     struct stat status {};

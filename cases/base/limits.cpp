@@ -61,6 +61,12 @@ std::string tight_limits() {
     return text.empty() ? text : "a driver may fail for want of what is limited here: " + text;
 }
 
+void throw_if_limit(int error) {
+    if (error == EMFILE || error == ENFILE) {
+        throw std::system_error(error, std::generic_category());
+    }
+}
+
 bool is_limit(const std::exception& error) {
     const auto* system = dynamic_cast<const std::system_error*>(&error);
     const int code = system != nullptr ? system->code().value() : 0;

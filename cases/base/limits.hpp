@@ -17,6 +17,8 @@ std::string descriptor_limit(int error);
 // Limits of this process under which a driver may not work, one sentence that names them; empty if
 // there are none.
 std::string tight_limits();
+// Throws if a file could not be opened for want of a descriptor: that is no fault of the file's.
+void throw_if_limit(int error);
 // Whether it tells of memory, threads or descriptors that ran out.
 bool is_limit(const std::exception& error);
 // What an exception says, of a limit with its name and number.

@@ -44,8 +44,10 @@ Expected<std::string> read_file(const fs::path& file) {
         text.append(piece.data(), static_cast<size_t>(stream.gcount()));
     }
     if (stream.bad() || !(stream.eof() || stream.good())) {
-        const std::string why = errno == EMFILE ? descriptor_limit(errno) : std::strerror(errno);
-        return tl::unexpected(Error{where, "the file cannot be read: " + why});
+        const int reason = errno;
+        throw_if_limit(reason);
+        return tl::unexpected(
+            Error{where, std::string("the file cannot be read: ") + std::strerror(reason)});
     }
     text.resize(std::min(text.size(), kMaxFileSize + 1));
     return text;

@@ -296,6 +296,12 @@ int run_worker() {
     }
     WorkerOptions options;
     SharedWriter shared(kSharedFd);
+    if (const Fd null(::open("/dev/null", O_RDONLY | O_CLOEXEC));
+        ::fcntl(kSharedFd, F_GETFD) >= 0) {
+        // Through the descriptor a driver could change pictures that are being judged. Its number
+        // stays taken.
+        ::dup2(null.get(), kSharedFd);
+    }
     std::unique_ptr<Backend> backend;
     while (std::optional<Frame> frame = receive(reader)) {
         if (frame->type == FrameType::configure) {

@@ -3,6 +3,7 @@
 """A broken driver harms only the case that breaks it."""
 import json
 import os
+import pathlib
 import re
 import shutil
 import signal
@@ -11,7 +12,7 @@ import time
 import unittest
 import xml.etree.ElementTree
 
-from support import PROGRAM, ProgramTest
+from support import PROGRAM, ProgramTest, processes_with
 
 
 class Charging(ProgramTest):
@@ -112,6 +113,23 @@ vertices = [[20,20], [30,20], [20,30]]
         self.write_case("fam/c3", text)
         self.run_suite(fault="segv@fam/c3", check=7)
         self.assertEqual(self.statuses()["fam/c3"], "error")
+
+
+class Pictures(ProgramTest):
+    def test_a_driver_has_no_descriptor_of_pictures_that_are_judged(self):
+        """Locked pages do not help where it can punch holes into the memory behind them."""
+        process = subprocess.Popen([PROGRAM, "run", "--renderer=reference", "--batch", "1", "-j", "1", "-o", self.out],
+                                   env=self.environment("hang@fam/c8"), cwd=self.folder, stdout=subprocess.DEVNULL)
+        journal = self.out / "journal.jsonl"
+        while not (journal.exists() and "fam/c8" in journal.read_text().partition("\n")[2]):
+            time.sleep(0.01)
+        workers = [pid for pid in processes_with(str(self.folder)) if pid != process.pid]
+        links = {name: os.readlink(f"/proc/{pid}/fd/{name}") for pid in workers for name in os.listdir(f"/proc/{pid}/fd")}
+        mapped = "".join(pathlib.Path(f"/proc/{pid}/maps").read_text() for pid in workers)
+        process.terminate()
+        process.wait(timeout=60)
+        self.assertIn("memfd:", mapped)
+        self.assertEqual([link for link in links.values() if "memfd:" in link], [])
 
 
 class Start(ProgramTest):

@@ -39,9 +39,9 @@ std::optional<std::string> said(const std::string& shell, const std::string& scr
 }
 
 TEST(ShellQuote, AnyWordMeansItselfToAnyShell) {
-    std::vector<std::string> words = {"",     "=ls", "~",    "-n",  "a b",  "$(ls)", "`ls`",   "'",
-                                      "''",   "\"",  "a\nb", "*",   "[a]",  "{a,b}", "!x",     "#",
-                                      "a\\b", "%in", "x=~",  "a;b", "a&&b", ">x",    "\x1b[m", "\xff"};
+    std::vector<std::string> words = {
+        "",    "=ls",   "~",  "-n", "a b",  "$(ls)", "`ls`", "'",   "''",   "\"", "a\nb",   "*",
+        "[a]", "{a,b}", "!x", "#",  "a\\b", "%in",   "x=~",  "a;b", "a&&b", ">x", "\x1b[m", "\xff"};
     std::mt19937 random(1);
     std::uniform_int_distribution<int> length(0, 12), any(1, 255);
     const std::string hurtful = "'\"\\$`!*?[]{}()<>|&;#~=%^ \n\t-ab/.:,@+";
