@@ -92,12 +92,12 @@ Stop why_nothing(const cases::Case& c, const CaseRecord& record, bool is_command
                                  c.id, report::to_string(record.status), why));
 }
 
-// Of a smaller case: nobody knows whether it fails as the first one did. (One that is an error is
-// no such case: nothing of it can be seen.)
+// Of a smaller case: nobody knows whether it fails as the first one did. (One that was drawn and is
+// an error is no such case: nothing of it can be seen.)
 bool is_unsure(const CaseRecord& record) {
     using enum report::Status;
     return record.status == crash || record.status == timeout || record.status == device_lost ||
-           record.status == flake;
+           record.status == flake || (record.status == error && record.bits.empty());
 }
 
 // What keeps the reduced case from being the smallest; empty if nothing is known to.
@@ -186,9 +186,11 @@ int reduce_command(const Program& program, const ReduceOptions& options) {
         return report_stop(stop_with(report::kExitInternal, failure));
     }
     if (!entry) {
-        return report_stop(stop_with(report::kExitUnexpected,
-                                     loaded->id + " did not fail the same way again: it is a flake "
-                                                  "of the driver, and cannot be reduced"));
+        return report_stop(stop_with(
+            report::kExitUnexpected,
+            loaded->id + " did not fail the same way again, and cannot be reduced: " +
+                (unsure > 0 ? cases::counted(unsure, "drawing") + " of it had no sure result"
+                            : "it is a flake of the driver")));
     }
     std::string note = fmt::format("# {}, reduced from {}.\n", to_text(*symptom), loaded->id);
     note += fuzz::need_text(*entry);

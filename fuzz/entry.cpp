@@ -231,6 +231,7 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
     // A reduced case is as sound as the one that was drawn.
     const std::optional<cases::Profile> sound_at = loosest_sound(*original);
     std::set<std::string> unsupported;  // texts that the device cannot draw
+    bool has_died = false;              // the last of what was drawn, in place of the symptom
     const auto is_at_end = [&] { return is_over && is_over(); };
     const Shows shown = [&](const std::vector<std::string>& texts) {
         std::vector<bool> out(texts.size(), false);
@@ -241,12 +242,19 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
             if (records[k].status == Status::unsupported) {
                 unsupported.insert(texts[of[k]]);
             }
+            has_died = symptom.status == Status::fail && (records[k].status == Status::crash ||
+                                                          records[k].status == Status::timeout ||
+                                                          records[k].status == Status::device_lost);
             out[of[k]] = shows(records[k], symptom) && (!sound_at || is_sound(cases[k], *sound_at));
         }
         return out;
     };
-    if (!shown({to_text(*document)}).front()) {
-        return std::nullopt;
+    // A worker may die for another reason, and a death says nothing of a wrong picture.
+    constexpr int kMostDeaths = 3;
+    for (int deaths = 0; !shown({to_text(*document)}).front(); ++deaths) {
+        if (!has_died || deaths == kMostDeaths || is_at_end()) {
+            return std::nullopt;
+        }
     }
     ReduceOptions options;
     options.most_rounds = most_rounds;

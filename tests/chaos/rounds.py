@@ -212,7 +212,8 @@ def judge(place, work, base, base_code, on, end, said):
         said.append(f"it ended with {end.code}: {end.errors.strip()[-200:]}")
     if end.code == INTERRUPTED and not on.may_interrupt:
         said.append("it tells of an interruption")
-    if end.code in (0, 1, 6) and now is None and not on.may_stop:
+    is_named_death = "had no sure result" in end.errors  # of a reduction whose workers die
+    if end.code in (0, 1, 6) and now is None and not on.may_stop and not is_named_death:
         said.append(f"it ended with {end.code} and without results: {end.errors.strip()[-200:]}")
     if end.code == 0 and base_code == 1 and not on.draws_otherwise:
         said.append("it ended with 0, and the undisturbed one with 1")
