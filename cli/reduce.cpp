@@ -97,7 +97,8 @@ Stop why_nothing(const cases::Case& c, const CaseRecord& record, bool is_command
 bool is_unsure(const CaseRecord& record) {
     using enum report::Status;
     return record.status == crash || record.status == timeout || record.status == device_lost ||
-           record.status == flake || (record.status == error && record.bits.empty());
+           record.status == flake ||
+           (record.status == error && record.bits.empty() && !record.is_delivered);
 }
 
 // What keeps the reduced case from being the smallest; empty if nothing is known to.
