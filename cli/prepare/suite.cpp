@@ -19,6 +19,7 @@
 #include "cases/base/input_file.hpp"
 #include "cases/load/loader.hpp"
 #include "cases/select/selector.hpp"
+#include "cli/prepare/loop_config.hpp"
 #include "ref/position/limits.hpp"
 #include "report/record/run.hpp"
 #include "report/text/sentences.hpp"
