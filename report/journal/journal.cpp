@@ -201,8 +201,6 @@ cases::Expected<void> Journal::write_stop(const Run& run) {
 
 namespace {
 
-constexpr size_t kDetailedBytes = size_t{64} << 20;  // of "end" records
-
 // Takes away what grows with pictures and findings, but for the gravest of these. False: nothing.
 bool shorten(CaseRecord& record) {
     constexpr size_t kFindings = 16, kTextBytes = 1024;
@@ -225,8 +223,8 @@ bool shorten(CaseRecord& record) {
 // Puts records together, in the order of the file.
 class Rebuilder {
   public:
-    // `is_bounded`: later records are shortened.
-    explicit Rebuilder(bool is_bounded) : is_bounded_(is_bounded) {}
+    // Records behind so many bytes of "end" records are shortened.
+    explicit Rebuilder(size_t detailed_bytes) : most_detailed_(detailed_bytes) {}
 
     // `ended`: what decode makes of an "end" record, if it is known; `bytes`: of its line.
     void add(const Json& record, std::optional<CaseRecord> ended, size_t bytes) {
@@ -248,7 +246,7 @@ class Rebuilder {
             const size_t at = known(done.id);
             open_.erase(at);
             detailed_ += bytes;
-            if (is_bounded_ && detailed_ > kDetailedBytes && shorten(done)) {
+            if (detailed_ > most_detailed_ && shorten(done)) {
                 shortened_.insert(at);
             } else {
                 shortened_.erase(at);
@@ -325,7 +323,7 @@ class Rebuilder {
     bool begun_ = false;
     std::map<std::string, size_t> index_;
     std::set<size_t> open_;  // begun and not ended
-    bool is_bounded_ = false;
+    size_t most_detailed_;
     size_t detailed_ = 0;  // bytes of "end" records
     std::set<size_t> shortened_;
 };
@@ -368,7 +366,7 @@ std::vector<Line> read_lines(std::istream& stream) {
 }
 
 cases::Expected<Run> load(const std::filesystem::path& dir, std::vector<std::string>* in_flight,
-                          bool is_bounded) {
+                          size_t detailed_bytes) {
     const std::string file = (dir / "journal.jsonl").string();
     const cases::Expected<std::filesystem::path> place = cases::place_inside(dir, file);
     if (!place) {
@@ -383,7 +381,7 @@ cases::Expected<Run> load(const std::filesystem::path& dir, std::vector<std::str
         return failure(fmt::format("cannot read {}: {}; name the directory of a run", file,
                                    std::strerror(errno)));
     }
-    Rebuilder rebuilder(is_bounded);
+    Rebuilder rebuilder(detailed_bytes);
     uint32_t number = 0;
     const auto add = [&](Line& line) -> cases::Expected<void> {
         ++number;
@@ -419,11 +417,11 @@ cases::Expected<Run> load(const std::filesystem::path& dir, std::vector<std::str
 
 cases::Expected<Run> load_journal(const std::filesystem::path& dir,
                                   std::vector<std::string>* in_flight) {
-    return load(dir, in_flight, false);
+    return load(dir, in_flight, SIZE_MAX);
 }
 
-cases::Expected<Run> load_for_reports(const std::filesystem::path& dir) {
-    return load(dir, nullptr, true);
+cases::Expected<Run> load_for_reports(const std::filesystem::path& dir, size_t detailed_bytes) {
+    return load(dir, nullptr, detailed_bytes);
 }
 
 }  // namespace report

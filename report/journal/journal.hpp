@@ -49,9 +49,11 @@ bool put_aside_journal(const std::filesystem::path& dir);
 // ids.
 cases::Expected<Run> load_journal(const std::filesystem::path& dir,
                                   std::vector<std::string>* in_flight = nullptr);
-// The same for reports, with a bound on memory beside what each case takes at least: when 64 MiB of
-// cases that ended have been read, those that ended later keep their status, counts and first
-// findings alone. Run::shortened_cases tells how many lost something.
-cases::Expected<Run> load_for_reports(const std::filesystem::path& dir);
+// The same for reports, with a bound on memory beside what each case takes at least: when so many
+// bytes of cases that ended have been read, those that ended later keep their status, counts and
+// first findings alone. Run::shortened_cases tells how many lost something.
+inline constexpr size_t kDetailedBytes = size_t{64} << 20;
+cases::Expected<Run> load_for_reports(const std::filesystem::path& dir,
+                                      size_t detailed_bytes = kDetailedBytes);
 
 }  // namespace report

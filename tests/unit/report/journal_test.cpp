@@ -113,6 +113,44 @@ TEST_F(JournalTest, round_trip_is_exact) {
     EXPECT_EQ(loaded->cases[0].expected, std::nullopt);
 }
 
+// Reports of very many cases keep what grows of the first ones, and of each its status and counts.
+TEST_F(JournalTest, reports_have_a_bound_and_say_so) {
+    report::Run run = test::sample_run();
+    CaseRecord one = run.cases.front();
+    one.pictures.width = one.pictures.height = 1;
+    one.pictures.device_hits = {1};
+    one.status = Status::fail;
+    one.counts = {};
+    one.counts.front() = 40;
+    diff::Finding strict, loose;
+    strict.level = cases::Profile::direct3d;
+    loose.level = cases::Profile::vulkan;
+    one.findings.assign(40, strict);
+    one.findings.back() = loose;
+    run.cases.assign(4, one);
+    for (size_t k = 0; k < run.cases.size(); ++k) {
+        run.cases[k].id = "case/" + std::to_string(k);
+    }
+    write(run);
+    const auto whole = load_for_reports(dir_);
+    ASSERT_TRUE(whole);
+    EXPECT_EQ(whole->shortened_cases, 0U);
+    EXPECT_EQ(image_of(*whole), image_of(*load_journal(dir_)));
+    const size_t line = content().size() / run.cases.size();
+    const auto bounded = load_for_reports(dir_, 2 * line);
+    ASSERT_TRUE(bounded);
+    EXPECT_GE(bounded->shortened_cases, 1U);
+    EXPECT_LE(bounded->shortened_cases, 3U);
+    EXPECT_EQ(bounded->cases.front().findings.size(), 40U);
+    EXPECT_EQ(bounded->cases.front().pictures.device_hits.size(), 1U);
+    const CaseRecord& last = bounded->cases.back();
+    EXPECT_EQ(last.status, Status::fail);
+    EXPECT_EQ(last.counts, one.counts);
+    EXPECT_TRUE(last.pictures.device_hits.empty());
+    ASSERT_EQ(last.findings.size(), 16U);
+    EXPECT_EQ(last.findings.front().level, cases::Profile::vulkan);  // the gravest is kept
+}
+
 TEST_F(JournalTest, layers_survive) {
     report::Run run = test::sample_run();
     run.cases[3].findings[0].layer = 0;
