@@ -14,7 +14,7 @@
 #include "ref/expectation/explain.hpp"
 #include "ref/stencil/outcome.hpp"
 #include "ref/stencil/values.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 #include "run/picture.hpp"
 #include "run/plane_pictures.hpp"
 
