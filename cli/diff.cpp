@@ -18,6 +18,7 @@
 #include "cli/bench/clock.hpp"
 #include "cli/commands.hpp"
 #include "cli/diagnose.hpp"
+#include "cli/prepare/command_lines.hpp"
 #include "cli/prepare/expectations.hpp"
 #include "cli/prepare/loop_config.hpp"
 #include "cli/prepare/outputs.hpp"
@@ -231,7 +232,7 @@ report::Run make_header(const Program& program, const DiffOptions& options,
     header.device.depth_beside_stencil = options.judged.depth_beside_stencil;
     header.device.has_primitive_id = true;
     for (const cases::Case& c : selection.cases) {
-        header.cases.push_back(run::make_record(c));
+        header.cases.push_back(run::planned_case(c));
         header.cases.back().rerun = diff_line(program, options, c.id);
     }
     header.sources = sources_of(header.cases);
@@ -333,11 +334,7 @@ int diff_command(const Program& program, const DiffOptions& given) {
         CaseRecord& record = header.cases[k];
         const auto finish = [&, k] {
             settle(record, *expected, o.require_support);
-            if (!record.outcome.findings.empty()) {
-                record.commands.explain =
-                    explain_line(program, o, record.id, options.judged) +
-                    report::sample_options(report::leading_finding(record), c.target);
-            }
+            record.commands.explain = explain_line(program, o, options.judged, c, record);
             if (auto written = journal->write_end(record); !written && failure.empty()) {
                 failure = written.error().message;
             }

@@ -91,26 +91,26 @@ void try_viewport_grid(const cases::Case& c, const ref::Limits& limits,
 
 }  // namespace
 
-CaseRecord make_record(const cases::Case& c) {
-    CaseRecord record;
-    record.id = c.id;
-    record.file = c.where.file;
-    record.line = c.where.line;
-    record.description = c.description;
-    record.rules = c.rules;
-    record.links = c.links;
-    record.catches = c.catches;
+report::PlannedCase planned_case(const cases::Case& c) {
+    report::PlannedCase planned;
+    planned.id = c.id;
+    planned.file = c.where.file;
+    planned.line = c.where.line;
+    planned.description = c.description;
+    planned.rules = c.rules;
+    planned.links = c.links;
+    planned.catches = c.catches;
     // What a run asks for besides makes no other case of it.
     cases::Case own;
     if (!c.doors.empty()) {
         own = c;
         own.doors.clear();
     }
-    record.content = cases::hex(cases::stable_hash(cases::to_bytes(c.doors.empty() ? c : own), 0));
+    planned.content = cases::hex(cases::stable_hash(cases::to_bytes(c.doors.empty() ? c : own), 0));
     for (const cases::Door door : c.doors) {
-        record.doors.emplace_back(cases::row_of(door).word);
+        planned.doors.emplace_back(cases::row_of(door).word);
     }
-    return record;
+    return planned;
 }
 
 void judge(CaseRecord& record, const cases::Case& filed, const capture::CaptureView& drawn,

@@ -20,12 +20,14 @@ Session::Session(LoopConfig config, WorkerClient first, vk_harness::DeviceInfo d
 Session::Results Session::draw(std::vector<cases::Case> cases,
                                const std::function<bool(size_t)>& on_progress) {
     Results results;
-    const auto plan = std::make_shared<std::vector<PlannedCase>>(cases.size());
+    const auto plan = std::make_shared<std::vector<Task>>(cases.size());
     std::map<std::string, size_t> index;
     for (size_t k = 0; k < cases.size(); ++k) {
-        results.records.push_back(make_record(cases[k]));
-        index.emplace(cases[k].id, k);
-        (*plan)[k].data = std::move(cases[k]);
+        Task& task = (*plan)[k];
+        task.planned = planned_case(cases[k]);
+        task.data = std::move(cases[k]);
+        results.records.emplace_back(task.planned);
+        index.emplace(task.planned.id, k);
     }
     bool goes_on = true;
     RunLoop loop(

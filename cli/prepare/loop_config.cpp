@@ -28,13 +28,13 @@ run::LoopConfig loop_config(const Program& program, const RunOptions& options) {
     config.schedule.retries = options.retries;
     config.schedule.suspects_first = options.fail_fast;
     config.requires_support = options.require_support;
-    config.profile = options.profile;
-    config.pictures = options.capture;
+    config.judging.profile = options.profile;
+    config.judging.pictures = options.capture;
     return config;
 }
 
 void set_limits(run::LoopConfig& config, const vk_harness::DeviceInfo& device) {
-    config.limits = run::limits_of(device);
+    config.judging.limits = run::limits_of(device);
 }
 
 ref::Limits limits_of(const JudgedDevice& device) {

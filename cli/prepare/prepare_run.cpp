@@ -269,7 +269,7 @@ OrStop<Prepared> prepare_resume(const Program& program, const RunOptions& now) {
     for (const CaseRecord& record : earlier->cases) {
         const auto found = by_id.find(record.id);
         if (found != by_id.end() && !record.content.empty() &&
-            run::make_record(*found->second).content != record.content) {
+            run::planned_case(*found->second).content != record.content) {
             return tl::unexpected(
                 stop_with(report::kExitInvalidFile,
                           "the run cannot go on: '" + record.id +
@@ -318,7 +318,7 @@ OrStop<Prepared> prepare(const Program& program, const RunOptions& options) {
     header.shards = options.shard.count;
     header.jobs = options.jobs;
     for (cases::Case& c : p.selection.cases) {
-        header.cases.push_back(run::make_record(c));
+        header.cases.push_back(run::planned_case(c));
         header.cases.back().rerun = rerun_line(program, options, c.id, header.cases.back().doors);
         run::PlannedCase planned;
         if (const auto left_out = p.selection.left_out_doors.find(c.id);

@@ -102,7 +102,7 @@ void draw(std::span<const Numbered> chunk, const std::string& fault, const fs::p
         std::vector<run::RenderedCase> drawn =
             run::render_with_derived(**backend, batch, [](std::string_view) {}, {});
         for (size_t k = 0; k < drawn.size(); ++k) {
-            if (!see(chunk[begin + k], drawn[k], config.limits)) {
+            if (!see(chunk[begin + k], drawn[k], config.judging.limits)) {
                 return;
             }
         }
@@ -129,7 +129,7 @@ uint64_t bits_of(const run::RenderedCase& drawn) {
 
 report::CaseRecord judged(const Numbered& one, const run::RenderedCase& drawn,
                           const ref::Limits& limits) {
-    report::CaseRecord record = run::make_record(one.data);
+    report::CaseRecord record = run::planned_case(one.data);
     run::judge(record, one.data, run::view_of(drawn.rendered),
                {drawn.consistency, drawn.rendered.stray_writes}, limits, cases::Profile::direct3d,
                run::KeepPictures::none);
