@@ -320,8 +320,8 @@ def plant_unity(root):
 # What is planted -> the words of the complaint.
 PLANTED = {
     "an arrow back inside ref/": (
-        lambda root: plant(root, "ref/number/rational.hpp", '#include "ref/value/value.hpp"\n'),
-        ["ref/number/ must not include ref/value/value.hpp", "folders include each other"],
+        lambda root: plant(root, "ref/number/rational.hpp", '#include "ref/value/reference.hpp"\n'),
+        ["ref/number/ must not include ref/value/reference.hpp", "folders include each other"],
     ),
     "Vulkan outside vk_harness/": (
         lambda root: plant(root, "diff/verdict.hpp", "#include <vulkan/vulkan.h>\n"),
