@@ -24,8 +24,7 @@ bool Judging::is_full() const {
 }
 
 void Judging::submit(std::shared_ptr<const cases::Case> c, CaseResult&& result,
-                     report::CaseRecord planned,
-                     std::function<void(report::CaseRecord)> finish) {
+                     report::CaseRecord planned, std::function<void(report::CaseRecord)> finish) {
     const uint64_t bytes = capture::capture_bytes(*c);
     bytes_ += bytes;
     auto record = std::make_shared<report::CaseRecord>(std::move(planned));

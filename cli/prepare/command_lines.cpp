@@ -208,8 +208,7 @@ void add_command_lines(const Program& program, const RunOptions& options,
     if (is_flake) {
         rerun.with = record.death.suspects;
         std::erase(rerun.with, record.id);
-        rerun.repeats =
-            record.death.suspects.empty() ? record.drawn.attempts : kRepeatsOfDeath;
+        rerun.repeats = record.death.suspects.empty() ? record.drawn.attempts : kRepeatsOfDeath;
     }
     record.rerun = rerun_line(program, options, record.id, rerun);
     record.commands.explain = explain_line(program, options, device, c, record);

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <utility>
 
+#include "cases/model/device.hpp"
 #include "run/worker/derived.hpp"
 
 namespace cli {
@@ -35,6 +36,11 @@ run::LoopConfig loop_config(const Program& program, const RunOptions& options) {
 
 void set_limits(run::LoopConfig& config, const vk_harness::DeviceInfo& device) {
     config.judging.limits = run::limits_of(device);
+}
+
+JudgedDevice judged_device(const report::Device& device) {
+    return {cases::judged_subpixel_bits(device.subpixel_bits), device.sample_locations,
+            device.depth_beside_stencil};
 }
 
 ref::Limits limits_of(const JudgedDevice& device) {

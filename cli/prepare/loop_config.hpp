@@ -17,6 +17,8 @@ run::LoopConfig loop_config(const Program& program, const RunOptions& options);
 void set_limits(run::LoopConfig& config, const vk_harness::DeviceInfo& device);
 // One line for each wrong limit, for commands whose reports have no place for it.
 void warn_of_limits(const vk_harness::DeviceInfo& device);
+// The device that a run has asked, for commands that ask none.
+JudgedDevice judged_device(const report::Device& device);
 // The limits of a device that is not asked.
 ref::Limits limits_of(const JudgedDevice& device);
 // Starts the first worker and waits until it is ready; the limits are then its device's. Errors: no
