@@ -253,8 +253,8 @@ void settle(CaseRecord& record, const ExpectedById& expected, bool requires_supp
 std::string skipped_text(const std::map<std::string, size_t>& skipped) {
     std::string text;
     for (const auto& [word, count] : skipped) {
-        text += (text.empty() ? "not judged: " : ", ") + word + " in " +
-                cases::counted(count, "case");
+        text +=
+            (text.empty() ? "not judged: " : ", ") + word + " in " + cases::counted(count, "case");
     }
     return text.empty() ? text : text + "\n";
 }

@@ -21,11 +21,9 @@ report::ConsoleStyle style_of(const RunOptions& options, const std::filesystem::
 RunConsole::RunConsole(const RunOptions& options, const std::filesystem::path& folder,
                        const std::vector<std::string>& ids, size_t total, bool is_silent)
     : nowhere_(is_silent ? std::fopen("/dev/null", "w") : nullptr, &std::fclose),
-      file_(nowhere_ ? nowhere_.get()
-                     : console_beside(options.json, options.junit, options.html)),
+      file_(nowhere_ ? nowhere_.get() : console_beside(options.json, options.junit, options.html)),
       style_(style_of(options, folder, file_)),
-      progress_(options.quiet || !options.debugger.empty() ? ProgressStyle::none
-                                                           : options.progress,
+      progress_(options.quiet || !options.debugger.empty() ? ProgressStyle::none : options.progress,
                 total),
       unexpected_(ids, style_) {}
 

@@ -56,9 +56,11 @@ diff::FindingKind decode_word(const Json& json, const char* key, diff::FindingKi
 // Whether a field that may be left out is as constructed.
 template <class T>
 bool is_empty(const T& value) {
-    if constexpr (requires { value.empty(); }) {
+    if constexpr (cases::is_optional<T> || std::is_same_v<T, bool>) {
+        return !value;
+    } else if constexpr (requires { value.empty(); }) {
         return value.empty();
-    } else if constexpr (std::equality_comparable<T>) {
+    } else if constexpr (cases::HasFields<T> && std::equality_comparable<T>) {
         return value == T{};
     } else {
         return false;
