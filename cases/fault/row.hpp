@@ -17,7 +17,7 @@ struct FaultRow {
     std::string_view name;
     std::string_view sentence;  // what the device does wrong
     std::string_view rules;     // the rules that this breaks, ids separated by spaces
-    Fault fault = kNoFault;  // filled in by the catalogue
+    Fault fault = kNoFault;     // filled in by the catalogue
 };
 
 }  // namespace cases

@@ -51,7 +51,7 @@ struct LegalResult {
 
 struct Matrix {
     size_t leaves = 0, files = 0;  // of the suite that were asked
-    std::vector<Kill> kills;       // sorted by fault (as in all_faults), then family
+    std::vector<Kill> kills;       // sorted by fault (as in kFaults), then family
     std::vector<LegalResult> legal;
 };
 
