@@ -78,8 +78,7 @@ std::optional<std::string> closed_door(const CasePlan& plan, const TargetLayout&
 // A call that fails is never 'unsupported': what a device does not advertise, check_case has
 // rejected before anything is asked of the driver.
 void reject(Rendered& result, const Failure& failure) {
-    result.status = failure.vk_result == VK_ERROR_DEVICE_LOST ? Rendered::Status::device_lost
-                                                              : Rendered::Status::error;
+    result.status = failure.is_lost ? Rendered::Status::device_lost : Rendered::Status::error;
     result.reason = std::string(to_string(failure.stage)) + ": " + failure.message;
 }
 

@@ -375,7 +375,7 @@ void BatchRenderer::run_chunk(std::vector<CasePlan>& plans, bool read_back,
     if (!done) {
         device_->vk().vkDeviceWaitIdle(device_->get());
     }
-    if (!done && done.error().vk_result == VK_ERROR_DEVICE_LOST) {
+    if (!done && done.error().is_lost) {
         lost_ = done.error().message;
     }
     plans.clear();
