@@ -26,8 +26,8 @@ report::CaseRecord judge_limits(const capture::DeviceInfo& device) {
         verdict.add(std::move(finding), cases::Target());
     }
     report::CaseRecord record;
-    static_cast<diff::Outcome&>(record) = verdict;
-    record.wrong_samples = 0;  // nothing was drawn
+    record.outcome = diff::Outcome(verdict);
+    record.outcome.wrong_samples = 0;  // nothing was drawn
     record.id = cases::kLimitsCase;
     record.description = "The device's limits are what Vulkan requires.";
     record.rules = {cases::rule::device_limits};

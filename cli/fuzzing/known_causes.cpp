@@ -97,7 +97,7 @@ std::vector<Open> failing_cases(const ExpectedFailures& expected, Reducer& reduc
         const cases::Expected<std::string> text = cases::to_toml(c);
         std::vector<Symptom> symptoms = fuzz::symptoms_of(records[k]);
         if (record.status == Status::xfail && text && !symptoms.empty()) {
-            all.push_back({*text, record.bug, fuzz::facts_of(*text), std::move(symptoms)});
+            all.push_back({*text, record.known.bug, fuzz::facts_of(*text), std::move(symptoms)});
         }
     }
     // The shortest first: nearest to what it will be.

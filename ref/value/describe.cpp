@@ -11,7 +11,7 @@
 #include "ref/number/rational.hpp"
 #include "ref/value/accept/reach.hpp"
 #include "ref/value/fragment/partials.hpp"
-#include "ref/value/reference.hpp"
+#include "ref/value/set_ups.hpp"
 
 namespace ref::value {
 

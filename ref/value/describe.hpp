@@ -11,7 +11,7 @@
 
 #include "ref/value/accept/judge_candidates.hpp"
 #include "ref/value/accept/probe.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 
 namespace ref::value {
 

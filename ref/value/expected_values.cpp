@@ -16,8 +16,8 @@
 #include "ref/value/accept/candidate_reach.hpp"
 #include "ref/value/accept/reach.hpp"
 #include "ref/value/describe.hpp"
-#include "ref/value/reference.hpp"
 #include "ref/value/sample_values.hpp"
+#include "ref/value/set_ups.hpp"
 
 namespace ref {
 

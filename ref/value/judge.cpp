@@ -9,8 +9,8 @@
 #include <optional>
 
 #include "ref/number/fixed_point.hpp"
-#include "ref/value/reference.hpp"
 #include "ref/value/sample_values.hpp"
+#include "ref/value/set_ups.hpp"
 
 namespace ref {
 

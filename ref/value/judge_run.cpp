@@ -10,7 +10,7 @@
 #include "cases/base/float_bits.hpp"
 #include "ref/value/accept/filter_run.hpp"
 #include "ref/value/fragment/shading_rate.hpp"
-#include "ref/value/reference.hpp"
+#include "ref/value/set_ups.hpp"
 
 namespace ref {
 

@@ -16,7 +16,7 @@
 #include "ref/number/rational.hpp"
 #include "ref/value/accept/reach.hpp"
 #include "ref/value/describe.hpp"
-#include "ref/value/reference.hpp"
+#include "ref/value/set_ups.hpp"
 
 namespace ref {
 

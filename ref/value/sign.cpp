@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whether a value is negative, by all that a profile accepts of it (value.hpp, Sign).
+// Whether a value is negative, by all that a profile accepts of it (reference.hpp, Sign).
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "cases/model/sample.hpp"
 #include "ref/value/accept/candidate_reach.hpp"
-#include "ref/value/reference.hpp"
+#include "ref/value/set_ups.hpp"
 
 namespace ref {
 

@@ -144,8 +144,8 @@ bool fits(const SeenPictures& seen, const capture::DeviceInfo& device) {
 void add_pictures(SeenPictures& seen, const report::Run& run) {
     for (const report::CaseRecord& record : run.cases) {
         if (report::actual_status(record) == report::Status::fail &&
-            record.expected != report::Status::flake && is_bits(record.bits)) {
-            seen.bits[record.id].insert(record.bits);
+            record.known.expected != report::Status::flake && is_bits(record.drawn.bits)) {
+            seen.bits[record.id].insert(record.drawn.bits);
         }
     }
 }

@@ -17,12 +17,12 @@ std::string top_rule(const std::vector<Kill>& kills) {
             report::CaseRecord record;
             record.id = kill.leaf;
             record.status = report::Status::fail;
-            record.level = part.lead.level;
+            record.outcome.level = part.lead.level;
             diff::Finding finding;
             finding.kind = part.lead.kind;
             finding.rule = part.lead.rule;
             finding.level = part.lead.level;
-            record.findings = {finding};
+            record.outcome.findings = {finding};
             run.cases.insert(run.cases.end(), part.files, record);
         }
     }

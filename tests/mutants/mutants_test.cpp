@@ -305,7 +305,7 @@ TEST_P(Mutant, IsCaughtAsRecorded) {
         ASSERT_NE(c, suite().cases.end()) << kill.leaf;
         report::CaseRecord record;
         const diff::Verdict verdict = judge(*c, device_, cases::Profile::direct3d);
-        record.findings = verdict.findings;
+        record.outcome.findings = verdict.findings;
         ASSERT_EQ(verdict.error, "");
         ASSERT_FALSE(verdict.ok()) << kill.leaf << " does not catch it any more";
         const diff::Finding& lead = report::leading_finding(record);

@@ -296,7 +296,7 @@ mutants::Lead lead_of(const std::string& signature) {
             }
         }
         finding.rule = rule;
-        record.findings.insert(record.findings.end(), std::stoul(count), finding);
+        record.outcome.findings.insert(record.outcome.findings.end(), std::stoul(count), finding);
     }
     const diff::Finding& lead = report::leading_finding(record);
     return {lead.level, lead.kind, lead.rule};

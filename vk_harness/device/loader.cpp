@@ -63,11 +63,13 @@ Failure call_failure(Stage stage, VkResult result, std::string_view call) {
             result == VK_ERROR_DEVICE_LOST};
 }
 
-Result<void> check(Stage stage, VkResult result, std::string_view call) {
-    return result == VK_SUCCESS ? Result<void>() : fail(call_failure(stage, result, call));
+void check(Stage stage, VkResult result, std::string_view call) {
+    if (result != VK_SUCCESS) {
+        fail(call_failure(stage, result, call));
+    }
 }
 
-Result<void> load_vulkan(const Options& options) {
+void load_vulkan(const Options& options) {
     if (!options.icd_file.empty()) {
         // The first name is read by loaders since 1.3.207, the second by older ones.
         setenv("VK_DRIVER_FILES", options.icd_file.c_str(), 1);
@@ -75,12 +77,10 @@ Result<void> load_vulkan(const Options& options) {
     }
     const VkResult result = volkInitialize();
     if (result != VK_SUCCESS) {
-        return fail(
-            Stage::loader,
-            "the Vulkan loader libvulkan.so.1 was not found; install it (Debian: libvulkan1)",
-            result);
+        fail(Stage::loader,
+             "the Vulkan loader libvulkan.so.1 was not found; install it (Debian: libvulkan1)",
+             result);
     }
-    return {};
 }
 
 }  // namespace vk_harness

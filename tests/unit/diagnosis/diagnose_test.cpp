@@ -187,7 +187,7 @@ TEST(Diagnose, ComparesOnlyWhatWasDelivered) {
             report::CaseRecord record = run::make_record(c);
             std::optional<capture::Capture> drawn = diagnosis::draw(fault, c);
             drawn = drawn ? drawn : diagnosis::draw(Hypothesis{}, c);
-            record.not_judged = words;
+            record.drawn.not_judged = words;
             run::judge_delivered(record, c, diff::judged_planes(c, *drawn, words), {kBits},
                                  run.profile, run::KeepPictures::failed);
             run.cases.push_back(std::move(record));
