@@ -51,7 +51,7 @@ void check_pictures(std::vector<run::Task>& plan) {
 }
 
 OrStop<std::monostate> check_required_device(const RunOptions& options,
-                                             const report::Device& device) {
+                                             const capture::DeviceInfo& device) {
     if (options.require_device.empty()) {
         return std::monostate{};
     }
@@ -65,7 +65,7 @@ OrStop<std::monostate> check_required_device(const RunOptions& options,
     return std::monostate{};
 }
 
-bool is_same_device(const report::Device& a, const report::Device& b) {
+bool is_same_device(const capture::DeviceInfo& a, const capture::DeviceInfo& b) {
     return a.name == b.name && a.uuid == b.uuid && a.driver_version == b.driver_version &&
            a.subpixel_bits == b.subpixel_bits && a.sample_locations == b.sample_locations &&
            a.depth_beside_stencil == b.depth_beside_stencil;
@@ -86,7 +86,7 @@ OrStop<std::monostate> set_debugger(const Program& program, const RunOptions& op
     plan.front().alone = true;
     config.command = std::move(*command);
     config.timeout = std::chrono::hours(24 * 365);
-    config.worker.vulkan.longest_wait_ms = 0;
+    config.worker.renderer.longest_wait_ms = 0;
     config.schedule.lanes = 1;
     config.schedule.repeat = 1;
     config.schedule.retries = 0;
@@ -112,7 +112,7 @@ std::string earlier_results(const Run& header, const std::string& folder) {
     });
     return count == 0 ? ""
                       : fmt::format("{} before the interruption: edgecase report {}\n",
-                                    cases::counted(count, "unexpected result"), folder);
+                                    cases::counted(static_cast<uint64_t>(count), "unexpected result"), folder);
 }
 
 // A prepared run, from its first worker to its reports.
@@ -183,8 +183,7 @@ class Conduct {
     }
 
     // The device goes into the header, and its limits into what is judged by.
-    OrStop<std::monostate> take_device(const vk_harness::DeviceInfo& info) {
-        const report::Device device = to_report(info);
+    OrStop<std::monostate> take_device(const capture::DeviceInfo& device) {
         if (is_resumed_ && !is_same_device(device, header_.device)) {
             return tl::unexpected(
                 stop_with(report::kExitDevice, "the run cannot go on: it was on '" +
@@ -192,7 +191,7 @@ class Conduct {
                                                    device.name + "' or another driver version"));
         }
         header_.device = device;
-        set_limits(config_, info);
+        set_limits(config_, device);
         config_.add_commands = [this, judged = judged_device(device)](const cases::Case& c,
                                                                       CaseRecord& record) {
             add_command_lines(program_, options_, judged, c, record);
@@ -200,7 +199,7 @@ class Conduct {
         return check_required_device(options_, device);
     }
 
-    void take_limits(const vk_harness::DeviceInfo& device) {
+    void take_limits(const capture::DeviceInfo& device) {
         if (teller_ != nullptr) {
             warn_of_limits(device);  // it is none of the tests that the runner knows
             return;

@@ -76,7 +76,7 @@ class RunLoop {
     };
     // The first of the workers has answered with `device`; another worker with another device ends
     // the run.
-    End run(std::vector<WorkerClient> workers, const vk_harness::DeviceInfo& device);
+    End run(std::vector<WorkerClient> workers, const capture::DeviceInfo& device);
     // After run() with keeps_workers: those that wait for work, for another run.
     std::vector<WorkerClient> take_workers();
     // After a run() that has ended early: judgements that go on are not waited for. They may take
@@ -95,13 +95,13 @@ class RunLoop {
         std::vector<size_t> without_result() const;  // of the batch
     };
 
-    void take_up(std::vector<WorkerClient> workers, const vk_harness::DeviceInfo& device);
+    void take_up(std::vector<WorkerClient> workers, const capture::DeviceInfo& device);
     void wait() const;
     void end_early();
     void feed(Slot& slot);
     void start_worker(Slot& slot);
     void advance(Slot& slot);
-    void on_device(Slot& slot, const vk_harness::DeviceInfo& device);
+    void on_device(Slot& slot, const capture::DeviceInfo& device);
     void on_result(Slot& slot, CaseResult& result);
     void on_batch_done(Slot& slot);
     void on_death(Slot& slot, const Death& death);
@@ -114,7 +114,7 @@ class RunLoop {
     report::CaseRecord fresh_record(size_t k, report::Status status,
                                     const std::string& reason = {}) const;
     report::CaseRecord undrawn_record(const Slot& slot, size_t k,
-                                      const vk_harness::Rendered& rendered) const;
+                                      const capture::Rendered& rendered) const;
     report::CaseRecord flake_record(size_t k);
     bool is_unexpected(size_t k, const report::CaseRecord& record) const;
     void keep_gpu_budget(const Slot& slot);
@@ -134,7 +134,7 @@ class RunLoop {
     std::map<size_t, report::CaseRecord> judged_;  // waiting for more renderings
     std::map<size_t, report::CaseRecord> held_;    // waiting for the rest of a dead batch
     std::map<size_t, double> seconds_;
-    vk_harness::DeviceInfo device_;
+    capture::DeviceInfo device_;
     std::set<size_t> unconfirmed_;  // of judged_: unexpected failures
     size_t settled_ = 0;
     std::vector<bool> is_finished_;  // [k] has its final record

@@ -39,8 +39,6 @@ OrStop<Selection> select_cases(const Program& program, const RunOptions& options
 report::Run new_header(const Program& program, const RunOptions& options,
                        const Selection& selection);
 
-report::Device to_report(const vk_harness::DeviceInfo& device);
-
 // "2026-11-21T05:00:00Z", which SOURCE_DATE_EPOCH (seconds since 1970) sets for reports that are
 // built again; for file names "20261121T050000Z", always the time of the day.
 std::string utc_now(bool compact);
