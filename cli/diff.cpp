@@ -66,20 +66,20 @@ void judge_folder(CaseRecord& record, std::vector<std::string>& skipped, const c
     }
     const cases::Expected<capture::ReadPlanes> read =
         capture::read_planes(folder, ref::as_drawn(c, work.limits).value_or(c));
-    record.attempts = 1;
+    record.drawn.attempts = 1;
     if (!read) {
         say(Status::error, read.error().message);
     } else if (!read->unsupported.empty()) {
         say(Status::unsupported, "the renderer says: " + cases::printable(read->unsupported));
     } else if (read->planes.is_empty()) {
         say(Status::not_run, "no plane was delivered in '" + folder.string() + "'");
-        record.attempts = 0;
+        record.drawn.attempts = 0;
     } else {
         run::judge_delivered(record, c, read->planes, work.limits, work.options.run.profile,
                              work.options.run.capture);
         if (record.status == Status::pass || record.status == Status::fail) {
             skipped = diff::not_judged(c, read->planes);
-            record.not_judged = skipped;
+            record.drawn.not_judged = skipped;
             std::string list;
             for (const std::string& word : skipped) {
                 list += (list.empty() ? "not judged: " : ", ") + word;
@@ -87,7 +87,7 @@ void judge_folder(CaseRecord& record, std::vector<std::string>& skipped, const c
             record.reason = list;
         }
     }
-    record.seconds = seconds_since(begin);
+    record.drawn.seconds = seconds_since(begin);
 }
 
 // Folders with files below the captures that belong to no case of the suite: a renderer's mistake
@@ -333,9 +333,10 @@ int diff_command(const Program& program, const DiffOptions& given) {
         CaseRecord& record = header.cases[k];
         const auto finish = [&, k] {
             settle(record, *expected, o.require_support);
-            if (!record.findings.empty()) {
-                record.explain = explain_line(program, o, record.id, options.judged) +
-                                 report::sample_options(report::leading_finding(record), c.target);
+            if (!record.outcome.findings.empty()) {
+                record.commands.explain =
+                    explain_line(program, o, record.id, options.judged) +
+                    report::sample_options(report::leading_finding(record), c.target);
             }
             if (auto written = journal->write_end(record); !written && failure.empty()) {
                 failure = written.error().message;
@@ -345,8 +346,8 @@ int diff_command(const Program& program, const DiffOptions& given) {
             }
             ++done;
             print(unexpected.add(record));
-            record.pictures = {};
-            record.findings.clear();
+            record.evidence.pictures = {};
+            record.outcome.findings.clear();
         };
         if (const auto found = expected->find(c.id);
             found != expected->end() && skips(found->second)) {

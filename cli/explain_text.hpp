@@ -9,7 +9,7 @@
 #include "cases/model/profile.hpp"
 #include "cases/model/rule.hpp"
 #include "ref/position/limits.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 
 namespace cli {
 

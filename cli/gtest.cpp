@@ -159,7 +159,8 @@ class Teller {
         const std::string why =
             "    " + report::what_happened(record) + "\n    " + report::why_it_happened(record) +
             "\n    rerun: " + record.rerun + "\n" +
-            (record.explain.empty() ? "" : "    explain: " + record.explain + "\n");
+            (record.commands.explain.empty() ? ""
+                                             : "    explain: " + record.commands.explain + "\n");
         if (record.status == Status::crash || record.status == Status::timeout ||
             record.status == Status::device_lost) {
             is_dead_ = true;  // a line on standard output might be read as the test's end
@@ -173,7 +174,7 @@ class Teller {
                         !is_fine     ? "[  FAILED  ]"
                         : is_skipped ? "[  SKIPPED ]"
                                      : "[       OK ]",
-                        name_of(record.id), record.seconds * 1000));
+                        name_of(record.id), record.drawn.seconds * 1000));
         if (!report::is_expected(record.status)) {
             say(why);
         }

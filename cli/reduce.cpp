@@ -98,7 +98,7 @@ bool is_unsure(const CaseRecord& record) {
     using enum report::Status;
     return record.status == crash || record.status == timeout || record.status == device_lost ||
            record.status == flake ||
-           (record.status == error && record.bits.empty() && !record.is_delivered);
+           (record.status == error && record.drawn.bits.empty() && !record.drawn.is_delivered);
 }
 
 // What keeps the reduced case from being the smallest; empty if nothing is known to.

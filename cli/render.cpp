@@ -24,7 +24,7 @@
 #include "ref/expectation/counted.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/expectation/statistics.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 #include "report/record/run.hpp"
 
 namespace cli {

@@ -61,7 +61,8 @@ std::string family_of(const CaseRecord& record) {
 }
 
 std::string family_and_rule(const CaseRecord& record) {
-    return family_of(record) + (record.groups.empty() ? "" : ' ' + record.groups.front().rule);
+    return family_of(record) +
+           (record.outcome.groups.empty() ? "" : ' ' + record.outcome.groups.front().rule);
 }
 
 std::string file_of(const CaseRecord& record) {

@@ -39,10 +39,10 @@ class Diagnoser {
         // A known failure that fails otherwise, too, shows two errors at once: such cases are
         // looked at where there are no others.
         const bool has_news = std::any_of(run.cases.begin(), run.cases.end(), [](const auto& r) {
-            return r.status == report::Status::fail && !r.expected;
+            return r.status == report::Status::fail && !r.known.expected;
         });
         const auto counts = [has_news](const CaseRecord& record) {
-            return record.status == report::Status::fail && !(has_news && record.expected);
+            return record.status == report::Status::fail && !(has_news && record.known.expected);
         };
         all_failed_ = static_cast<uint64_t>(std::ranges::count_if(run.cases, counts));
         const auto is_failed = [&](const cases::Case& c, const CaseRecord& record) {
@@ -330,8 +330,7 @@ class Diagnoser {
         const Hypothesis& h = known_[hypothesis];
         std::vector<const cases::Case*> list;
         for (const software::Kill& kill : software::built_in_kills()) {
-            const bool is_asked = h.device.fault == kill.fault &&
-                                  kill.fault != software::Fault::none &&
+            const bool is_asked = h.device.fault == kill.fault && kill.fault != cases::kNoFault &&
                                   passed_records_.contains(kill.leaf);
             const cases::Case* c = is_asked ? (*case_of_)(kill.leaf) : nullptr;
             if (c != nullptr && cost_of(*c) <= kMaxCost) {

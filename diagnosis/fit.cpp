@@ -42,7 +42,7 @@ struct Wanted {
 std::vector<Wanted> wanted_of(const Subject& subject) {
     std::vector<Wanted> out;
     const cases::Target& target = subject.data->target;
-    for (const diff::Finding& f : subject.record->findings) {
+    for (const diff::Finding& f : subject.record->outcome.findings) {
         const double got = std::strtod(f.got.c_str(), nullptr);
         const size_t index = cases::index_of(target, diff::sample_of(f));
         const Wanted wanted{index, f.quantity, got};

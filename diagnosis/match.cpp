@@ -102,7 +102,7 @@ std::optional<Subject> make_subject(const cases::Case& filed, const report::Case
     out.record = &record;
     const std::optional<cases::Case> placed = ref::as_drawn(filed, limits);
     const cases::Case& c = placed ? *placed : filed;
-    const bool is_whole = record.is_delivered && !c.blit && !c.target.has_instruments;
+    const bool is_whole = record.drawn.is_delivered && !c.blit && !c.target.has_instruments;
     if (placed || is_whole) {
         auto altered = std::make_shared<cases::Case>(c);
         altered->target.has_instruments = c.target.has_instruments || is_whole;
@@ -122,20 +122,22 @@ std::optional<Subject> make_subject(const cases::Case& filed, const report::Case
 
 diff::Verdict verdict_of(const Subject& subject, const capture::Capture& picture) {
     const cases::Case& c = *subject.data;
-    const std::vector<std::string>& left_out = subject.record->not_judged;
-    return c.blit || !subject.record->is_delivered
+    const std::vector<std::string>& left_out = subject.record->drawn.not_judged;
+    return c.blit || !subject.record->drawn.is_delivered
                ? software::compare(c, subject.expectation, picture)
                : diff::compare_delivered(c, subject.expectation,
                                          diff::judged_planes(c, picture, left_out));
 }
 
 bool can_match(const cases::Case& c, const report::CaseRecord& record) {
-    const report::Pictures& p = record.pictures;
+    const report::Pictures& p = record.evidence.pictures;
     const bool is_whole =
         p.width == c.target.width && p.height == c.target.rows() && !p.marks.empty();
-    return is_whole && std::none_of(record.groups.begin(), record.groups.end(), [](const auto& g) {
-               return g.rule.starts_with("repeat.") || g.rule.starts_with("write.");
-           });
+    return is_whole && std::none_of(record.outcome.groups.begin(), record.outcome.groups.end(),
+                                    [](const auto& g) {
+                                        return g.rule.starts_with("repeat.") ||
+                                               g.rule.starts_with("write.");
+                                    });
 }
 
 std::optional<double> number_at(const capture::Capture& capture, size_t index,
@@ -162,12 +164,13 @@ std::optional<double> number_at(const capture::Capture& capture, size_t index,
 }
 
 bool may_match(const Subject& subject, const capture::Capture& drawn) {
-    const report::Pictures& pictures = subject.record->pictures;
+    const report::Pictures& pictures = subject.record->evidence.pictures;
     uint64_t wrong = 0;
     uint64_t other = 0;
     // Hits that nobody counted are those that the reference allows.
-    const bool counts_hits = std::ranges::find(subject.record->not_judged, "number of hits") ==
-                             subject.record->not_judged.end();
+    const bool counts_hits =
+        std::ranges::find(subject.record->drawn.not_judged, "number of hits") ==
+        subject.record->drawn.not_judged.end();
     for (size_t k = 0; k < pictures.marks.size() && counts_hits; ++k) {
         if (is_wrong_mark(pictures.marks[k]) && k < pictures.device_hits.size() &&
             k < drawn.hits.size()) {
@@ -181,7 +184,7 @@ bool may_match(const Subject& subject, const capture::Capture& drawn) {
     }
     uint64_t values = 0;
     other = 0;
-    for (const diff::Finding& f : subject.record->findings) {
+    for (const diff::Finding& f : subject.record->outcome.findings) {
         const size_t index = cases::index_of(subject.data->target, diff::sample_of(f));
         const std::optional<double> number =
             f.kind == diff::FindingKind::value ? number_at(drawn, index, f.quantity) : std::nullopt;
@@ -197,13 +200,14 @@ bool may_match(const Subject& subject, const capture::Capture& drawn) {
 
 Match match(const report::CaseRecord& device, const diff::Verdict& other) {
     Match out;
-    const std::vector<uint8_t>& marks = device.pictures.marks;
+    const std::vector<uint8_t>& marks = device.evidence.pictures.marks;
     for (size_t k = 0; k < marks.size(); ++k) {
         const auto mark =
             k < other.marks.size() ? static_cast<uint8_t>(other.marks[k]) : uint8_t{0};
         const bool has_hits =
-            k < device.pictures.device_hits.size() && k < other.device_hits.size();
-        const bool same_hits = !has_hits || device.pictures.device_hits[k] == other.device_hits[k];
+            k < device.evidence.pictures.device_hits.size() && k < other.device_hits.size();
+        const bool same_hits =
+            !has_hits || device.evidence.pictures.device_hits[k] == other.device_hits[k];
         out.wrong += is_wrong_mark(marks[k]) ? 1U : 0U;
         out.same += is_wrong_mark(marks[k]) && mark == marks[k] && same_hits ? 1U : 0U;
         out.beyond += is_wrong_mark(mark) && !is_wrong_mark(marks[k]) ? 1U : 0U;
@@ -214,7 +218,7 @@ Match match(const report::CaseRecord& device, const diff::Verdict& other) {
     }
     std::sort(told.begin(), told.end(),
               [](const auto* a, const auto* b) { return key_of(*a) < key_of(*b); });
-    for (const diff::Finding& f : device.findings) {
+    for (const diff::Finding& f : device.outcome.findings) {
         const auto at = std::lower_bound(
             told.begin(), told.end(), f,
             [](const diff::Finding* a, const diff::Finding& b) { return key_of(*a) < key_of(b); });

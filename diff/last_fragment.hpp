@@ -18,7 +18,7 @@
 #include "diff/sample/fragment_part.hpp"
 #include "diff/verdict.hpp"
 #include "ref/expectation/expectation.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 
 namespace diff {
 

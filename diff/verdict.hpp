@@ -20,7 +20,7 @@
 #include "ref/color/color.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/position/limits.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 
 namespace diff {
 

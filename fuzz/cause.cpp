@@ -155,15 +155,16 @@ std::optional<Symptom> symptom_of(const report::CaseRecord& record) {
     }
     Symptom symptom;
     symptom.status = record.status;
-    symptom.signal = record.signal;
+    symptom.signal = record.death.signal;
     if (record.status != Status::fail) {
         return symptom;
     }
-    const auto gravest = std::min_element(
-        record.groups.begin(), record.groups.end(), [](const auto& a, const auto& b) {
-            return std::pair(a.level, b.count) < std::pair(b.level, a.count);
-        });
-    if (gravest == record.groups.end()) {
+    const auto gravest =
+        std::min_element(record.outcome.groups.begin(), record.outcome.groups.end(),
+                         [](const auto& a, const auto& b) {
+                             return std::pair(a.level, b.count) < std::pair(b.level, a.count);
+                         });
+    if (gravest == record.outcome.groups.end()) {
         return std::nullopt;
     }
     symptom.kind = gravest->kind;
@@ -173,14 +174,15 @@ std::optional<Symptom> symptom_of(const report::CaseRecord& record) {
 }
 
 bool shows(const report::CaseRecord& record, const Symptom& symptom) {
-    if (record.status != symptom.status || record.signal != symptom.signal) {
+    if (record.status != symptom.status || record.death.signal != symptom.signal) {
         return false;
     }
     return record.status != Status::fail ||
-           std::any_of(record.groups.begin(), record.groups.end(), [&](const auto& group) {
-               return group.kind == symptom.kind && group.rule == symptom.rule &&
-                      group.level == symptom.level;
-           });
+           std::any_of(record.outcome.groups.begin(), record.outcome.groups.end(),
+                       [&](const auto& group) {
+                           return group.kind == symptom.kind && group.rule == symptom.rule &&
+                                  group.level == symptom.level;
+                       });
 }
 
 std::string to_text(const Symptom& s) {

@@ -48,10 +48,11 @@ bool is_value(const Symptom& symptom) {
 // than Direct3D's rules has to go on doing so.
 bool shows_like(const CaseRecord& record, const Symptom& symptom) {
     return record.status == Status::fail &&
-           std::any_of(record.groups.begin(), record.groups.end(), [&](const auto& group) {
-               return (group.kind == diff::FindingKind::value) == is_value(symptom) &&
-                      group.level <= std::max(symptom.level, cases::Profile::practice);
-           });
+           std::any_of(record.outcome.groups.begin(), record.outcome.groups.end(),
+                       [&](const auto& group) {
+                           return (group.kind == diff::FindingKind::value) == is_value(symptom) &&
+                                  group.level <= std::max(symptom.level, cases::Profile::practice);
+                       });
 }
 
 // The cases of the texts that are one, and their numbers among the texts.
@@ -201,7 +202,7 @@ std::vector<Symptom> symptoms_of(const CaseRecord& record) {
     if (!gravest || gravest->status != Status::fail) {
         return gravest ? std::vector<Symptom>{*gravest} : all;
     }
-    for (const diff::FindingGroup& group : record.groups) {
+    for (const diff::FindingGroup& group : record.outcome.groups) {
         const auto like = std::find_if(all.begin(), all.end(), [&](const Symptom& s) {
             return s.kind == group.kind && s.rule == group.rule;
         });
@@ -296,18 +297,18 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
     entry.is_minimal = reduced.is_minimal;
     entry.count = 1;
     entry.also.insert({symptom.kind, symptom.rule});
-    if (!last.findings.empty()) {
+    if (!last.outcome.findings.empty()) {
         // A run's line begins with the first finding of the gravest level.
         const diff::Finding& leading =
-            *std::min_element(last.findings.begin(), last.findings.end(),
+            *std::min_element(last.outcome.findings.begin(), last.outcome.findings.end(),
                               [](const auto& a, const auto& b) { return a.level < b.level; });
         const Symptom first{Status::fail, leading.kind, leading.rule, leading.level, {}};
         entry.shown_first = first == symptom ? "" : to_text(first);
     }
-    const auto shown_by = std::ranges::find_if(last.findings, [&](const diff::Finding& f) {
+    const auto shown_by = std::ranges::find_if(last.outcome.findings, [&](const diff::Finding& f) {
         return f.kind == symptom.kind && f.rule == symptom.rule;
     });
-    entry.seen = shown_by == last.findings.end() ? "" : seen_text(*shown_by);
+    entry.seen = shown_by == last.outcome.findings.end() ? "" : seen_text(*shown_by);
     for (const Symptom& other : symptoms_of(last)) {
         entry.also.insert({other.kind, other.rule});
     }

@@ -274,10 +274,10 @@ void Hunt::draw_chunk(Chunk chunk) {
             left_.push_back(chunk.made[k].number);
             continue;
         }
-        if (!record.messages.empty()) {
+        if (!record.drawn.messages.empty()) {
             // Every case is to be valid Vulkan: nothing that a driver does with another counts.
             keep_unjudged(chunk.made[k].text,
-                          "the validation layer says: " + record.messages.front());
+                          "the validation layer says: " + record.drawn.messages.front());
             continue;
         }
         switch (record.status) {

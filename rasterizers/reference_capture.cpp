@@ -18,7 +18,7 @@
 #include "ref/expectation/expectation.hpp"
 #include "ref/expectation/statistics.hpp"
 #include "ref/value/fragment/shading_rate.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 
 namespace rasterizers {
 

@@ -14,7 +14,7 @@
 #include "ref/expectation/explain.hpp"
 #include "ref/stencil/outcome.hpp"
 #include "ref/stencil/values.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 #include "run/picture.hpp"
 #include "run/plane_pictures.hpp"
 
@@ -255,10 +255,10 @@ void keep_pictures(report::CaseRecord& record, const cases::Case& c, const diff:
                    const ref::Expectation& expectation, const capture::CaptureView& capture,
                    const ref::Limits& limits) {
     const PictureWindow window(verdict, c.target);
-    record.pictures = cut_pictures(window, c, verdict, capture);
-    add_depths(record.pictures, window, c, verdict, expectation, capture);
-    add_stencils(record.pictures, window, c, verdict, expectation, capture);
-    record.geometry = geometry_of(window, c, limits, expectation, report::kMaxShapes);
+    record.evidence.pictures = cut_pictures(window, c, verdict, capture);
+    add_depths(record.evidence.pictures, window, c, verdict, expectation, capture);
+    add_stencils(record.evidence.pictures, window, c, verdict, expectation, capture);
+    record.evidence.geometry = geometry_of(window, c, limits, expectation, report::kMaxShapes);
 }
 
 }  // namespace
@@ -269,8 +269,9 @@ void keep_reference(report::CaseRecord& record, const cases::Case& c, const diff
         return;
     }
     const PictureWindow window(verdict, c.target);
-    record.reference = cut_reference(window, verdict);
-    record.geometry = geometry_of(window, c, limits, expectation, report::kMaxReferenceShapes);
+    record.evidence.reference = cut_reference(window, verdict);
+    record.evidence.geometry =
+        geometry_of(window, c, limits, expectation, report::kMaxReferenceShapes);
 }
 
 void keep_evidence(report::CaseRecord& record, const cases::Case& c, const diff::Verdict& verdict,
@@ -283,7 +284,7 @@ void keep_evidence(report::CaseRecord& record, const cases::Case& c, const diff:
     }
     EvidenceMaker maker(c, expectation, capture, limits);
     for (const size_t index : chosen_samples(window, c.target, verdict)) {
-        record.evidence.push_back(maker.at(index));
+        record.evidence.samples.push_back(maker.at(index));
     }
 }
 

@@ -31,8 +31,8 @@ bool keep_verdict(CaseRecord& record, const diff::Verdict& verdict, KeepPictures
                     : verdict.ok()         ? Status::pass
                                            : Status::fail;
     record.reason = verdict.error;
-    static_cast<diff::Outcome&>(record) = verdict;
-    record.wrong_samples = verdict.count_wrong_samples();
+    record.outcome = diff::Outcome(verdict);
+    record.outcome.wrong_samples = verdict.count_wrong_samples();
     return pictures == KeepPictures::all ||
            (pictures == KeepPictures::failed && record.status != Status::pass);
 }
@@ -46,9 +46,9 @@ void note_doors(CaseRecord& record, std::span<const cases::Derivation> derivatio
         }
         const std::string word(cases::row_of(derivations[k].variation.door).word);
         if (found[k].closed.empty()) {
-            record.drawn_doors.push_back(word);
+            record.drawn.doors.push_back(word);
         } else {
-            record.closed_doors.emplace_back(word, found[k].closed);
+            record.drawn.closed_doors.emplace_back(word, found[k].closed);
         }
     }
 }
@@ -145,7 +145,7 @@ void judge(CaseRecord& record, const cases::Case& filed, const capture::CaptureV
             diff::add_stray_writes(c, found.stray_writes, verdict);
         }
         if (!capture.hits.empty()) {
-            record.hit_bits = cases::hex(capture::hit_bits(capture));
+            record.drawn.hit_bits = cases::hex(capture::hit_bits(capture));
         }
         if (keep_verdict(record, verdict, pictures)) {
             keep_evidence(record, c, verdict, expectation, capture, limits);
@@ -164,7 +164,7 @@ void judge(CaseRecord& record, const cases::Case& filed, const capture::CaptureV
 
 void judge_delivered(CaseRecord& record, const cases::Case& filed, const capture::Delivered& planes,
                      const ref::Limits& limits, cases::Profile profile, KeepPictures pictures) {
-    record.is_delivered = true;
+    record.drawn.is_delivered = true;
     try {
         const std::optional<cases::Case> placed = ref::as_drawn(filed, limits);
         const cases::Case& c = placed ? *placed : filed;
@@ -190,7 +190,7 @@ void judge_delivered(CaseRecord& record, const cases::Case& filed, const capture
 
 void require_support(CaseRecord& record) {
     if (record.status == Status::unsupported) {
-        record.actual = record.status;
+        record.known.actual = record.status;
         record.status = Status::fail;
         record.reason = "unsupported, where --require-support asks for support: " + record.reason;
     }

@@ -9,9 +9,9 @@
 
 namespace run {
 
-report::CaseRecord judge_limits(const vk_harness::DeviceInfo& device) {
+report::CaseRecord judge_limits(const capture::DeviceInfo& device) {
     diff::Verdict verdict;
-    for (const vk_harness::WrongLimit& limit : device.wrong_limits) {
+    for (const capture::WrongLimit& limit : device.wrong_limits) {
         diff::Finding finding = diff::finding_of_case(diff::FindingKind::value);
         finding.rule = cases::rule::device_limits;
         finding.level = cases::Profile::vulkan;
@@ -26,13 +26,13 @@ report::CaseRecord judge_limits(const vk_harness::DeviceInfo& device) {
         verdict.add(std::move(finding), cases::Target());
     }
     report::CaseRecord record;
-    static_cast<diff::Outcome&>(record) = verdict;
-    record.wrong_samples = 0;  // nothing was drawn
+    record.outcome = diff::Outcome(verdict);
+    record.outcome.wrong_samples = 0;  // nothing was drawn
     record.id = cases::kLimitsCase;
     record.description = "The device's limits are what Vulkan requires.";
     record.rules = {cases::rule::device_limits};
     record.status = verdict.ok() ? report::Status::pass : report::Status::fail;
-    if (device.api_version == 0) {
+    if (device.api_version.empty()) {
         record.status = report::Status::unsupported;
         record.reason = "what draws here has no Vulkan, and so no limits of it";
     }

@@ -12,7 +12,7 @@
 #include "diff/resolve.hpp"
 #include "ref/stencil/outcome.hpp"
 #include "ref/stencil/values.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 
 namespace run {
 

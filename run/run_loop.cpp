@@ -18,9 +18,9 @@
 
 namespace run {
 
+using capture::Rendered;
 using report::CaseRecord;
 using report::Status;
-using vk_harness::Rendered;
 
 namespace {
 
@@ -75,12 +75,9 @@ RunLoop::RunLoop(LoopConfig config, Plan plan, report::Journal* journal, SignalF
       pool_(cases::cores()),
       is_finished_(cases_.size(), false) {}
 
-RunLoop::End RunLoop::run(std::vector<WorkerClient> workers, const vk_harness::DeviceInfo& device) {
+RunLoop::End RunLoop::run(std::vector<WorkerClient> workers, const capture::DeviceInfo& device) {
     device_ = device;
-    if (config_.worker.renderer.empty()) {
-        config_.worker.vulkan.pinned_uuid = device.uuid;
-        config_.worker.vulkan.pinned_driver = device.driver_id;
-    }
+    config_.worker.renderer.pinned = device.key;
     if (config_.gpu_budget) {
         schedule_.set_batch_bytes(0);  // until it is known how long they take, one case each
     }
@@ -234,9 +231,9 @@ void RunLoop::advance(Slot& slot) {
         if (!slot.client) {
             return;  // an earlier event has ended it
         }
-        if (auto* device = std::get_if<vk_harness::DeviceInfo>(&event); device != nullptr) {
+        if (auto* device = std::get_if<capture::DeviceInfo>(&event); device != nullptr) {
             on_device(slot, *device);
-        } else if (auto* failure = std::get_if<vk_harness::Failure>(&event); failure != nullptr) {
+        } else if (auto* failure = std::get_if<capture::Failure>(&event); failure != nullptr) {
             on_start_failure(slot, failure->message);
             return;
         } else if (auto* result = std::get_if<CaseResult>(&event); result != nullptr) {
@@ -250,8 +247,8 @@ void RunLoop::advance(Slot& slot) {
     }
 }
 
-void RunLoop::on_device(Slot& slot, const vk_harness::DeviceInfo& device) {
-    if (device.name != device_.name || device.uuid != device_.uuid ||
+void RunLoop::on_device(Slot& slot, const capture::DeviceInfo& device) {
+    if (device.name != device_.name || device.key != device_.key ||
         device.driver_version != device_.driver_version) {
         fail("a later worker found another device ('" + device.name + "' instead of '" +
              device_.name + "')");
@@ -302,9 +299,9 @@ void RunLoop::on_result(Slot& slot, CaseResult& result) {
                                          : lost      ? Status::device_lost
                                                      : Status::error,
                                          rendered.reason);
-        record.messages = rendered.messages;
+        record.drawn.messages = rendered.messages;
         if (!unsupported) {
-            record.stderr_text = slot.client->output_since_batch();
+            record.death.output = slot.client->output_since_batch();
         }
         settle(k, std::move(record));
         return;
@@ -329,8 +326,8 @@ void RunLoop::on_result(Slot& slot, CaseResult& result) {
                 break;
             }
             auto record = std::make_shared<CaseRecord>(fresh_record(k, Status::not_run));
-            record->messages = rendered.messages;
-            record->bits = cases::hex(result.bits);
+            record->drawn.messages = rendered.messages;
+            record->drawn.bits = cases::hex(result.bits);
             const uint64_t bytes = capture::capture_bytes(cases_[k].data);
             judging_bytes_ += bytes;
             // It may outlive the loop (abandon_judgements), so all that it uses is its own.
@@ -438,17 +435,17 @@ void RunLoop::on_death(Slot& slot, const Death& death) {
         seconds_[k] += seconds_since(slot.since);
         CaseRecord record =
             fresh_record(k, death.timed_out ? Status::timeout : Status::crash, describe(death));
-        record.step = death.step;
-        record.signal = signal;
-        record.stderr_text = death.output;
+        record.death.step = death.step;
+        record.death.signal = signal;
+        record.death.output = death.output;
         judged_.erase(k);
         settle(k, std::move(record));
     }
 }
 
 void RunLoop::settle(size_t k, CaseRecord record) {
-    record.attempts = schedule_.attempts(k);
-    record.seconds = seconds_[k];
+    record.drawn.attempts = schedule_.attempts(k);
+    record.drawn.seconds = seconds_[k];
     schedule_.settled(k, record.status);
     if (!schedule_.is_held(k)) {
         finish(k, std::move(record));
@@ -468,19 +465,19 @@ void RunLoop::settle(size_t k, CaseRecord record) {
 // and the others are told, because any of them may be the culprit.
 void RunLoop::charge(CaseRecord& record, const Schedule::Released& death) const {
     record.status = Status::flake;
-    record.signal = death.signal;
-    record.step = death.step;
+    record.death.signal = death.signal;
+    record.death.step = death.step;
     record.reason = death.unrepeated_death + "; no case of its batch repeated that alone";
     record.rerun = repeating(record.rerun, config_.schedule.repeat, kRepeatsOfDeath);
     for (const size_t k : death.suspects) {
-        record.suspects.push_back(cases_[k].data.id);
+        record.death.suspects.push_back(cases_[k].data.id);
         if (k != death.k && !cases_[k].selector.empty()) {
             record.rerun += " " + cases_[k].selector;
         }
     }
-    if (record.suspects.size() > 1) {
+    if (record.death.suspects.size() > 1) {
         record.reason +=
-            "; it may be any of " + fmt::format("{}", fmt::join(record.suspects, ", "));
+            "; it may be any of " + fmt::format("{}", fmt::join(record.death.suspects, ", "));
     }
 }
 
@@ -491,26 +488,28 @@ void RunLoop::finish(size_t k, CaseRecord record) {
     if (config_.requires_support) {
         require_support(record);
     }
-    if (!record.findings.empty()) {
-        record.explain = cases_[k].explain + report::sample_options(report::leading_finding(record),
-                                                                    cases_[k].data.target);
+    if (!record.outcome.findings.empty()) {
+        record.commands.explain =
+            cases_[k].explain +
+            report::sample_options(report::leading_finding(record), cases_[k].data.target);
     }
     const bool died = record.status == Status::crash || record.status == Status::timeout ||
                       record.status == Status::device_lost;
-    const bool is_plain =
-        std::ranges::all_of(record.groups, [](const auto& group) { return group.door.empty(); });
-    const bool is_judged = !died && record.status != Status::flake && !record.findings.empty();
+    const bool is_plain = std::ranges::all_of(record.outcome.groups,
+                                              [](const auto& group) { return group.door.empty(); });
+    const bool is_judged =
+        !died && record.status != Status::flake && !record.outcome.findings.empty();
     if (is_judged && is_plain && record.rerun == cases_[k].rerun &&
         !cases_[k].plain_rerun.empty()) {
         record.rerun = cases_[k].plain_rerun;
     }
-    if (died || !record.findings.empty()) {
+    if (died || !record.outcome.findings.empty()) {
         // The program draws the plain picture: what only doors show it would not.
-        const bool is_of_doors = !died && std::ranges::all_of(record.groups, [](const auto& group) {
-            return !group.door.empty();
-        });
-        record.reproducer = is_of_doors ? "" : cases_[k].reproducer;
-        record.no_reproducer = is_of_doors ? report::kDoorsAlone : cases_[k].no_reproducer;
+        const bool is_of_doors =
+            !died && std::ranges::all_of(record.outcome.groups,
+                                         [](const auto& group) { return !group.door.empty(); });
+        record.commands.reproducer = is_of_doors ? "" : cases_[k].reproducer;
+        record.commands.no_reproducer = is_of_doors ? report::kDoorsAlone : cases_[k].no_reproducer;
     }
     if (journal_ != nullptr) {
         check(journal_->write_end(record));

@@ -14,20 +14,16 @@
 #include "cases/format/depth_format.hpp"
 #include "vk_harness/memory/barrier.hpp"
 #include "vk_harness/memory/memory.hpp"
-#include "vk_harness/renderer.hpp"
 #include "vk_harness/target/readback.hpp"
 
 namespace vk_harness {
 
 struct DepthCodes::Asking {
-    Handle<VkDeviceMemory> memory;
-    Handle<VkImage> image;
-    Handle<VkImageView> view;
+    SampledImage image;
     Buffer codes, read;
     DescriptorSets sets;
-    Result<void> make_image(const Device& device, VkFormat format, VkExtent2D extent);
-    Result<void> make_buffers(const Device& device, VkDeviceSize bytes);
-    Result<void> make_set(const Device& device, const PipelineCache& pipelines);
+    Asking(const Device& device, const PipelineCache& pipelines, VkFormat format, VkExtent2D extent,
+           VkDeviceSize bytes);
     void record(const Device& device, const PipelineCache& pipelines, VkPipeline pipeline,
                 VkCommandBuffer commands, VkFormat format, VkExtent2D extent) const;
 };
@@ -55,44 +51,19 @@ bool is_depth(uint32_t word) {
 
 }  // namespace
 
-Result<void> DepthCodes::Asking::make_image(const Device& device, VkFormat format,
-                                            VkExtent2D extent) {
-    if (auto made = put(image, vk_harness::make_image(device, image_info(format, extent, kUsage)));
-        !made) {
-        return made;
-    }
-    if (auto made = put(memory, bind_memory(device, image.get())); !made) {
-        return made;
-    }
-    VkImageViewCreateInfo info = Typed{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
-    info.image = image.get();
-    info.viewType = VK_IMAGE_VIEW_TYPE_2D_ARRAY;
-    info.format = format;
-    info.subresourceRange = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, 0, 1};
-    return put(view, make(device, Stage::memory, "vkCreateImageView", device.vk().vkCreateImageView,
-                          device.vk().vkDestroyImageView, info));
-}
-
-Result<void> DepthCodes::Asking::make_buffers(const Device& device, VkDeviceSize bytes) {
-    if (auto made = put(codes, Buffer::create(device, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                                              HostAccess::write));
-        !made) {
-        return made;
-    }
-    return put(read,
-               Buffer::create(device, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, HostAccess::read));
-}
-
-Result<void> DepthCodes::Asking::make_set(const Device& device, const PipelineCache& pipelines) {
-    const std::array<VkDescriptorPoolSize, 2> sizes = {
-        VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1},
-        VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1}};
-    const VkDescriptorSetLayout layout = pipelines.copy_set_layout();
-    if (auto made = put(sets, make_sets(device, sizes, {&layout, 1})); !made) {
-        return made;
-    }
-    write_copy_set(device, sets.sets.front(), view.get(), {read.get(), 0, read.size()});
-    return {};
+DepthCodes::Asking::Asking(const Device& device, const PipelineCache& pipelines, VkFormat format,
+                           VkExtent2D extent, VkDeviceSize bytes)
+    : image(make_sampled(device, image_info(format, extent, kUsage), VK_IMAGE_VIEW_TYPE_2D_ARRAY,
+                         {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, 0, 1})),
+      codes(Buffer::create(device, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HostAccess::write)),
+      read(Buffer::create(device, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, HostAccess::read)),
+      sets(make_sets(device, {VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+                     pipelines.copy_set_layout())) {
+    DescriptorWrites writes;
+    writes.add(sets.sets.front(), 0, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
+               {VK_NULL_HANDLE, image.view.get(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
+    writes.add(sets.sets.front(), 1, {read.get(), 0, read.size()});
+    writes.write(device);
 }
 
 void DepthCodes::Asking::record(const Device& device, const PipelineCache& pipelines,
@@ -101,7 +72,7 @@ void DepthCodes::Asking::record(const Device& device, const PipelineCache& pipel
     const VolkDeviceTable& vk = device.vk();
     const VkImageSubresourceRange range = {all_aspects(format), 0, 1, 0, 1};
     const auto turn = [&](const ImageUse& from, const ImageUse& to) {
-        const VkImageMemoryBarrier2 barrier = image_barrier(image.get(), range, from, to);
+        const VkImageMemoryBarrier2 barrier = image_barrier(image.image.get(), range, from, to);
         record_barriers(device, commands, {&barrier, 1});
     };
     const ImageUse written = {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
@@ -110,7 +81,7 @@ void DepthCodes::Asking::record(const Device& device, const PipelineCache& pipel
     VkBufferImageCopy region{};
     region.imageSubresource = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 0, 1};
     region.imageExtent = {extent.width, extent.height, 1};
-    vk.vkCmdCopyBufferToImage(commands, codes.get(), image.get(),
+    vk.vkCmdCopyBufferToImage(commands, codes.get(), image.image.get(),
                               VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
     turn(written, {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
                    VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
@@ -130,47 +101,24 @@ bool can_ask_codes(const Capabilities& capabilities, VkFormat format) {
            image_limits(capabilities.physical, format, kUsage, 0).width >= kWidth;
 }
 
-Result<void> DepthCodes::ask(Submission& submission, PipelineCache& pipelines, VkFormat format,
-                             const std::vector<uint32_t>& codes) {
+void DepthCodes::ask(Submission& submission, PipelineCache& pipelines, VkFormat format,
+                     const std::vector<uint32_t>& codes) {
     const VkExtent2D extent = {kWidth, static_cast<uint32_t>((codes.size() + kWidth - 1) / kWidth)};
     const size_t words = size_t{extent.width} * extent.height;
-    auto pipeline = pipelines.get_code_copy();
-    if (!pipeline) {
-        return fail(pipeline.error());
-    }
-    last_ = std::make_shared<Asking>();
+    const VkPipeline pipeline = pipelines.get_code_copy();
+    last_ = std::make_shared<Asking>(*device_, pipelines, format, extent, words * sizeof(uint32_t));
     Asking& asking = *last_;
-    if (auto made = asking.make_image(*device_, format, extent); !made) {
-        return made;
-    }
-    if (auto made = asking.make_buffers(*device_, words * sizeof(uint32_t)); !made) {
-        return made;
-    }
-    if (auto made = asking.make_set(*device_, pipelines); !made) {
-        return made;
-    }
     // The codes of the last row that are not asked for are 0.
     std::vector<uint32_t> texels = codes;
     texels.resize(words);
     std::memcpy(asking.codes.bytes().data(), texels.data(), words * sizeof(uint32_t));
-    if (auto flushed = asking.codes.flush(); !flushed) {
-        return flushed;
-    }
+    asking.codes.flush();
     poison(asking.read.bytes().first(words * sizeof(uint32_t)));
-    if (auto flushed = asking.read.flush(); !flushed) {
-        return flushed;
-    }
+    asking.read.flush();
     auto commands = submission.begin();
-    if (!commands) {
-        return fail(commands.error());
-    }
-    asking.record(*device_, pipelines, *pipeline, *commands, format, extent);
-    if (auto done = submission.run(); !done) {
-        return done;
-    }
-    if (auto visible = asking.read.invalidate(); !visible) {
-        return visible;
-    }
+    asking.record(*device_, pipelines, pipeline, commands, format, extent);
+    submission.run();
+    asking.read.invalidate();
     const auto* read = reinterpret_cast<const uint32_t*>(asking.read.bytes().data());
     Format& known = formats_[format];
     for (size_t k = 0; k < codes.size(); ++k) {
@@ -181,11 +129,10 @@ Result<void> DepthCodes::ask(Submission& submission, PipelineCache& pipelines, V
     }
     known.asked.insert(codes.begin(), codes.end());
     last_.reset();
-    return {};
 }
 
-Result<void> DepthCodes::learn(Submission& submission, PipelineCache& pipelines, VkFormat format,
-                               std::span<const uint32_t> words) {
+void DepthCodes::learn(Submission& submission, PipelineCache& pipelines, VkFormat format,
+                       std::span<const uint32_t> words) {
     const Format& known = formats_[format];
     const std::set<uint32_t> distinct(words.begin(), words.end());
     std::set<uint32_t> codes;
@@ -210,11 +157,8 @@ Result<void> DepthCodes::learn(Submission& submission, PipelineCache& pipelines,
     for (size_t first = 0; first < all.size(); first += kMost) {
         const auto begin = all.begin() + static_cast<std::ptrdiff_t>(first);
         const auto end = begin + static_cast<std::ptrdiff_t>(std::min(kMost, all.size() - first));
-        if (auto asked = ask(submission, pipelines, format, {begin, end}); !asked) {
-            return asked;
-        }
+        ask(submission, pipelines, format, {begin, end});
     }
-    return {};
 }
 
 std::optional<std::string> DepthCodes::decode(VkFormat format, std::span<const uint32_t> words,

@@ -20,11 +20,10 @@
 #include <unordered_map>
 #include <vector>
 
+#include "vk_harness/commands/submission.hpp"
 #include "vk_harness/pipeline/pipeline_cache.hpp"
 
 namespace vk_harness {
-
-class Submission;
 
 // Whether the device has images of this format of D24 to ask by.
 bool can_ask_codes(const Capabilities& capabilities, VkFormat format);
@@ -35,8 +34,8 @@ class DepthCodes {
 
     // Asks the device about the numbers, bits of binary32 that a shader read, of which it has not
     // been asked before. `submission`: one in which nothing is recorded and nothing executed.
-    Result<void> learn(Submission& submission, PipelineCache& pipelines, VkFormat format,
-                       std::span<const uint32_t> words);
+    void learn(Submission& submission, PipelineCache& pipelines, VkFormat format,
+               std::span<const uint32_t> words);
 
     // The depth (cases::depth_of_code) of each number that was learned; poison stays poison, and
     // what lies outside 0 to 1 stays what it is. A sentence: why the codes cannot be told.
@@ -49,8 +48,8 @@ class DepthCodes {
         std::set<uint32_t> asked;                        // codes
         std::set<uint32_t> ambiguous;                    // what several codes are read as
     };
-    Result<void> ask(Submission& submission, PipelineCache& pipelines, VkFormat format,
-                     const std::vector<uint32_t>& codes);
+    void ask(Submission& submission, PipelineCache& pipelines, VkFormat format,
+             const std::vector<uint32_t>& codes);
 
     struct Asking;  // an image of codes and what a shader reads of it
     const Device* device_;

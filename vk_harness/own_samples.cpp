@@ -1,13 +1,9 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// Where the samples are of a device that does not promise the standard locations: it says so
-// itself, by gl_SamplePosition, which is "the sub-pixel position of the sample being shaded"
-// (Vulkan specification, "Built-In Variables", SamplePosition). What it then draws is held to that.
+#include "vk_harness/own_samples.hpp"
+
 #include <cmath>
 #include <optional>
-
-#include "vk_harness/renderer.hpp"
 
 namespace vk_harness {
 
@@ -61,8 +57,9 @@ cases::SampleLocations told_locations(std::span<const glm::vec4> positions, uint
     return told;
 }
 
-void BatchRenderer::ask_sample_locations() {
-    const Capabilities& c = device_->capabilities();
+void ask_sample_locations(BatchRenderer& renderer) {
+    Device& device = renderer.device();
+    const Capabilities& c = device.capabilities();
     if (c.has_standard_locations || !c.has_sample_shading) {
         return;
     }
@@ -70,9 +67,10 @@ void BatchRenderer::ask_sample_locations() {
     std::string error;
     for (uint32_t samples = 2; samples <= 16; samples *= 2) {
         // So that the case is drawn: until the answer is there, the locations count as told.
-        device_->set_sample_locations({cases::SampleLocations(samples)});
+        device.set_sample_locations({cases::SampleLocations(samples)});
         const cases::Case asking = asking_case(samples);
-        const Rendered answer = render({&asking, 1}, true, [](std::string_view) {}, {}).front();
+        const Rendered answer =
+            renderer.render({&asking, 1}, true, [](std::string_view) {}, {}).front();
         if (answer.status == Rendered::Status::drawn) {
             cases::SampleLocations own = told_locations(answer.capture.attributes[0], samples);
             if (!own.empty()) {
@@ -82,7 +80,7 @@ void BatchRenderer::ask_sample_locations() {
             error = "the device cannot be asked where its samples are: " + answer.reason;
         }
     }
-    device_->set_sample_locations(std::move(told), std::move(error));
+    device.set_sample_locations(std::move(told), std::move(error));
 }
 
 }  // namespace vk_harness

@@ -242,25 +242,25 @@ constexpr std::array kRules = {
          "noperspective values are linear in framebuffer space",
          "a f_a + b f_b + c f_c with barycentric coordinates at the sample, each operation to 1 "
          "part in 10^5; within the binary32 budget of docs/precision.md from profile practice on.",
-         "primsrast-polygon-barycentrics", "15.16", "ref/value/value.hpp"},
+         "primsrast-polygon-barycentrics", "15.16", "ref/value/reference.hpp"},
     Rule{rule::interp_perspective, Profile::vulkan, "smooth values are perspective-correct",
          "(sum a_i f_i/w_i) / (sum a_i/w_i), each operation to 1 part in 10^5; within the binary32 "
          "budget of docs/precision.md from profile practice on.",
-         "primsrast-polygon-barycentrics", "15.16", "ref/value/value.hpp"},
+         "primsrast-polygon-barycentrics", "15.16", "ref/value/reference.hpp"},
     Rule{rule::interp_hull, Profile::vulkan, "A value stays inside the vertex values' range",
          "NaN, or a value outside the hull of the vertex values by more than the budget, is wrong "
          "under every profile.",
-         "primsrast-polygon-barycentrics", "", "ref/value/value.hpp"},
+         "primsrast-polygon-barycentrics", "", "ref/value/reference.hpp"},
     Rule{rule::interp_flat, Profile::vulkan, "flat values arrive bit for bit",
          "Finite normal numbers of the provoking vertex, unchanged; a denormal may be flushed to "
          "zero, zero may lose its sign, NaN and infinity need not arrive.",
-         "vertexpostproc-flatshading", "16.4", "ref/value/value.hpp"},
+         "vertexpostproc-flatshading", "16.4", "ref/value/reference.hpp"},
     Rule{rule::fragcoord_xy, Profile::vulkan, "FragCoord.xy is the pixel centre",
          "Exactly (i + 1/2, j + 1/2) without sample shading.",
          "interfaces-builtin-variables-fragcoord", "", "ref/value/sample_values.cpp"},
     Rule{rule::fragcoord_w, Profile::vulkan, "FragCoord.w is the interpolated 1/w",
          "Linear in framebuffer space; within the binary32 budget from profile practice on.",
-         "interfaces-builtin-variables-fragcoord", "", "ref/value/value.hpp"},
+         "interfaces-builtin-variables-fragcoord", "", "ref/value/reference.hpp"},
     Rule{rule::store_unorm, Profile::vulkan, "A colour is stored as one of the two nearest codes",
          "r = f (2^b - 1) of the clamped value; a whole r is stored as it is, otherwise one of its "
          "two neighbours. Direct3D allows 0.6 of a unit.",
@@ -318,7 +318,7 @@ constexpr std::array kRules = {
     Rule{rule::depth_linear, Profile::vulkan, "Depth is linear in framebuffer space",
          "z_f is interpolated linearly at the sample; on a D32 target and for FragCoord.z within "
          "the binary32 budget from profile practice on.",
-         "primsrast-polygon-barycentrics", "15.16", "ref/value/value.hpp"},
+         "primsrast-polygon-barycentrics", "15.16", "ref/value/reference.hpp"},
     Rule{rule::repeat_same, Profile::vulkan, "The same commands draw the same bits",
          "Same draws, same state, same device: every sample of every attachment has the same bits, "
          "in the same submission and in another. Nothing is left free (shaders have no side "
@@ -561,7 +561,7 @@ constexpr std::array kRules = {
          "Barycentric built-ins interpolate the unit vectors",
          "With perspective or, BaryCoordNoPersp, linearly; within the binary32 budget from profile "
          "practice on.",
-         "primsrast-barycentric", "", "ref/value/value.hpp"},
+         "primsrast-barycentric", "", "ref/value/reference.hpp"},
     Rule{
         rule::barycentric_order, Profile::vulkan, "Barycentric vertex order follows the topology",
         "The triangle's vertices turned so that the provoking vertex is the first (or the last, "

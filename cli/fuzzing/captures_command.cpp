@@ -223,13 +223,13 @@ std::vector<CaseRecord> CapturesCommand::draw(const std::vector<cases::Case>& ca
         record.reason = end.reason;
         if (end.kind == End::Kind::crash || end.kind == End::Kind::timeout) {
             record.status = end.kind == End::Kind::crash ? Status::crash : Status::timeout;
-            record.signal = end.signal;
+            record.death.signal = end.signal;
         }
         if (end.kind != End::Kind::well) {
             continue;
         }
         const auto read = capture::read_planes(out / capture::folder_of(cases[k].id), cases[k]);
-        record.attempts = 1;
+        record.drawn.attempts = 1;
         if (!read) {
             record.status = Status::error;
             record.reason = read.error().message;

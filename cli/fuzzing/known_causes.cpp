@@ -97,7 +97,7 @@ std::vector<Open> failing_cases(const ExpectedFailures& expected, Reducer& reduc
         const cases::Expected<std::string> text = cases::to_toml(c);
         std::vector<Symptom> symptoms = fuzz::symptoms_of(records[k]);
         if (record.status == Status::xfail && text && !symptoms.empty()) {
-            all.push_back({*text, record.bug, fuzz::facts_of(*text), std::move(symptoms)});
+            all.push_back({*text, record.known.bug, fuzz::facts_of(*text), std::move(symptoms)});
         }
     }
     // The shortest first: nearest to what it will be.
@@ -109,7 +109,7 @@ std::vector<Open> failing_cases(const ExpectedFailures& expected, Reducer& reduc
 }  // namespace
 
 OrStop<ExpectedFailures> expected_failures(const Program& program, const RunOptions& options,
-                                           const report::Device& device) {
+                                           const capture::DeviceInfo& device) {
     ExpectedFailures out;
     if (options.no_expect) {
         return out;

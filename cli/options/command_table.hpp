@@ -31,12 +31,4 @@ struct CommandTable {
 
 CommandTable command_table();
 
-// Shell scripts that complete commands, options, their values and the ids of cases.
-std::string bash_completion(const CommandTable& table);
-std::string zsh_completion(const CommandTable& table);
-std::string fish_completion(const CommandTable& table);
-
-// The manual page edgecase(1) in roff.
-std::string manual_page(const CommandTable& table, const std::string& version);
-
 }  // namespace cli

@@ -26,6 +26,7 @@
 #include "report/journal/journal.hpp"
 #include "report/page/html.hpp"
 #include "report/text/sentences.hpp"
+#include "report/text/wrap.hpp"
 
 namespace cli {
 
@@ -274,6 +275,11 @@ report::ConsoleStyle console_style(std::FILE* stream, When when, bool verbose) {
         style.wrap = true;
     }
     return style;
+}
+
+void say_wrapped(const std::string& text) {
+    const report::ConsoleStyle style = console_style(stdout, When::never, false);
+    say(style.wrap ? report::wrapped(text, style.width) : text);
 }
 
 std::string progress_line(size_t done, size_t total, std::optional<size_t> unexpected,

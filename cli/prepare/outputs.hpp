@@ -76,6 +76,9 @@ int finish_output(int code);
 
 // Console style for a stream: colour by `when`, NO_COLOR and whether it is a terminal.
 report::ConsoleStyle console_style(std::FILE* stream, When when, bool verbose);
+// Says a text to people: on a terminal no word is broken at its last column; elsewhere a line stays
+// whole, for programs that search.
+void say_wrapped(const std::string& text);
 
 // Progress as one line: "[120/3538] 3%  2 unexpected  410/s  8 s left", cut to `width` columns.
 // `seconds` is how long the run has lasted.

@@ -401,7 +401,7 @@ OrStop<std::monostate> apply_expectations(Prepared& p) {
 }
 
 std::optional<CaseRecord> limits_record(const Program& program, const Prepared& p,
-                                        const vk_harness::DeviceInfo& device) {
+                                        const capture::DeviceInfo& device) {
     const auto& all = p.header.cases;
     const auto known = std::ranges::find(all, cases::kLimitsCase, &CaseRecord::id);
     const bool is_named = p.of_limits && p.of_limits->glob == cases::kLimitsCase;
@@ -414,7 +414,7 @@ std::optional<CaseRecord> limits_record(const Program& program, const Prepared& 
     CaseRecord record = run::judge_limits(device);
     record.rerun = rerun_line(program, p.options, record.id);
     if (p.of_limits && skips(*p.of_limits)) {
-        static_cast<diff::Outcome&>(record) = {};
+        record.outcome = {};
         record.status = report::Status::skip;
         record.reason = p.of_limits->note;
     }

@@ -11,7 +11,7 @@
 #include "cases/model/case.hpp"
 #include "ref/color/blend.hpp"
 #include "ref/expectation/expectation.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 
 namespace cli {
 

@@ -14,7 +14,7 @@
 #include "cli/reproducer/probe_ranges.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/value/fragment/shading_rate.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 
 namespace cli {
 

@@ -14,7 +14,7 @@
 #include "cases/model/triangle.hpp"
 #include "ref/position/limits.hpp"
 #include "ref/value/fragment/fragment_coverage.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 
 namespace cli {
 

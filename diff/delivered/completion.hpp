@@ -13,7 +13,7 @@
 #include "capture/delivered.hpp"
 #include "cases/model/case.hpp"
 #include "ref/expectation/expectation.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 
 namespace diff {
 

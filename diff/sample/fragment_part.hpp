@@ -5,7 +5,7 @@
 #include "cases/model/case.hpp"
 #include "cases/model/sample.hpp"
 #include "ref/expectation/expectation.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 
 namespace diff {
 

@@ -14,7 +14,7 @@
 #include "capture/capture.hpp"
 #include "cases/model/case.hpp"
 #include "ref/expectation/expectation.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 
 namespace diff {
 

@@ -14,7 +14,7 @@
 #include "probe/base/scene.hpp"
 #include "probe/experiment/experiments.hpp"
 #include "probe/experiment/triangle.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 
 namespace probe {
 

@@ -14,7 +14,7 @@
 #include "cases/model/case.hpp"
 #include "rasterizers/algorithms/interpolation.hpp"
 #include "rasterizers/algorithms/raster.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 
 namespace rasterizers {
 

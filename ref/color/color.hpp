@@ -18,7 +18,7 @@
 #include "ref/color/blend.hpp"
 #include "ref/color/color_memory.hpp"
 #include "ref/expectation/expectation.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 
 namespace ref {
 

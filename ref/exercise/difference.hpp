@@ -17,7 +17,7 @@
 #include "ref/exercise/shown.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/value/fragment/quantities.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 
 namespace ref {
 

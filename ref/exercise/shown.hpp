@@ -14,7 +14,7 @@
 #include "cases/model/sample.hpp"
 #include "ref/color/color.hpp"
 #include "ref/expectation/expectation.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 
 namespace ref {
 

@@ -16,7 +16,7 @@
 #include "ref/expectation/explain.hpp"
 #include "ref/expectation/onlooker.hpp"
 #include "ref/value/fragment/quantities.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 
 namespace ref {
 

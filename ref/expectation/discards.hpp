@@ -14,7 +14,7 @@
 #include "cases/model/profile.hpp"
 #include "cases/model/sample.hpp"
 #include "ref/position/limits.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 
 namespace ref {
 

@@ -24,7 +24,7 @@
 #include "ref/value/accept/judge_candidates.hpp"
 #include "ref/value/fragment/fragment_coverage.hpp"
 #include "ref/value/fragment/shading_rate.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 
 namespace ref::value {
 

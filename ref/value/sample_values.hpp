@@ -17,7 +17,7 @@
 #include "ref/value/fragment/fragment_coverage.hpp"
 #include "ref/value/fragment/quantities.hpp"
 #include "ref/value/places.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 
 namespace ref::value {
 

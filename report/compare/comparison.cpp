@@ -35,7 +35,7 @@ std::optional<int> severity(const CaseRecord* record) {
 // A run has no such case, its device does not support it, or somebody wants it not to be drawn.
 bool is_lacking(const CaseRecord* record) {
     return record == nullptr || actual_status(*record) == Status::unsupported ||
-           (record->status == Status::skip && record->expected == Status::skip);
+           (record->status == Status::skip && record->known.expected == Status::skip);
 }
 
 // Nothing is known of what the case would have done: besides the above, a run that ended early
@@ -48,13 +48,13 @@ bool is_gone(const CaseRecord* record) {
 // of.
 std::vector<std::string> news_of(const CaseRecord& a, const CaseRecord& b) {
     std::vector<std::string> news;
-    for (const diff::FindingGroup& g : b.groups) {
-        const auto same =
-            std::find_if(a.groups.begin(), a.groups.end(), [&](const diff::FindingGroup& other) {
-                return g.kind == other.kind && g.rule == other.rule && g.level == other.level &&
-                       g.door == other.door;
-            });
-        const uint64_t before = same == a.groups.end() ? 0 : same->count;
+    for (const diff::FindingGroup& g : b.outcome.groups) {
+        const auto same = std::find_if(a.outcome.groups.begin(), a.outcome.groups.end(),
+                                       [&](const diff::FindingGroup& other) {
+                                           return g.kind == other.kind && g.rule == other.rule &&
+                                                  g.level == other.level && g.door == other.door;
+                                       });
+        const uint64_t before = same == a.outcome.groups.end() ? 0 : same->count;
         if (g.count > before) {
             news.push_back(fmt::format("{} {} of {} [{}]{}", g.count, diff::to_string(g.kind),
                                        g.rule.empty() ? "no told rule" : g.rule,
@@ -67,16 +67,17 @@ std::vector<std::string> news_of(const CaseRecord& a, const CaseRecord& b) {
 
 // What identifies how a case fails, as far as both runs tell it.
 bool fails_alike(const CaseRecord& a, const CaseRecord& b) {
-    return a.counts == b.counts && a.level == b.level && a.signal == b.signal && a.bits == b.bits &&
+    return a.outcome.counts == b.outcome.counts && a.outcome.level == b.outcome.level &&
+           a.death.signal == b.death.signal && a.drawn.bits == b.drawn.bits &&
            actual_status(a) == actual_status(b);
 }
 
 // Whether b fails in a way in which a does not; nothing is said of journals without groups.
 bool fails_anew(const CaseRecord& a, const CaseRecord& b) {
-    if (actual_status(a) != actual_status(b) || a.signal != b.signal) {
+    if (actual_status(a) != actual_status(b) || a.death.signal != b.death.signal) {
         return actual_status(a) == actual_status(b);
     }
-    return !a.groups.empty() && !news_of(a, b).empty();
+    return !a.outcome.groups.empty() && !news_of(a, b).empty();
 }
 
 // The first later run that has another case under the id than the first run, by what is drawn; 0:
@@ -125,8 +126,8 @@ Change change_of(const ComparedCase& c) {
     bool alike = true, same_bits = true, same_hits = true;
     for (const CaseRecord* record : records) {
         alike = alike && fails_alike(*records.front(), *record);
-        same_bits = same_bits && record->bits == records.front()->bits;
-        same_hits = same_hits && record->hit_bits == records.front()->hit_bits;
+        same_bits = same_bits && record->drawn.bits == records.front()->drawn.bits;
+        same_hits = same_hits && record->drawn.hit_bits == records.front()->drawn.hit_bits;
     }
     if (*first > 0) {
         return alike ? Change::fails_alike : Change::fails_otherwise;
@@ -136,7 +137,7 @@ Change change_of(const ComparedCase& c) {
 
 // "3 of 64 samples are hit otherwise in A and B, first (3,4)", from the kept pictures.
 std::string picture_detail(const CaseRecord& a, const CaseRecord& b, const std::string& names) {
-    const Pictures &p = a.pictures, &q = b.pictures;
+    const Pictures &p = a.evidence.pictures, &q = b.evidence.pictures;
     const size_t samples = p.device_hits.size() / (size_t{p.width} * p.height);
     size_t count = 0, first = 0;
     for (size_t k = 0; k < p.device_hits.size(); ++k) {
@@ -156,8 +157,9 @@ std::string picture_detail(const CaseRecord& a, const CaseRecord& b, const std::
 
 // What a bad result is known by: "1 missing of 64 samples, tie.top-left [direct3d]".
 std::string short_reason(const CaseRecord& record) {
-    if (record.findings.empty()) {
-        return record.signal.empty() ? why_it_happened(record) : cases::printable(record.signal);
+    if (record.outcome.findings.empty()) {
+        return record.death.signal.empty() ? why_it_happened(record)
+                                           : cases::printable(record.death.signal);
     }
     const diff::Finding& f = leading_finding(record);
     return cases::printable(
@@ -194,7 +196,7 @@ std::string detail_of(const ComparedCase& c, const std::vector<std::string>& let
         }
         case Change::other_coverage: {
             for (size_t k = 1; k < c.records.size(); ++k) {
-                if (show_same_hits(first->pictures, c.records[k]->pictures)) {
+                if (show_same_hits(first->evidence.pictures, c.records[k]->evidence.pictures)) {
                     const std::string text =
                         picture_detail(*first, *c.records[k], letters[0] + " and " + letters[k]);
                     if (!text.empty()) {
@@ -207,8 +209,8 @@ std::string detail_of(const ComparedCase& c, const std::vector<std::string>& let
             for (size_t k = 0; k < c.records.size(); ++k) {
                 if (c.records[k] != nullptr) {
                     text += fmt::format("{}{} of {} samples are free in {}", k == 0 ? "" : ", ",
-                                        c.records[k]->either_samples,
-                                        c.records[k]->compared_samples, letters[k]);
+                                        c.records[k]->outcome.either_samples,
+                                        c.records[k]->outcome.compared_samples, letters[k]);
                 }
             }
             return text;

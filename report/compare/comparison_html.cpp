@@ -51,14 +51,14 @@ Json pictures_of(const ComparedCase& c) {
     bool differs = false;
     Json hits = Json::array();
     for (const CaseRecord* record : c.records) {
-        const Pictures* p = record == nullptr ? nullptr : &record->pictures;
+        const Pictures* p = record == nullptr ? nullptr : &record->evidence.pictures;
         const bool fits = p != nullptr && show_same_hits(*p, first == nullptr ? *p : *first);
         if (!fits) {
             hits.push_back(nullptr);
             continue;
         }
         differs = differs || (first != nullptr && p->device_hits != first->device_hits);
-        geometry = first == nullptr ? &record->geometry : geometry;
+        geometry = first == nullptr ? &record->evidence.geometry : geometry;
         first = first == nullptr ? p : first;
         hits.push_back(encode_picture(p->device_hits));
     }
@@ -112,7 +112,7 @@ Json causes_json(const Comparison& comparison, Json& rules) {
                 failing.cases.push_back(*record);
                 failing.cases.back().status = actual_status(*record);
                 // Whatever an expectation speaks of counts here.
-                for (diff::FindingGroup& group : failing.cases.back().groups) {
+                for (diff::FindingGroup& group : failing.cases.back().outcome.groups) {
                     group.known = 0;
                 }
                 numbers.push_back(number);

@@ -49,7 +49,7 @@ std::string picture(const ComparedCase& c, const std::vector<std::string>& lette
         if (c.records[0] == nullptr || c.records[k] == nullptr) {
             continue;
         }
-        const Pictures &p = c.records[0]->pictures, &q = c.records[k]->pictures;
+        const Pictures &p = c.records[0]->evidence.pictures, &q = c.records[k]->evidence.pictures;
         if (!show_same_hits(p, q) || p.device_hits == q.device_hits) {
             continue;
         }
@@ -207,7 +207,7 @@ std::string comparison_text(const std::vector<NamedRun>& runs, const Comparison&
 }
 
 Json compared_run(const NamedRun& run, const Comparison& comparison, size_t index) {
-    const Device& device = run.run.device;
+    const capture::DeviceInfo& device = run.run.device;
     return Json{{"name", comparison.letters[index]},
                 {"folder", cases::printable(run.folder)},
                 {"device", cases::printable(device.name)},
@@ -237,12 +237,13 @@ std::string comparison_json(const std::vector<NamedRun>& runs, const Comparison&
         }
         Json results = Json::array();
         for (const CaseRecord* record : c.records) {
-            results.push_back(record == nullptr
-                                  ? Json(nullptr)
-                                  : Json{{"status", to_string(actual_status(*record))},
-                                         {"bits", cases::printable(record->bits)},
-                                         {"hit_bits", cases::printable(record->hit_bits)},
-                                         {"worst_ratio", encode_number(record->worst_ratio)}});
+            results.push_back(
+                record == nullptr
+                    ? Json(nullptr)
+                    : Json{{"status", to_string(actual_status(*record))},
+                           {"bits", cases::printable(record->drawn.bits)},
+                           {"hit_bits", cases::printable(record->drawn.hit_bits)},
+                           {"worst_ratio", encode_number(record->outcome.worst_ratio)}});
         }
         cases.push_back(Json{{"id", cases::printable(c.id)},
                              {"change", to_string(c.change)},

@@ -72,8 +72,8 @@ std::string command_block(const CaseRecord& record) {
         return text;
     };
     std::string text = "    " + one_line(record.rerun) + "\n";
-    if (!record.explain.empty()) {
-        text += "    " + one_line(record.explain) + "\n";
+    if (!record.commands.explain.empty()) {
+        text += "    " + one_line(record.commands.explain) + "\n";
     }
     return text;
 }
@@ -112,10 +112,10 @@ std::string to_github_annotations(const Run& run, const fs::path& base) {
     for (size_t k = 0; k < std::min(list.size(), told); ++k) {
         const CaseRecord& first = smallest_case(list[k]);
         const std::string others = other_relations_text(first);
-        const std::string body =
-            fmt::format("{}   {}\n{}{}\nrerun: {}{}", first.id, what_happened(first),
-                        why_it_happened(list[k]), others.empty() ? "" : "\nalso: " + others,
-                        first.rerun, first.explain.empty() ? "" : "\nexplain: " + first.explain);
+        const std::string body = fmt::format(
+            "{}   {}\n{}{}\nrerun: {}{}", first.id, what_happened(first), why_it_happened(list[k]),
+            others.empty() ? "" : "\nalso: " + others, first.rerun,
+            first.commands.explain.empty() ? "" : "\nexplain: " + first.commands.explain);
         const std::string file = file_in(base, run, first.file);
         const std::string place = file.empty()
                                       ? ""
@@ -140,7 +140,7 @@ std::string to_github_annotation(const std::vector<std::string>& sentences) {
 }
 
 std::string to_github_summary(const Run& run) {
-    const Device& d = run.device;
+    const capture::DeviceInfo& d = run.device;
     std::string text = fmt::format("## Edgecase: {}\n\n", exit_text(run));
     text += fmt::format(
         "{}, {}{}{}{}, {} subpixel bits{}, profile {}, seed {}, {}\n\n", cell(d.name),
@@ -238,11 +238,11 @@ std::string to_gitlab(const Run& run, const fs::path& base) {
         if (is_expected(record.status)) {
             continue;
         }
-        std::string rule(to_string(record.status)), kind = record.signal;
+        std::string rule(to_string(record.status)), kind = record.death.signal;
         if (const auto news = leading_news(record)) {
             rule = news->rule.empty() ? rule : news->rule;
             kind = diff::to_string(news->kind);
-        } else if (!record.findings.empty()) {
+        } else if (!record.outcome.findings.empty()) {
             rule = leading_finding(record).rule;
             kind = diff::to_string(leading_finding(record).kind);
         }

@@ -52,14 +52,15 @@ Json finding_json(diff::Finding f) {
 Json counts_json(const CaseRecord& r) {
     Json json = Json::object();
     for (size_t k = 0; k < diff::kFindingKinds; ++k) {
-        json[std::string(diff::to_string(static_cast<diff::FindingKind>(k)))] = r.counts.at(k);
+        json[std::string(diff::to_string(static_cast<diff::FindingKind>(k)))] =
+            r.outcome.counts.at(k);
     }
     return json;
 }
 
 Json groups_json(const CaseRecord& r) {
     Json json = Json::array();
-    for (diff::FindingGroup group : r.groups) {
+    for (diff::FindingGroup group : r.outcome.groups) {
         cases::make_printable(group);
         json.push_back(encode(group));
         if (group.door.empty()) {
@@ -71,18 +72,21 @@ Json groups_json(const CaseRecord& r) {
 
 Json case_json(const CaseRecord& r, cases::Profile profile) {
     Json findings = Json::array();
-    for (const diff::Finding& f : r.findings) {
+    for (const diff::Finding& f : r.outcome.findings) {
         findings.push_back(finding_json(f));
     }
-    const bool wrong = r.finding_total() > 0;
+    const bool wrong = r.outcome.finding_total() > 0;
     const auto level = level_of(r, Of::all), news = level_of(r, Of::news);
     Json box = nullptr;
-    if (wrong && r.wrong_samples != 0) {
-        box = Json{{"min_x", r.min_x}, {"min_y", r.min_y}, {"max_x", r.max_x}, {"max_y", r.max_y}};
+    if (wrong && r.outcome.wrong_samples != 0) {
+        box = Json{{"min_x", r.outcome.min_x},
+                   {"min_y", r.outcome.min_y},
+                   {"max_x", r.outcome.max_x},
+                   {"max_y", r.outcome.max_y}};
     }
     Json pictures = nullptr;
-    if (r.pictures.width > 0) {
-        const Pictures& p = r.pictures;
+    if (r.evidence.pictures.width > 0) {
+        const Pictures& p = r.evidence.pictures;
         pictures = Json{{"encoding", "base64 of (run length - 1, value) pairs"},
                         {"width", p.width},
                         {"height", p.height},
@@ -104,39 +108,39 @@ Json case_json(const CaseRecord& r, cases::Profile profile) {
         {"profile", cases::to_string(profile)},
         {"rules", texts(r.rules)},
         {"links", texts(r.links)},
-        {"expected", r.expected ? Json(to_string(*r.expected)) : Json(nullptr)},
-        {"bug", cases::printable(r.bug)},
-        {"expectation", cases::printable(r.expectation)},
-        {"unlike", cases::printable(r.unlike)},
-        {"unseen_picture", r.unseen_picture},
-        {"expired", cases::printable(r.expired)},
+        {"expected", r.known.expected ? Json(to_string(*r.known.expected)) : Json(nullptr)},
+        {"bug", cases::printable(r.known.bug)},
+        {"expectation", cases::printable(r.known.place)},
+        {"unlike", cases::printable(r.known.unlike)},
+        {"unseen_picture", r.known.unseen_picture},
+        {"expired", cases::printable(r.known.expired)},
         {"actual", to_string(actual_status(r))},
-        {"bits", cases::printable(r.bits)},
-        {"hit_bits", cases::printable(r.hit_bits)},
+        {"bits", cases::printable(r.drawn.bits)},
+        {"hit_bits", cases::printable(r.drawn.hit_bits)},
         {"reason", cases::printable(r.reason)},
-        {"step", cases::printable(r.step)},
-        {"signal", cases::printable(r.signal)},
-        {"stderr", cases::printable(r.stderr_text)},
-        {"messages", texts(r.messages)},
-        {"seconds", encode_number(r.seconds)},
-        {"attempts", r.attempts},
+        {"step", cases::printable(r.death.step)},
+        {"signal", cases::printable(r.death.signal)},
+        {"stderr", cases::printable(r.death.output)},
+        {"messages", texts(r.drawn.messages)},
+        {"seconds", encode_number(r.drawn.seconds)},
+        {"attempts", r.drawn.attempts},
         {"level", level ? Json(cases::to_string(*level)) : Json(nullptr)},
         {"new_level", news ? Json(cases::to_string(*news)) : Json(nullptr)},
         {"counts", counts_json(r)},
         {"groups", groups_json(r)},
-        {"finding_total", r.finding_total()},
-        {"wrong_samples", r.wrong_samples ? Json(*r.wrong_samples) : Json(nullptr)},
+        {"finding_total", r.outcome.finding_total()},
+        {"wrong_samples", r.outcome.wrong_samples ? Json(*r.outcome.wrong_samples) : Json(nullptr)},
         {"findings", std::move(findings)},
         {"bounding_box", std::move(box)},
-        {"must_samples", r.must_samples},
-        {"either_samples", r.either_samples},
-        {"compared_samples", r.compared_samples},
-        {"compared_values", r.compared_values},
-        {"worst_ratio", encode_number(r.worst_ratio)},
-        {"worst_quantity", cases::printable(r.worst_quantity)},
+        {"must_samples", r.outcome.must_samples},
+        {"either_samples", r.outcome.either_samples},
+        {"compared_samples", r.outcome.compared_samples},
+        {"compared_values", r.outcome.compared_values},
+        {"worst_ratio", encode_number(r.outcome.worst_ratio)},
+        {"worst_quantity", cases::printable(r.outcome.worst_quantity)},
         {"pictures", std::move(pictures)},
         {"rerun", cases::printable(r.rerun)},
-        {"explain", cases::printable(r.explain)},
+        {"explain", cases::printable(r.commands.explain)},
     });
 }
 
@@ -262,7 +266,7 @@ void put_with_cases(std::string_view text, const Run& run, const cases::Put& put
 void tell_json(const Run& run, const cases::Put& put) {
     Json total = encode_totals(run);
     total["cases"] = run.cases.size();
-    Device device = run.device;
+    capture::DeviceInfo device = run.device;
     cases::make_printable(device);
     const CaseRecord* worst = worst_case(run);
     const Json json{
@@ -272,10 +276,11 @@ void tell_json(const Run& run, const cases::Put& put) {
         {"run", run_json(run)},
         {"device", encode(device)},
         {"totals", total},
-        {"worst", worst == nullptr ? Json(nullptr)
-                                   : Json{{"ratio", encode_number(worst->worst_ratio)},
-                                          {"quantity", cases::printable(worst->worst_quantity)},
-                                          {"case", cases::printable(worst->id)}}},
+        {"worst", worst == nullptr
+                      ? Json(nullptr)
+                      : Json{{"ratio", encode_number(worst->outcome.worst_ratio)},
+                             {"quantity", cases::printable(worst->outcome.worst_quantity)},
+                             {"case", cases::printable(worst->id)}}},
         {"doors", doors_json(run)},
         {"levels", levels_json(run)},
         {"diagnoses", diagnoses_json(run)},

@@ -70,16 +70,17 @@ Element element_of(const Run& run, const CaseRecord& record) {
 
 std::string body_of(const CaseRecord& record) {
     std::string text = console_case(record, {});
-    for (size_t k = 1; k < record.findings.size() && k < kMaxPixels; ++k) {
-        const diff::Finding& f = record.findings[k];
+    for (size_t k = 1; k < record.outcome.findings.size() && k < kMaxPixels; ++k) {
+        const diff::Finding& f = record.outcome.findings[k];
         text += fmt::format("{} {} {} [{}]: {}expected {}, got {}\n", sample_text(f),
                             diff::to_string(f.kind), f.rule, cases::to_string(f.level),
                             f.quantity.empty() ? "" : f.quantity + ": ", f.expected, f.got);
     }
-    if (record.findings.size() > kMaxPixels) {
-        text += fmt::format("and {} more, see results.json\n", record.findings.size() - kMaxPixels);
+    if (record.outcome.findings.size() > kMaxPixels) {
+        text += fmt::format("and {} more, see results.json\n",
+                            record.outcome.findings.size() - kMaxPixels);
     }
-    for (const std::string& message : record.messages) {
+    for (const std::string& message : record.drawn.messages) {
         text += "validation: " + message + '\n';
     }
     return text;
@@ -90,9 +91,9 @@ std::string test_case(const Run& run, const CaseRecord& record) {
     std::string text = fmt::format(
         "    <testcase classname=\"{}\" name=\"{}\" file=\"{}\" line=\"{}\" time=\"{}\"",
         attribute(name.class_name), attribute(name.name), attribute(record.file), record.line,
-        time_of(record.seconds));
+        time_of(record.drawn.seconds));
     const Element element = element_of(run, record);
-    if (element == Element::none && record.stderr_text.empty()) {
+    if (element == Element::none && record.death.output.empty()) {
         return text + "/>\n";
     }
     text += ">\n";
@@ -111,9 +112,9 @@ std::string test_case(const Run& run, const CaseRecord& record) {
                             to_string(record.status), attribute(what + "\n" + why),
                             cases::markup(body_of(record)));
     }
-    if (!record.stderr_text.empty()) {
+    if (!record.death.output.empty()) {
         text += fmt::format("      <system-err>{}</system-err>\n",
-                            cases::markup(head_and_tail(record.stderr_text, kMaxOutput)));
+                            cases::markup(head_and_tail(record.death.output, kMaxOutput)));
     }
     return text + "    </testcase>\n";
 }
@@ -133,7 +134,7 @@ std::string to_junit(const Run& run) {
         skipped += element == Element::skipped ? 1U : 0U;
     }
     errors += run.missing_shards.size();
-    const Device& d = run.device;
+    const capture::DeviceInfo& d = run.device;
     const std::string name = attribute(d.name.empty() ? "no device" : d.name);
     const std::string counts =
         fmt::format("tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" time=\"{}\"",

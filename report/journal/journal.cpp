@@ -183,7 +183,7 @@ cases::Expected<void> Journal::write_run(const Run& header) {
     return write_line(line_of("run", body));
 }
 
-cases::Expected<void> Journal::write_device(const Device& device) {
+cases::Expected<void> Journal::write_device(const capture::DeviceInfo& device) {
     return write_line(line_of("device", encode(device)));
 }
 
@@ -204,19 +204,17 @@ namespace {
 // Takes away what grows with pictures and findings, but for the gravest of these. False: nothing.
 bool shorten(CaseRecord& record) {
     constexpr size_t kFindings = 16, kTextBytes = 1024;
-    const bool is_long = record.pictures.width > 0 || record.reference.width > 0 ||
-                         !record.evidence.empty() || !record.messages.empty() ||
-                         record.findings.size() > kFindings ||
-                         record.stderr_text.size() > kTextBytes;
-    record.pictures = {};
-    record.reference = {};
-    record.geometry = {};
+    std::vector<diff::Finding>& findings = record.outcome.findings;
+    const Evidence& evidence = record.evidence;
+    const bool is_long = evidence.pictures.width > 0 || evidence.reference.width > 0 ||
+                         !evidence.samples.empty() || !record.drawn.messages.empty() ||
+                         findings.size() > kFindings || record.death.output.size() > kTextBytes;
     record.evidence = {};
-    record.messages = {};
-    std::ranges::stable_sort(record.findings, {}, &diff::Finding::level);
-    record.findings.resize(std::min(record.findings.size(), kFindings));
-    record.findings.shrink_to_fit();
-    record.stderr_text = record.stderr_text.substr(0, kTextBytes);
+    record.drawn.messages = {};
+    std::ranges::stable_sort(findings, {}, &diff::Finding::level);
+    findings.resize(std::min(findings.size(), kFindings));
+    findings.shrink_to_fit();
+    record.death.output = record.death.output.substr(0, kTextBytes);
     return is_long;
 }
 
@@ -238,7 +236,7 @@ class Rebuilder {
         if (type == "run") {
             add_run(record);
         } else if (type == "device") {
-            run_.device = decode<Device>(record);
+            run_.device = decode<capture::DeviceInfo>(record);
         } else if (type == "begin") {
             open_.insert(known(decode_id(record)));
         } else if (type == "end") {

@@ -67,7 +67,7 @@ void put(Json& json, const char* key, const std::vector<std::string>& list) {
 // A list, as finding() of dom.js reads it. Rows are those of the stacked layers, as in pictures; of
 // the whole case the place is null.
 Json finding_json(const CaseRecord& r, const diff::Finding& f, Strings& strings) {
-    const uint32_t row = f.layer.value_or(0) * r.pictures.layer_height + f.y;
+    const uint32_t row = f.layer.value_or(0) * r.evidence.pictures.layer_height + f.y;
     const bool has_ratio =
         f.kind == diff::FindingKind::value && f.ratio > 0 && std::isfinite(f.ratio);
     const auto place = [&](uint32_t number) { return f.of_case ? Json(nullptr) : Json(number); };
@@ -143,30 +143,31 @@ Json case_json(const CaseRecord& r, size_t most_findings, Strings& strings) {
     json["catches"] = strings.number_of(r.catches);
     put(json, "rules", r.rules);
     put(json, "links", r.links);
-    if (r.expected) {
-        json["expected"] = to_string(*r.expected);
+    if (r.known.expected) {
+        json["expected"] = to_string(*r.known.expected);
     }
-    put(json, "bug", r.bug);
-    put(json, "expired", r.expired);
+    put(json, "bug", r.known.bug);
+    put(json, "expired", r.known.expired);
     put(json, "reason", r.reason);
-    put(json, "step", r.step);
-    put(json, "signal", r.signal);
-    put(json, "stderr", head_and_tail(r.stderr_text, kMaxOutput));
-    put(json, "messages", r.messages);
-    json["time"] = seconds_text(r.seconds);
-    json["seconds"] = encode_number(r.seconds);
-    json["attempts"] = r.attempts;
-    if (r.compared_samples > 0) {
-        json["compared"] =
-            Json::array({r.compared_samples, r.must_samples, r.either_samples, r.compared_values});
+    put(json, "step", r.death.step);
+    put(json, "signal", r.death.signal);
+    put(json, "stderr", head_and_tail(r.death.output, kMaxOutput));
+    put(json, "messages", r.drawn.messages);
+    json["time"] = seconds_text(r.drawn.seconds);
+    json["seconds"] = encode_number(r.drawn.seconds);
+    json["attempts"] = r.drawn.attempts;
+    if (r.outcome.compared_samples > 0) {
+        json["compared"] = Json::array({r.outcome.compared_samples, r.outcome.must_samples,
+                                        r.outcome.either_samples, r.outcome.compared_values});
     }
-    if (r.compared_values > 0) {
-        json["worst"] = Json::array({encode_number(r.worst_ratio), ratio_text(r.worst_ratio),
-                                     cases::printable(r.worst_quantity)});
+    if (r.outcome.compared_values > 0) {
+        json["worst"] =
+            Json::array({encode_number(r.outcome.worst_ratio), ratio_text(r.outcome.worst_ratio),
+                         cases::printable(r.outcome.worst_quantity)});
     }
-    if (!r.findings.empty()) {
-        json["finding_total"] = r.finding_total();
-        json["finding_kept"] = r.findings.size();  // in results.json
+    if (!r.outcome.findings.empty()) {
+        json["finding_total"] = r.outcome.finding_total();
+        json["finding_kept"] = r.outcome.findings.size();  // in results.json
         json["counts"] = counts_text(r);
         const diff::Finding& lead = leading_finding(r);
         json["lead"] = finding_json(r, lead, strings);
@@ -176,26 +177,27 @@ Json case_json(const CaseRecord& r, size_t most_findings, Strings& strings) {
         // Those of the leading sample, then the others in order; of a sample all, within reason.
         const size_t most_of_sample = std::min(most_findings + 4, kMostOfSample);
         Json& list = json["findings"] = Json::array();
-        for (const diff::Finding& f : r.findings) {
+        for (const diff::Finding& f : r.outcome.findings) {
             if (is_here(f, lead) && list.size() < most_of_sample) {
                 list.push_back(finding_json(r, f, strings));
             }
         }
-        for (size_t k = 0; k < r.findings.size(); ++k) {
-            const bool is_new = k == 0 || !is_here(r.findings[k], r.findings[k - 1]);
+        for (size_t k = 0; k < r.outcome.findings.size(); ++k) {
+            const bool is_new =
+                k == 0 || !is_here(r.outcome.findings[k], r.outcome.findings[k - 1]);
             if (list.size() >= (is_new ? most_findings : most_findings + kMostOfSample)) {
                 break;
             }
-            if (!is_here(r.findings[k], lead)) {
-                list.push_back(finding_json(r, r.findings[k], strings));
+            if (!is_here(r.outcome.findings[k], lead)) {
+                list.push_back(finding_json(r, r.outcome.findings[k], strings));
             }
         }
     }
     put(json, "rerun", r.rerun);
-    put(json, "explain", r.explain);
+    put(json, "explain", r.commands.explain);
     put(json, "debug", debug_line(r));
-    put(json, "reproducer", r.reproducer);
-    put(json, "no_reproducer", r.no_reproducer);
+    put(json, "reproducer", r.commands.reproducer);
+    put(json, "no_reproducer", r.commands.no_reproducer);
     json["settings"] = strings.number_of(std::string(settings_of(r.rerun)));
     return json;
 }
@@ -207,8 +209,8 @@ std::vector<size_t> add_evidence(const Run& run, const std::vector<Cause>& all, 
     std::vector<size_t> without;
     const auto add_picture = [&](size_t k) {
         const CaseRecord& r = run.cases[k];
-        if (r.pictures.width > 0 && r.pictures.height > 0) {
-            Json both = Json::array({encode(r.pictures), encode(r.geometry)});
+        if (r.evidence.pictures.width > 0 && r.evidence.pictures.height > 0) {
+            Json both = Json::array({encode(r.evidence.pictures), encode(r.evidence.geometry)});
             const size_t size = both.dump().size();
             const bool is_first =
                 left == kEvidenceBudget;  // fits by definition: parts come to an end
@@ -223,7 +225,7 @@ std::vector<size_t> add_evidence(const Run& run, const std::vector<Cause>& all, 
     };
     const auto add_values = [&](size_t k) {
         Json values = Json::array();
-        for (SampleEvidence e : run.cases[k].evidence) {
+        for (SampleEvidence e : run.cases[k].evidence.samples) {
             cases::make_printable(e);
             values.push_back(encode(e));
         }
@@ -244,7 +246,7 @@ std::vector<size_t> add_evidence(const Run& run, const std::vector<Cause>& all, 
     }
     std::vector<size_t> rest;
     for (size_t k = 0; k < run.cases.size(); ++k) {
-        if (run.cases[k].pictures.width > 0 && !first.contains(k)) {
+        if (run.cases[k].evidence.pictures.width > 0 && !first.contains(k)) {
             rest.push_back(k);
         }
     }
@@ -264,18 +266,20 @@ std::string references_text(const Run& run, Json& list) {
     };
     std::unordered_multimap<size_t, Known> known;  // by a hash of the hits
     const auto number_of = [&](const CaseRecord& r) -> std::optional<size_t> {
-        const std::string_view hits(reinterpret_cast<const char*>(r.reference.hits.data()),
-                                    r.reference.hits.size());
+        const std::string_view hits(reinterpret_cast<const char*>(r.evidence.reference.hits.data()),
+                                    r.evidence.reference.hits.size());
         const size_t hash = std::hash<std::string_view>()(hits);
         const auto [begin, end] = known.equal_range(hash);
         const auto same = std::find_if(begin, end, [&](const auto& entry) {
             const CaseRecord& other = *entry.second.record;
-            return other.reference == r.reference && other.geometry == r.geometry;
+            return other.evidence.reference == r.evidence.reference &&
+                   other.evidence.geometry == r.evidence.geometry;
         });
         if (same != end) {
             return same->second.number;
         }
-        const std::string both = Json::array({encode(r.reference), encode(r.geometry)}).dump();
+        const std::string both =
+            Json::array({encode(r.evidence.reference), encode(r.evidence.geometry)}).dump();
         if (both.size() > left) {
             return std::nullopt;
         }
@@ -285,7 +289,7 @@ std::string references_text(const Run& run, Json& list) {
         return count++;
     };
     for (size_t k = 0; k < run.cases.size(); ++k) {
-        if (!run.cases[k].reference.hits.empty()) {
+        if (!run.cases[k].evidence.reference.hits.empty()) {
             if (const auto number = number_of(run.cases[k])) {
                 list[k]["reference"] = *number;
             }
@@ -329,7 +333,7 @@ PageData page_data(const Run& run, size_t part) {
     Json total = encode_totals(run);
     const auto wrong = static_cast<size_t>(
         std::count_if(run.cases.begin(), run.cases.end(),
-                      [](const CaseRecord& record) { return !record.findings.empty(); }));
+                      [](const CaseRecord& record) { return !record.outcome.findings.empty(); }));
     const size_t most =
         std::clamp(kFindingBudget / std::max<size_t>(wrong, 1), kLeastFindings, kMostFindings);
     const Repeated repeated(run);

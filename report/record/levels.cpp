@@ -9,7 +9,7 @@ namespace report {
 namespace {
 
 bool has_any(const CaseRecord& record) {
-    return record.finding_total() > 0 || !record.findings.empty();
+    return record.outcome.finding_total() > 0 || !record.outcome.findings.empty();
 }
 
 }  // namespace
@@ -34,10 +34,10 @@ bool has_findings(const CaseRecord& record, cases::Profile level, Of which) {
     if (is_news && is_expected(record.status)) {
         return false;
     }
-    if (record.groups.empty()) {  // journals that do not tell
-        return record.level == level;
+    if (record.outcome.groups.empty()) {  // journals that do not tell
+        return record.outcome.level == level;
     }
-    return std::any_of(record.groups.begin(), record.groups.end(),
+    return std::any_of(record.outcome.groups.begin(), record.outcome.groups.end(),
                        [&](const diff::FindingGroup& group) {
                            return group.level == level && (!is_news || group.known < group.count);
                        });

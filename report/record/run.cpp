@@ -47,14 +47,14 @@ uint8_t error_code(float ratio) {
 }
 
 Status actual_status(const CaseRecord& record) {
-    if (record.actual) {
-        return *record.actual;
+    if (record.known.actual) {
+        return *record.known.actual;
     }
     switch (record.status) {  // journals that do not tell
         case Status::xpass:
             return Status::pass;
         case Status::xfail:
-            return record.expected.value_or(Status::fail);
+            return record.known.expected.value_or(Status::fail);
         case Status::improved:
             return Status::fail;
         default:

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "capture/renderer.hpp"
 #include "cases/model/profile.hpp"
 #include "diff/verdict.hpp"
 #include "report/record/diagnosis.hpp"
@@ -52,35 +53,6 @@ enum ExitCode : int {
     kExitAllSkipped = 6,
     kExitInternal = 7,
     kExitInterrupted = 130,
-};
-
-// The device as the worker reported it (all text: driver strings may hold any bytes).
-struct Device {
-    std::string name, driver_name, driver_info, uuid, type;
-    std::string api_version;  // "1.3.230"
-    uint32_t vendor_id = 0, device_id = 0, driver_version = 0, driver_id = 0;
-    uint32_t subpixel_bits = 0, viewport_subpixel_bits = 0;
-    bool has_primitive_id = false;
-    std::string sample_locations;  // its own, cases::to_text; "": the standard ones
-    // Where a case names none: d24-unorm of a device that lacks D32S8.
-    std::string depth_beside_stencil = "d32-float";
-    static void fields(auto&& visit, auto&... d) {
-        visit("name", d.name...);
-        visit("driver_name", d.driver_name...);
-        visit("driver_info", d.driver_info...);
-        visit("uuid", d.uuid...);
-        visit("type", d.type...);
-        visit("api_version", d.api_version...);
-        visit("vendor_id", d.vendor_id...);
-        visit("device_id", d.device_id...);
-        visit("driver_version", d.driver_version...);
-        visit("driver_id", d.driver_id...);
-        visit("subpixel_bits", d.subpixel_bits...);
-        visit("viewport_subpixel_bits", d.viewport_subpixel_bits...);
-        visit("has_primitive_id", d.has_primitive_id...);
-        visit("sample_locations", d.sample_locations...);
-        visit("depth_beside_stencil", d.depth_beside_stencil...);
-    }
 };
 
 // Pictures of a case, one byte a sample, row by row; empty if none were kept.
@@ -176,79 +148,106 @@ struct PlannedCase {
     }
 };
 
-// CaseRecord::no_reproducer, where only doors show the failure and the program would draw without.
-inline constexpr char kDoorsAlone[] = "doors alone";
+// What an expectation file says of a case that did not pass, and what it leaves unsaid.
+struct Known {
+    std::optional<Status> expected;
+    std::string bug;               // its bug reference
+    std::string place;             // where it stands, "FILE:LINE"
+    std::string unlike;            // what of the failure it does not speak of; empty: nothing
+    bool unseen_picture = false;   // it excuses this failure, and nobody has seen these bits
+    std::string expired;           // the date on which it ended, if that is past
+    std::optional<Status> actual;  // what happened before the expectation was looked at
+};
 
-struct CaseRecord : PlannedCase, diff::Outcome {
-    Status status = Status::not_run;
-    std::optional<Status> expected;  // of an expectation file
-    std::string bug;                 // its bug reference
-    std::string expectation;         // where it stands, "FILE:LINE"
-    std::string unlike;              // what of the failure it does not speak of; empty: nothing
-    bool unseen_picture = false;     // it excuses this failure, and nobody has seen these bits
-    std::string expired;             // the date on which it ended, if that is past
-    std::optional<Status> actual;    // what happened before the expectation was looked at
+// The drawing that was judged.
+struct Drawn {
     // Checksums in hexadecimal, to compare runs with: of every bit read back, and of the hits
     // alone.
     std::string bits, hit_bits;
-    std::string reason;  // why unsupported, skipped, error, lost, crashed; one sentence
     // Planes of a renderer elsewhere were judged, and which of the case's are not there.
     bool is_delivered = false;
     std::vector<std::string> not_judged;
-    std::string step;    // last step of the worker before it died ("submit", ...)
-    std::string signal;  // "SIGSEGV", ... of a crash
-    // Of a death that no case repeated alone, and that is charged to this one as a flake: the cases
-    // that were drawn together, this one among them.
-    std::vector<std::string> suspects;
-    std::string stderr_text;  // what the driver printed, head and tail, any bytes
     double seconds = 0;
     uint32_t attempts = 0;
     std::vector<std::string> messages;  // validation layer
     // Doors through which a picture was drawn and compared, the file's among them; and those that
     // the device lacks, with the reason.
-    std::vector<std::string> drawn_doors;
+    std::vector<std::string> doors;
     std::vector<std::pair<std::string, std::string>> closed_doors;
-    Pictures pictures;
-    Reference reference;  // of a case that passes and whose pictures were not kept
-    std::string explain;  // command line that explains the first wrong sample; empty if none
-    // Of a failure: the command line that writes the case as a program for a bug report; and, if it
-    // is empty, what of the case such a program cannot draw ("a blit") or kDoorsAlone, else what
-    // may be too much for one ("many values"), which the command finds out.
+};
+
+// How the worker ended that drew a case.
+struct Death {
+    std::string step;    // its last one ("submit", ...)
+    std::string signal;  // "SIGSEGV", ... of a crash
+    // Of a death that no case repeated alone, and that is charged to this one as a flake: the cases
+    // that were drawn together, this one among them.
+    std::vector<std::string> suspects;
+    std::string output;  // what the driver printed, head and tail, any bytes
+};
+
+// Commands::no_reproducer, where only doors show the failure and the program would draw without.
+inline constexpr char kDoorsAlone[] = "doors alone";
+
+// Command lines that lead further.
+struct Commands {
+    std::string explain;  // explains the first wrong sample; empty if none
+    // Of a failure: the line that writes the case as a program for a bug report; and, if it is
+    // empty, what of the case such a program cannot draw ("a blit") or kDoorsAlone, else what may
+    // be too much for one ("many values"), which the command finds out.
     std::string reproducer, no_reproducer;
-    Geometry geometry;                     // with pictures or the reference
-    std::vector<SampleEvidence> evidence;  // of wrong samples and some of their neighbours
+};
+
+// What a reader can check the judgement by.
+struct Evidence {
+    Pictures pictures;
+    Reference reference;                  // of a case that passes and whose pictures were not kept
+    Geometry geometry;                    // with pictures or the reference
+    std::vector<SampleEvidence> samples;  // wrong ones and some of their neighbours
+};
+
+// A case with its end.
+struct CaseRecord : PlannedCase {
+    Status status = Status::not_run;
+    std::string reason;  // why unsupported, skipped, error, lost, crashed; one sentence
+    Known known;
+    Drawn drawn;
+    Death death;
+    diff::Outcome outcome;
+    Commands commands;
+    Evidence evidence;
     static void fields(auto&& visit, auto&... r) {
         PlannedCase::fields(visit, r...);
         visit("status", r.status...);
-        visit("expected", r.expected...);
-        visit("bug", r.bug...);
-        visit({"expectation", cases::kOlderLackIt}, r.expectation...);
-        visit({"unlike", cases::kOlderLackIt}, r.unlike...);
-        visit({"unseen_picture", cases::kOlderLackIt}, r.unseen_picture...);
-        visit({"expired", cases::kOlderLackIt}, r.expired...);
-        visit({"actual", cases::kOlderLackIt}, r.actual...);
-        visit({"bits", cases::kOlderLackIt}, r.bits...);
-        visit({"hit_bits", cases::kOlderLackIt}, r.hit_bits...);
+        visit("expected", r.known.expected...);
+        visit("bug", r.known.bug...);
+        visit({"expectation", cases::kOlderLackIt}, r.known.place...);
+        visit({"unlike", cases::kOlderLackIt}, r.known.unlike...);
+        visit({"unseen_picture", cases::kOlderLackIt}, r.known.unseen_picture...);
+        visit({"expired", cases::kOlderLackIt}, r.known.expired...);
+        visit({"actual", cases::kOlderLackIt}, r.known.actual...);
+        visit({"bits", cases::kOlderLackIt}, r.drawn.bits...);
+        visit({"hit_bits", cases::kOlderLackIt}, r.drawn.hit_bits...);
         visit("reason", r.reason...);
-        visit({"delivered", cases::kLeftOutIfEmpty}, r.is_delivered...);
-        visit({"not_judged", cases::kLeftOutIfEmpty}, r.not_judged...);
-        visit("step", r.step...);
-        visit("signal", r.signal...);
-        visit({"suspects", cases::kLeftOutIfEmpty}, r.suspects...);
-        visit("stderr", r.stderr_text...);
-        visit("seconds", r.seconds...);
-        visit("attempts", r.attempts...);
-        visit("messages", r.messages...);
-        visit({"drawn_doors", cases::kLeftOutIfEmpty}, r.drawn_doors...);
-        visit({"closed_doors", cases::kLeftOutIfEmpty}, r.closed_doors...);
-        diff::Outcome::fields(visit, r...);
-        visit("explain", r.explain...);
-        visit({"reproducer", cases::kOlderLackIt}, r.reproducer...);
-        visit({"no_reproducer", cases::kOlderLackIt}, r.no_reproducer...);
-        visit({"evidence", cases::kOlderLackIt}, r.evidence...);
-        visit({"pictures", cases::kLeftOutIfEmpty}, r.pictures...);  // of most cases none are kept
-        visit({"reference", cases::kLeftOutIfEmpty}, r.reference...);
-        visit({"geometry", cases::kLeftOutIfEmpty}, r.geometry...);
+        visit({"delivered", cases::kLeftOutIfEmpty}, r.drawn.is_delivered...);
+        visit({"not_judged", cases::kLeftOutIfEmpty}, r.drawn.not_judged...);
+        visit("step", r.death.step...);
+        visit("signal", r.death.signal...);
+        visit({"suspects", cases::kLeftOutIfEmpty}, r.death.suspects...);
+        visit("stderr", r.death.output...);
+        visit("seconds", r.drawn.seconds...);
+        visit("attempts", r.drawn.attempts...);
+        visit("messages", r.drawn.messages...);
+        visit({"drawn_doors", cases::kLeftOutIfEmpty}, r.drawn.doors...);
+        visit({"closed_doors", cases::kLeftOutIfEmpty}, r.drawn.closed_doors...);
+        diff::Outcome::fields(visit, r.outcome...);
+        visit("explain", r.commands.explain...);
+        visit({"reproducer", cases::kOlderLackIt}, r.commands.reproducer...);
+        visit({"no_reproducer", cases::kOlderLackIt}, r.commands.no_reproducer...);
+        visit({"evidence", cases::kOlderLackIt}, r.evidence.samples...);
+        visit({"pictures", cases::kLeftOutIfEmpty}, r.evidence.pictures...);  // of most: none
+        visit({"reference", cases::kLeftOutIfEmpty}, r.evidence.reference...);
+        visit({"geometry", cases::kLeftOutIfEmpty}, r.evidence.geometry...);
     }
 };
 
@@ -319,7 +318,7 @@ struct RunEnd {
 };
 
 struct Run : RunHeader, RunEnd {
-    Device device;
+    capture::DeviceInfo device;     // its texts may hold any bytes
     std::vector<CaseRecord> cases;  // selection order; those without an end are not_run
     // Of them: whose pictures, numbers of samples and findings beyond the first are in the journal
     // alone, since reports of them all would have no bound (load_for_reports).

@@ -42,13 +42,13 @@ Signature signature_of(const CaseRecord& record, Of which) {
     if (const auto news = leading_news(record)) {
         return {news->rule, std::string(diff::to_string(news->kind)), news->door, level};
     }
-    if (!record.findings.empty()) {
+    if (!record.outcome.findings.empty()) {
         const diff::Finding& f = leading_finding(record);
         return {f.rule, std::string(diff::to_string(f.kind)), f.door, level};
     }
-    std::string kind = record.signal;
-    if (!record.step.empty()) {
-        kind += (kind.empty() ? "during " : " during ") + record.step;
+    std::string kind = record.death.signal;
+    if (!record.death.step.empty()) {
+        kind += (kind.empty() ? "during " : " during ") + record.death.step;
     }
     return {"", kind, "", level};
 }
@@ -151,7 +151,7 @@ std::string cause_level(const Cause& cause) {
 
 const CaseRecord& smallest_case(const Cause& cause) {
     const auto size = [](const CaseRecord* r) {
-        return std::pair(r->compared_samples, r->finding_total());
+        return std::pair(r->outcome.compared_samples, r->outcome.finding_total());
     };
     return **std::min_element(
         cause.cases.begin(), cause.cases.end(),
@@ -160,11 +160,11 @@ const CaseRecord& smallest_case(const Cause& cause) {
 
 std::string why_it_happened(const Cause& cause) {
     const CaseRecord& record = smallest_case(cause);
-    const auto found = std::ranges::find_if(record.findings, [&](const diff::Finding& f) {
+    const auto found = std::ranges::find_if(record.outcome.findings, [&](const diff::Finding& f) {
         return f.rule == cause.rule && f.door == cause.door &&
                diff::to_string(f.kind) == cause.kind;
     });
-    return found == record.findings.end() ? why_it_happened(record) : finding_text(*found);
+    return found == record.outcome.findings.end() ? why_it_happened(record) : finding_text(*found);
 }
 
 std::string cause_title(const Cause& cause) {

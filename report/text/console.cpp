@@ -67,16 +67,16 @@ uint32_t window_begin(uint32_t middle, uint32_t length, uint32_t size) {
 }
 
 std::string ascii_picture(const CaseRecord& record, const ConsoleStyle& style) {
-    const Pictures& p = record.pictures;
+    const Pictures& p = record.evidence.pictures;
     const size_t pixels = size_t{p.width} * p.height;
     if (pixels == 0 || p.marks.empty() || p.marks.size() % pixels != 0 ||
         p.expected_hits.size() != p.marks.size()) {
         return {};
     }
     // A picture without a wrong sample shows nothing of what the whole case got wrong.
-    const auto told = std::ranges::find(record.findings, false, &diff::Finding::of_case);
-    const bool is_told = told != record.findings.end();
-    if (!is_told && !record.findings.empty()) {
+    const auto told = std::ranges::find(record.outcome.findings, false, &diff::Finding::of_case);
+    const bool is_told = told != record.outcome.findings.end();
+    if (!is_told && !record.outcome.findings.empty()) {
         return {};
     }
     const size_t samples = p.marks.size() / pixels;
@@ -85,8 +85,9 @@ std::string ascii_picture(const CaseRecord& record, const ConsoleStyle& style) {
     const uint32_t height = std::min(p.height, kMaxPictureHeight);
     // The window holds the first finding, else the middle of the wrong samples.
     const auto inside = [](uint32_t at, uint32_t begin) { return at > begin ? at - begin : 0; };
-    const uint32_t x = is_told ? told->x : record.min_x;
-    const uint32_t y = is_told ? told->layer.value_or(0) * p.layer_height + told->y : record.min_y;
+    const uint32_t x = is_told ? told->x : record.outcome.min_x;
+    const uint32_t y =
+        is_told ? told->layer.value_or(0) * p.layer_height + told->y : record.outcome.min_y;
     const uint32_t left = window_begin(inside(x, p.left), width, p.width);
     const uint32_t top = window_begin(inside(y, p.top), height, p.height);
 
@@ -128,7 +129,7 @@ constexpr size_t kMaxCauses = 20;
 // The last lines that a driver printed before its worker ended, and how to look at it.
 std::string death_text(const CaseRecord& record) {
     std::vector<std::string> lines;
-    const std::string text = cases::printable(record.stderr_text);
+    const std::string text = cases::printable(record.death.output);
     for (size_t begin = 0; begin < text.size();) {
         const size_t end = std::min(text.find('\n', begin), text.size());
         if (text.find_first_not_of(" \t", begin) < end) {
@@ -247,10 +248,10 @@ std::string free_text(const Run& run) {
     uint64_t free = 0, samples = 0, count = 0;
     const CaseRecord* most = nullptr;
     for (const CaseRecord& r : run.cases) {
-        free += r.either_samples;
-        samples += r.compared_samples;
-        count += r.either_samples > 0 ? 1 : 0;
-        if (r.either_samples > (most == nullptr ? 0 : most->either_samples)) {
+        free += r.outcome.either_samples;
+        samples += r.outcome.compared_samples;
+        count += r.outcome.either_samples > 0 ? 1 : 0;
+        if (r.outcome.either_samples > (most == nullptr ? 0 : most->outcome.either_samples)) {
             most = &r;
         }
     }
@@ -260,9 +261,9 @@ std::string free_text(const Run& run) {
     std::string text = fmt::format("free: {} of {} samples at profile {}", free, samples,
                                    cases::to_string(run.profile));
     if (most != nullptr) {
-        text +=
-            fmt::format(", in {}; most in {}: {} of {}", cases::counted(count, "case"),
-                        cases::printable(most->id), most->either_samples, most->compared_samples);
+        text += fmt::format(", in {}; most in {}: {} of {}", cases::counted(count, "case"),
+                            cases::printable(most->id), most->outcome.either_samples,
+                            most->outcome.compared_samples);
     }
     return text + '\n';
 }
@@ -280,7 +281,7 @@ size_t judged_cases(const Run& run) {
 }  // namespace
 
 std::string console_header(const Run& run, const ConsoleStyle& style) {
-    const Device& d = run.device;
+    const capture::DeviceInfo& d = run.device;
     // What draws without a driver (captures, an algorithm) has no Vulkan.
     const bool is_other = d.api_version.empty() && !d.name.empty();
     std::string text = fmt::format(
@@ -306,12 +307,12 @@ std::string console_case(const CaseRecord& record, const ConsoleStyle& style) {
     if (record.status == Status::crash || record.status == Status::timeout) {
         text += death_text(record);
     }
-    if (!record.explain.empty()) {
-        text += fmt::format("{}explain: {}\n", kIndent, cases::printable(record.explain));
+    if (!record.commands.explain.empty()) {
+        text += fmt::format("{}explain: {}\n", kIndent, cases::printable(record.commands.explain));
     }
     const bool is_outdated = record.status == Status::xpass || record.status == Status::improved;
-    if (is_outdated && !record.expectation.empty() && !style.folder.empty()) {
-        const std::string file = record.expectation.substr(0, record.expectation.rfind(':'));
+    if (is_outdated && !record.known.place.empty() && !style.folder.empty()) {
+        const std::string file = record.known.place.substr(0, record.known.place.rfind(':'));
         text += fmt::format("{}update: edgecase expect --update {} {}\n", kIndent,
                             cases::printable(style.folder), cases::printable(file));
     }
@@ -355,8 +356,9 @@ std::string console_summary(const Run& run, const std::string& report_path,
     }
     if (const CaseRecord* worst = worst_case(run)) {
         text += fmt::format("largest accepted error {}{}{} in {}\n", accepted_text(run, *worst),
-                            worst->worst_quantity.empty() ? "" : ", ",
-                            cases::printable(worst->worst_quantity), cases::printable(worst->id));
+                            worst->outcome.worst_quantity.empty() ? "" : ", ",
+                            cases::printable(worst->outcome.worst_quantity),
+                            cases::printable(worst->id));
     }
     if (const std::string unseen = new_pictures_text(run); !unseen.empty()) {
         text += unseen + "; --strict makes them unexpected\n";

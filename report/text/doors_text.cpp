@@ -21,10 +21,10 @@ std::vector<DoorCount> door_counts(const Run& run) {
         for (const std::string& door : record.left_out_doors) {
             ++by_word[door].left_out;
         }
-        for (const std::string& door : record.drawn_doors) {
+        for (const std::string& door : record.drawn.doors) {
             ++by_word[door].pictures;
         }
-        for (const auto& [door, reason] : record.closed_doors) {
+        for (const auto& [door, reason] : record.drawn.closed_doors) {
             DoorCount& count = by_word[door];
             ++count.closed;
             if (count.reason.empty()) {

@@ -35,7 +35,7 @@ constexpr Deed kDeeds[] = {
 };
 
 bool is_new_picture(const CaseRecord& record) {
-    return record.status == Status::xfail && record.unseen_picture;
+    return record.status == Status::xfail && record.known.unseen_picture;
 }
 
 }  // namespace

@@ -44,20 +44,21 @@ std::string counted_findings(diff::FindingKind kind, uint64_t count, bool is_bes
 
 // Whether an expectation speaks of all findings of its group.
 bool is_known(const CaseRecord& record, const diff::Finding& f) {
-    return std::any_of(record.groups.begin(), record.groups.end(), [&](const auto& group) {
-        return group.kind == f.kind && group.rule == f.rule && group.level == f.level &&
-               group.door == f.door && group.count == group.known;
-    });
+    return std::any_of(
+        record.outcome.groups.begin(), record.outcome.groups.end(), [&](const auto& group) {
+            return group.kind == f.kind && group.rule == f.rule && group.level == f.level &&
+                   group.door == f.door && group.count == group.known;
+        });
 }
 
 // "rule [level: what it means]" of what a case is known by; no level if it could not be judged.
 std::string rule_and_level(const CaseRecord& record) {
     std::string rule;
-    cases::Profile level = record.level;
+    cases::Profile level = record.outcome.level;
     if (const auto news = leading_news(record)) {
         rule = news->rule.empty() ? "no told rule" : rule_and_door(news->rule, news->door);
         level = news->level;
-    } else if (!record.findings.empty()) {
+    } else if (!record.outcome.findings.empty()) {
         const diff::Finding& leading = leading_finding(record);
         rule = rule_and_door(leading.rule, leading.door);
         level = leading.level;
@@ -78,7 +79,7 @@ std::string one_line(std::string_view bytes) {
 }
 
 const diff::Finding& leading_finding(const CaseRecord& record) {
-    return *std::min_element(record.findings.begin(), record.findings.end(),
+    return *std::min_element(record.outcome.findings.begin(), record.outcome.findings.end(),
                              [&](const diff::Finding& a, const diff::Finding& b) {
                                  return std::pair(is_known(record, a), a.level) <
                                         std::pair(is_known(record, b), b.level);
@@ -87,14 +88,15 @@ const diff::Finding& leading_finding(const CaseRecord& record) {
 
 std::optional<diff::FindingGroup> leading_news(const CaseRecord& record) {
     const auto level = level_of(record, Of::news);
-    if (!level || (!record.findings.empty() && !is_known(record, leading_finding(record)))) {
+    if (!level ||
+        (!record.outcome.findings.empty() && !is_known(record, leading_finding(record)))) {
         return std::nullopt;
     }
-    const auto found = std::find_if(record.groups.begin(), record.groups.end(),
+    const auto found = std::find_if(record.outcome.groups.begin(), record.outcome.groups.end(),
                                     [&](const diff::FindingGroup& group) {
                                         return group.level == *level && group.known < group.count;
                                     });
-    return found == record.groups.end() ? std::nullopt : std::optional(*found);
+    return found == record.outcome.groups.end() ? std::nullopt : std::optional(*found);
 }
 
 bool is_relation(std::string_view rule) {
@@ -107,12 +109,12 @@ std::vector<diff::FindingGroup> other_relations(const CaseRecord& record, Of whi
         return {};
     }
     std::optional<diff::FindingGroup> leading = leading_news(record);
-    if (!leading && !record.findings.empty()) {
+    if (!leading && !record.outcome.findings.empty()) {
         const diff::Finding& f = leading_finding(record);
         leading = {f.kind, f.rule, f.level, 0, 0, f.door};
     }
     std::vector<diff::FindingGroup> list;
-    for (const diff::FindingGroup& group : record.groups) {
+    for (const diff::FindingGroup& group : record.outcome.groups) {
         const bool leads = leading && leading->kind == group.kind && leading->rule == group.rule &&
                            leading->level == group.level && leading->door == group.door;
         if (is_relation(group.rule) && !leads && (which == Of::all || group.known < group.count)) {
@@ -151,7 +153,7 @@ std::string ratio_text(double ratio) {
     return cases::number_text(ratio, 3);
 }
 
-std::string judged_bits_note(const Device& device) {
+std::string judged_bits_note(const capture::DeviceInfo& device) {
     return !device.api_version.empty() && device.subpixel_bits < cases::kLeastSubpixelBits
                ? fmt::format(" (judged as {})", cases::kLeastSubpixelBits)
                : "";
@@ -193,61 +195,66 @@ std::string sample_options(const diff::Finding& finding, const cases::Target& ta
 }
 
 std::string accepted_text(const Run& run, const CaseRecord& record) {
-    return fmt::format("{} of {:.4g} allowed budgets", ratio_text(record.worst_ratio),
+    return fmt::format("{} of {:.4g} allowed budgets", ratio_text(record.outcome.worst_ratio),
                        ref::budget_factor(run.profile));
 }
 
 std::string counts_text(const CaseRecord& record) {
     // Several numbers of a sample may be wrong: then the samples are told, too.
     // Of a count that belongs to no sample no sample is wrong.
-    const bool is_of_case = record.wrong_samples == 0;
-    const bool has_more =
-        !is_of_case && record.wrong_samples && record.finding_total() > *record.wrong_samples;
+    const bool is_of_case = record.outcome.wrong_samples == 0;
+    const bool has_more = !is_of_case && record.outcome.wrong_samples &&
+                          record.outcome.finding_total() > *record.outcome.wrong_samples;
     std::string text;
     for (size_t k = 0; k < diff::kFindingKinds; ++k) {
         const auto kind = static_cast<diff::FindingKind>(k);
-        const uint64_t count = record.counts.at(k);
+        const uint64_t count = record.outcome.counts.at(k);
         if (count > 0) {
             text += (text.empty() ? "" : ", ") + counted_findings(kind, count, has_more);
         }
     }
     if (has_more) {
-        return fmt::format("{} of {} wrong ({})", *record.wrong_samples,
-                           cases::counted(record.compared_samples, "sample"), text);
+        return fmt::format("{} of {} wrong ({})", *record.outcome.wrong_samples,
+                           cases::counted(record.outcome.compared_samples, "sample"), text);
     }
     return text.empty() || is_of_case
                ? text
-               : fmt::format("{} of {}", text, cases::counted(record.compared_samples, "sample"));
+               : fmt::format("{} of {}", text,
+                             cases::counted(record.outcome.compared_samples, "sample"));
 }
 
 std::string what_happened(const CaseRecord& record) {
-    const std::string step = record.step.empty() ? "" : " during " + one_line(record.step);
-    const std::string signal = record.signal.empty() ? "the worker ended" : one_line(record.signal);
-    const std::string bug = record.bug.empty() ? "" : fmt::format(" ({})", one_line(record.bug));
+    const std::string step =
+        record.death.step.empty() ? "" : " during " + one_line(record.death.step);
+    const std::string signal =
+        record.death.signal.empty() ? "the worker ended" : one_line(record.death.signal);
+    const std::string bug =
+        record.known.bug.empty() ? "" : fmt::format(" ({})", one_line(record.known.bug));
     std::string expected;
-    if (record.expected && !record.expired.empty()) {
+    if (record.known.expected && !record.known.expired.empty()) {
         expected =
             fmt::format("the expectation of {}{} ended on {}: re-check it, or extend the date",
-                        to_string(*record.expected), bug, one_line(record.expired));
-    } else if (!record.unlike.empty()) {
-        expected = fmt::format("not as {} says{}: {}", one_line(record.expectation), bug,
-                               one_line(record.unlike));
-    } else if (record.expected) {
-        expected = fmt::format("expected {}{}", to_string(*record.expected), bug);
+                        to_string(*record.known.expected), bug, one_line(record.known.expired));
+    } else if (!record.known.unlike.empty()) {
+        expected = fmt::format("not as {} says{}: {}", one_line(record.known.place), bug,
+                               one_line(record.known.unlike));
+    } else if (record.known.expected) {
+        expected = fmt::format("expected {}{}", to_string(*record.known.expected), bug);
     }
     std::string text;
     switch (record.status) {
         case Status::crash:
-            text = fmt::format("{}{} after {}", signal, step, seconds_text(record.seconds));
+            text = fmt::format("{}{} after {}", signal, step, seconds_text(record.drawn.seconds));
             break;
         case Status::timeout:
-            text = fmt::format("no answer{} for {}", step, seconds_text(record.seconds));
+            text = fmt::format("no answer{} for {}", step, seconds_text(record.drawn.seconds));
             break;
         case Status::device_lost:
             text = "device lost" + step;
             break;
         case Status::xpass:
-            return record.expired.empty() ? expected + ", but it passes" : "passes; " + expected;
+            return record.known.expired.empty() ? expected + ", but it passes"
+                                                : "passes; " + expected;
         case Status::improved:
             return expected + ", but it got better";
         case Status::not_run:
@@ -257,7 +264,7 @@ std::string what_happened(const CaseRecord& record) {
             text = "cannot be judged";
             break;
         case Status::flake:
-            text = fmt::format("differs from run to run ({} attempts)", record.attempts);
+            text = fmt::format("differs from run to run ({} attempts)", record.drawn.attempts);
             break;
         case Status::pass:
         case Status::unsupported:
@@ -265,7 +272,7 @@ std::string what_happened(const CaseRecord& record) {
         case Status::xfail:
         case Status::fail:
             // --require-support makes a failure of it, which has no findings.
-            if (record.status == Status::fail && record.actual == Status::unsupported) {
+            if (record.status == Status::fail && record.known.actual == Status::unsupported) {
                 text = "unsupported";
             }
             break;
@@ -295,17 +302,17 @@ std::string finding_text(const diff::Finding& f) {
 }
 
 std::string why_it_happened(const CaseRecord& record) {
-    if (!record.findings.empty()) {
+    if (!record.outcome.findings.empty()) {
         return finding_text(leading_finding(record));
     }
     if (!record.reason.empty()) {
         return one_line(record.reason);
     }
     if (record.status == Status::xpass || record.status == Status::improved) {
-        return record.expectation.empty() ? "bring the expectation file up to date"
-                                          : "bring " + one_line(record.expectation) + " up to date";
+        return record.known.place.empty() ? "bring the expectation file up to date"
+                                          : "bring " + one_line(record.known.place) + " up to date";
     }
-    const std::string words = last_line(record.stderr_text);
+    const std::string words = last_line(record.death.output);
     return words.empty() ? "no reason was given" : "the driver's last words: " + words;
 }
 
@@ -385,8 +392,8 @@ std::string exit_text(int code, const std::string& why) {
 const CaseRecord* worst_case(const Run& run) {
     const CaseRecord* worst = nullptr;
     for (const CaseRecord& record : run.cases) {
-        if (record.finding_total() == 0 && record.compared_values > 0 &&
-            (worst == nullptr || record.worst_ratio > worst->worst_ratio)) {
+        if (record.outcome.finding_total() == 0 && record.outcome.compared_values > 0 &&
+            (worst == nullptr || record.outcome.worst_ratio > worst->outcome.worst_ratio)) {
             worst = &record;
         }
     }

@@ -27,15 +27,15 @@ CaseRecord lean(const CaseRecord& record) {
     out.id = record.id;
     out.file = record.file;
     out.status = record.status;
-    out.actual = record.actual;
-    out.level = record.level;
-    out.signal = record.signal;
-    out.step = record.step;
-    out.compared_samples = record.compared_samples;
-    out.counts = record.counts;
-    out.groups = record.groups;
-    if (!record.findings.empty()) {
-        out.findings = {leading_finding(record)};
+    out.known.actual = record.known.actual;
+    out.outcome.level = record.outcome.level;
+    out.death.signal = record.death.signal;
+    out.death.step = record.death.step;
+    out.outcome.compared_samples = record.outcome.compared_samples;
+    out.outcome.counts = record.outcome.counts;
+    out.outcome.groups = record.outcome.groups;
+    if (!record.outcome.findings.empty()) {
+        out.outcome.findings = {leading_finding(record)};
     }
     return out;
 }

@@ -355,7 +355,7 @@ bool satisfies(const std::vector<uint32_t>& version, const VersionBound& bound) 
     return false;
 }
 
-std::string mismatch(const ExpectationFile& file, const report::Device& device,
+std::string mismatch(const ExpectationFile& file, const capture::DeviceInfo& device,
                      cases::Profile profile) {
     if (::fnmatch(file.device_glob.c_str(), device.name.c_str(), 0) != 0) {
         return "it is for the device '" + file.device_glob + "', this is '" + device.name + "'";
@@ -456,11 +456,12 @@ bool is_excused(const ExpectationLine& line, const report::CaseRecord& record) {
 bool has_new_picture(const ExpectationLine& line, const report::CaseRecord& record) {
     // A line that knows bits has seen them.
     return line.pictures_are_known && line.cause.bits.empty() && line.status == Status::fail &&
-           !record.bits.empty() && !line.seen.contains(record.bits) && is_excused(line, record);
+           !record.drawn.bits.empty() && !line.seen.contains(record.drawn.bits) &&
+           is_excused(line, record);
 }
 
 Status counts_as(const ExpectationLine& line, const report::CaseRecord& record) {
-    if (is_of_other_doors(line.cause, record.drawn_doors)) {
+    if (is_of_other_doors(line.cause, record.drawn.doors)) {
         return record.status;
     }
     const Status status = judge_expected(record.status, line.status, line.is_past);
@@ -470,20 +471,21 @@ Status counts_as(const ExpectationLine& line, const report::CaseRecord& record) 
 }
 
 void apply(const ExpectationLine& line, report::CaseRecord& record) {
-    if (is_of_other_doors(line.cause, record.drawn_doors)) {
+    if (is_of_other_doors(line.cause, record.drawn.doors)) {
         return;
     }
-    record.expected = line.status;
-    record.bug = line.bug;
-    record.expectation = line.where.file + ":" + std::to_string(line.where.line);
-    record.expired = line.is_past ? line.until : "";
-    record.actual = record.status;
+    record.known.expected = line.status;
+    record.known.bug = line.bug;
+    record.known.place = line.where.file + ":" + std::to_string(line.where.line);
+    record.known.expired = line.is_past ? line.until : "";
+    record.known.actual = record.status;
     if (judge_expected(record.status, line.status, line.is_past) == Status::xfail) {
         mark_known(line.cause, record);
-        record.unlike = what_is_new(line.cause, record);
-        record.unseen_picture = has_new_picture(line, record);
-        if (record.unseen_picture && line.excuses_seen_only) {
-            record.unlike = "the picture, bits " + record.bits + ", is none that was seen before";
+        record.known.unlike = what_is_new(line.cause, record);
+        record.known.unseen_picture = has_new_picture(line, record);
+        if (record.known.unseen_picture && line.excuses_seen_only) {
+            record.known.unlike =
+                "the picture, bits " + record.drawn.bits + ", is none that was seen before";
         }
     }
     record.status = counts_as(line, record);

@@ -115,7 +115,7 @@ std::vector<std::string> ids_of(const std::vector<Wanted>& all) {
 
 // What the run says of a case, for a line that nobody has explained yet.
 std::string reason_of(const CaseRecord& record) {
-    if (record.findings.empty()) {
+    if (record.outcome.findings.empty()) {
         return one_line(report::why_it_happened(record));
     }
     const diff::Finding& f = report::leading_finding(record);
@@ -313,9 +313,9 @@ class Updater {
             if ((!bad && !better) || covered_.contains(record.id)) {
                 continue;
             }
-            if (record.expected && !record.expectation.empty()) {
+            if (record.known.expected && !record.known.place.empty()) {
                 result_.notes.push_back("'" + record.id + "' is spoken of by " +
-                                        record.expectation + "; update that file");
+                                        record.known.place + "; update that file");
                 continue;
             }
             if (better) {
@@ -385,7 +385,7 @@ Update update_expectations(std::string_view text, const ExpectationFile& file,
 }
 
 std::string new_expectation_file(const report::Run& run) {
-    const report::Device& d = run.device;
+    const capture::DeviceInfo& d = run.device;
     std::string text =
         std::string(kExpectationsFirstLine) + "\n# device: " + escaped(one_line(d.name), "*?[]\\");
     if (!d.driver_name.empty()) {

@@ -266,13 +266,13 @@ std::string to_text(const ExpectedCause& cause) {
 
 ExpectedCause cause_of(const report::CaseRecord& record, bool with_bits) {
     ExpectedCause cause;
-    for (const FindingGroup& group : record.groups) {
+    for (const FindingGroup& group : record.outcome.groups) {
         insert(cause, group);
     }
-    cause.signal = record.signal;
-    cause.step = record.signal.empty() ? record.step : "";
-    if (with_bits && !record.bits.empty()) {
-        cause.bits = {record.bits};
+    cause.signal = record.death.signal;
+    cause.step = record.death.signal.empty() ? record.death.step : "";
+    if (with_bits && !record.drawn.bits.empty()) {
+        cause.bits = {record.drawn.bits};
     }
     return cause;
 }
@@ -330,8 +330,8 @@ bool is_in_picture(const FindingGroup& group) {
 std::string what_of_flake_is_new(const ExpectedCause& cause, const report::CaseRecord& record) {
     const bool knows_death = !cause.signal.empty() || !cause.step.empty();
     const bool knows_drawing = !cause.groups.empty() || !cause.bits.empty();
-    if (!record.suspects.empty()) {
-        return record.suspects.size() > 1
+    if (!record.death.suspects.empty()) {
+        return record.death.suspects.size() > 1
                    ? "a worker died over it and others, so that it may be another case's doing"
                : !knows_death ? "the worker died, which the line does not say"
                               : "";
@@ -353,21 +353,21 @@ std::string what_is_new(const ExpectedCause& cause, const report::CaseRecord& re
     };
     const bool is_flake = record.status == report::Status::flake;
     const bool has_died =
-        (!is_flake && record.status != report::Status::fail) || !record.suspects.empty();
+        (!is_flake && record.status != report::Status::fail) || !record.death.suspects.empty();
     if (is_flake) {
         if (std::string news = what_of_flake_is_new(cause, record); !news.empty()) {
             say(std::move(news));
         }
     }
     if (has_died) {
-        check("signal", record.signal, cause.signal);
-        check("step", record.step, cause.step);
+        check("signal", record.death.signal, cause.signal);
+        check("step", record.death.step, cause.step);
     }
-    if (!cause.bits.empty() && !(is_flake && has_died) && !knows_bits(cause, record.bits)) {
-        say(fmt::format("the bits are '{}' and not '{}'", record.bits,
+    if (!cause.bits.empty() && !(is_flake && has_died) && !knows_bits(cause, record.drawn.bits)) {
+        say(fmt::format("the bits are '{}' and not '{}'", record.drawn.bits,
                         fmt::join(cause.bits, "' or '")));
     }
-    for (const FindingGroup& group : record.groups) {
+    for (const FindingGroup& group : record.outcome.groups) {
         if (!cause.bits.empty() && cause.groups.empty() && is_in_picture(group)) {
             continue;  // the bits say all of it
         }
@@ -385,8 +385,8 @@ std::string what_is_new(const ExpectedCause& cause, const report::CaseRecord& re
 }
 
 void mark_known(const ExpectedCause& cause, report::CaseRecord& record) {
-    const bool same_bits = knows_bits(cause, record.bits);
-    for (FindingGroup& group : record.groups) {
+    const bool same_bits = knows_bits(cause, record.drawn.bits);
+    for (FindingGroup& group : record.outcome.groups) {
         const FindingGroup* like = find_like(cause, group);
         group.known = same_bits && is_in_picture(group) ? group.count
                       : like == nullptr                 ? 0

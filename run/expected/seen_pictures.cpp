@@ -137,21 +137,21 @@ SeenPictures new_pictures(const report::Run& run, const std::filesystem::path& p
     return seen;
 }
 
-bool fits(const SeenPictures& seen, const report::Device& device) {
+bool fits(const SeenPictures& seen, const capture::DeviceInfo& device) {
     return ::fnmatch(seen.device_glob.c_str(), device.name.c_str(), 0) == 0;
 }
 
 void add_pictures(SeenPictures& seen, const report::Run& run) {
     for (const report::CaseRecord& record : run.cases) {
         if (report::actual_status(record) == report::Status::fail &&
-            record.expected != report::Status::flake && is_bits(record.bits)) {
-            seen.bits[record.id].insert(record.bits);
+            record.known.expected != report::Status::flake && is_bits(record.drawn.bits)) {
+            seen.bits[record.id].insert(record.drawn.bits);
         }
     }
 }
 
 bool tell_pictures(std::map<std::string, ExpectationLine>& expected,
-                   const std::vector<SeenPictures>& files, const report::Device& device,
+                   const std::vector<SeenPictures>& files, const capture::DeviceInfo& device,
                    bool is_strict) {
     bool is_any = false;
     for (const SeenPictures& file : files) {

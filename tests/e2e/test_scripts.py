@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The Edgecase authors
 # SPDX-License-Identifier: Apache-2.0
-"""What scripts/run-suite hands to 'edgecase run', what scripts/install-packages says, and what is installed."""
+"""What scripts/run-suite hands to 'edgecase run', what scripts/install-packages and scripts/compare-results say, and
+what is installed."""
 import json
 import os
 import pathlib
@@ -56,6 +57,41 @@ class RunSuite(unittest.TestCase):
         (self.root / "scripts/build").write_text('#!/bin/sh\n[ "$2" != --only-configure ]\n')
         done = subprocess.run([self.root / "scripts/run-suite"], capture_output=True, timeout=60, check=False)
         self.assertEqual((done.returncode, done.stdout), (7, b""))
+
+
+class CompareResults(unittest.TestCase):
+    CASE = {"id": "a", "status": "fail", "reason": "no line", "seconds": 1.0, "worst_quantity": "depth at pixel (1, 2)",
+            "findings": [{"quantity": "attribute 0.x", "expected": "1 or near it", "got": "0x3f800000 (1)", "why": "so"}]}
+
+    def setUp(self):
+        self.root = pathlib.Path(tempfile.mkdtemp(prefix="edgecase-e2e-"))
+        self.addCleanup(shutil.rmtree, self.root, ignore_errors=True)
+
+    def compared(self, *options, finding=None, **changed):
+        after = self.CASE | changed | {"findings": [self.CASE["findings"][0] | (finding or {})]}
+        for name, case in (("before", self.CASE), ("after", after)):
+            (self.root / name).mkdir(exist_ok=True)
+            (self.root / name / "results.json").write_text(json.dumps({"cases": [case]}))
+        done = subprocess.run([SOURCE / "scripts/compare-results", *options, self.root / "before", self.root / "after"],
+                              capture_output=True, text=True, timeout=60, check=False)
+        return done.returncode
+
+    def test_times_never_differ_and_words_unless_they_are_left_out(self):
+        self.assertEqual(self.compared(seconds=2.0), 0)
+        for words in ({"reason": "other words"}, {"worst_quantity": "pixel (1, 2): depth"},
+                      {"finding": {"why": "thus"}}, {"finding": {"expected": "nearly 1"}}):
+            self.assertEqual(self.compared(**words), 1, words)
+            self.assertEqual(self.compared("--no-words", **words), 0, words)
+
+    def test_results_differ_without_words_too(self):
+        for result in ({"status": "pass"}, {"worst_quantity": "depth at pixel (1, 3)"},
+                       {"finding": {"quantity": "attribute 1.x"}}, {"finding": {"got": "0x3f800001 (1)"}},
+                       {"finding": {"expected": "1.5 or near it"}}):
+            self.assertEqual(self.compared("--no-words", **result), 1, result)
+
+    def test_two_folders_are_compared(self):
+        self.assertEqual(subprocess.run([SOURCE / "scripts/compare-results", "--no-words", self.root],
+                                        capture_output=True, timeout=60, check=False).returncode, 2)
 
 
 class Build(unittest.TestCase):

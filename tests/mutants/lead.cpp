@@ -17,12 +17,12 @@ std::string top_rule(const std::vector<Kill>& kills) {
             report::CaseRecord record;
             record.id = kill.leaf;
             record.status = report::Status::fail;
-            record.level = part.lead.level;
+            record.outcome.level = part.lead.level;
             diff::Finding finding;
             finding.kind = part.lead.kind;
             finding.rule = part.lead.rule;
             finding.level = part.lead.level;
-            record.findings = {finding};
+            record.outcome.findings = {finding};
             run.cases.insert(run.cases.end(), part.files, record);
         }
     }
@@ -30,7 +30,7 @@ std::string top_rule(const std::vector<Kill>& kills) {
     return causes.empty() ? "" : causes.front().rule;
 }
 
-bool is_broken(const FaultInfo& info, std::string_view rule) {
+bool is_broken(const FaultRow& info, std::string_view rule) {
     std::istringstream rules{std::string(info.rules)};
     return std::find(std::istream_iterator<std::string>(rules), {}, rule) !=
            std::istream_iterator<std::string>();

@@ -81,22 +81,17 @@ std::vector<std::byte> encode_texels(cases::ColorFormat format,
     return bytes;
 }
 
-Result<BlitImages::PlainImage> BlitImages::make_image(const Device& device,
-                                                      cases::ColorFormat format, uint32_t width,
-                                                      uint32_t height) {
+BlitImages::PlainImage BlitImages::make_image(const Device& device, cases::ColorFormat format,
+                                              uint32_t width, uint32_t height) {
     const auto info = image_info(to_vulkan(format), {width, height},
                                  VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
     PlainImage made;
-    if (auto done = put(made.image, vk_harness::make_image(device, info)); !done) {
-        return fail(done.error());
-    }
-    if (auto done = put(made.memory, bind_guarded(device, made.image.get())); !done) {
-        return fail(done.error());
-    }
+    made.image = vk_harness::make_image(device, info);
+    made.memory = bind_guarded(device, made.image.get());
     return made;
 }
 
-Result<BlitImages> BlitImages::create(const Device& device, const cases::Case& c) {
+BlitImages BlitImages::create(const Device& device, const cases::Case& c) {
     const cases::Blit& blit = *c.blit;
     BlitImages images;
     const std::vector<std::byte> texels =
@@ -106,28 +101,16 @@ Result<BlitImages> BlitImages::create(const Device& device, const cases::Case& c
     images.poison_offset_ = (texels.size() + kCopyAlignment - 1) / kCopyAlignment * kCopyAlignment;
     const VkDeviceSize poison =
         VkDeviceSize{c.target.width} * c.target.height * bytes_of(c.target.color->format);
-    if (auto done = put(images.upload_,
-                        Buffer::create(device, images.poison_offset_ + poison,
-                                       VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HostAccess::write));
-        !done) {
-        return fail(done.error());
-    }
+    images.upload_ = Buffer::create(device, images.poison_offset_ + poison,
+                                    VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HostAccess::write);
     const std::span<std::byte> upload = images.upload_.bytes();
     std::copy(texels.begin(), texels.end(), upload.begin());
     std::fill(upload.begin() + static_cast<std::ptrdiff_t>(images.poison_offset_), upload.end(),
               kPoisonByte);
-    if (auto flushed = images.upload_.flush(); !flushed) {
-        return fail(flushed.error());
-    }
-    auto made = put(images.source_,
-                    make_image(device, blit.source_format, blit.source_width, blit.source_height));
-    if (made) {
-        made = put(images.destination_,
-                   make_image(device, c.target.color->format, c.target.width, c.target.height));
-    }
-    if (!made) {
-        return fail(made.error());
-    }
+    images.upload_.flush();
+    images.source_ = make_image(device, blit.source_format, blit.source_width, blit.source_height);
+    images.destination_ =
+        make_image(device, c.target.color->format, c.target.width, c.target.height);
     return images;
 }
 

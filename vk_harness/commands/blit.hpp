@@ -24,7 +24,7 @@ std::vector<std::byte> encode_texels(cases::ColorFormat format,
 class BlitImages {
   public:
     // The case has a blit. The source's texels are written to host memory here.
-    static Result<BlitImages> create(const Device& device, const cases::Case& c);
+    static BlitImages create(const Device& device, const cases::Case& c);
 
     // Records the upload of the source, clearing of the destination, the blit, and, unless
     // `readback` is null, the copy of the destination to byte `offset` of it.
@@ -38,8 +38,8 @@ class BlitImages {
         ImageMemory memory;  // freed after the image
         Handle<VkImage> image;
     };
-    static Result<PlainImage> make_image(const Device& device, cases::ColorFormat format,
-                                         uint32_t width, uint32_t height);
+    static PlainImage make_image(const Device& device, cases::ColorFormat format, uint32_t width,
+                                 uint32_t height);
 
     Buffer upload_;
     size_t poison_offset_ = 0;  // in it

@@ -4,7 +4,7 @@
 // One draw of a case as commands within a rendering.
 #pragma once
 
-#include "vk_harness/commands/record.hpp"
+#include "vk_harness/commands/case_plan.hpp"
 
 namespace vk_harness {
 

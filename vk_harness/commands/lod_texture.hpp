@@ -8,6 +8,7 @@
 #include <array>
 #include <map>
 
+#include "vk_harness/memory/descriptor.hpp"
 #include "vk_harness/memory/memory.hpp"
 #include "vk_harness/pipeline/pipeline_cache.hpp"
 
@@ -19,23 +20,18 @@ class LodTextures {
 
     // The descriptor set (PipelineCache::texture_set_layout) of a texture of width x height texels,
     // made at the first call. The sampler interpolates between levels, without bias or bounds.
-    Result<VkDescriptorSet> get(const PipelineCache& pipelines, std::array<uint32_t, 2> size);
+    VkDescriptorSet get(const PipelineCache& pipelines, std::array<uint32_t, 2> size);
 
     // Records what new textures need before a shader may look at them. Outside of rendering.
     void record_transitions(VkCommandBuffer commands);
 
   private:
     struct Texture {
-        Handle<VkDeviceMemory> memory;
-        Handle<VkImage> image;
-        Handle<VkImageView> view;
-        Handle<VkDescriptorPool> pool;
-        VkDescriptorSet set = VK_NULL_HANDLE;  // owned by the pool
-        bool is_new = true;                    // its layout is undefined
+        SampledImage image;
+        DescriptorSets set;
+        bool is_new = true;  // its layout is undefined
     };
-    Result<Texture> make(const PipelineCache& pipelines, std::array<uint32_t, 2> size);
-    Result<void> make_image(std::array<uint32_t, 2> size, Texture& texture) const;
-    Result<void> make_set(const PipelineCache& pipelines, Texture& texture) const;
+    Texture make(const PipelineCache& pipelines, std::array<uint32_t, 2> size);
 
     const Device* device_;
     Handle<VkSampler> sampler_;

@@ -21,15 +21,15 @@ namespace {
 constexpr std::chrono::milliseconds kLongestWait{500};
 
 // What the query gives, or kNotCounted if it does not until `end`.
-Result<uint64_t> read_one(const Device& device, VkQueryPool pool, uint32_t query,
-                          std::chrono::steady_clock::time_point end) {
+uint64_t read_one(const Device& device, VkQueryPool pool, uint32_t query,
+                  std::chrono::steady_clock::time_point end) {
     for (;;) {
         std::array<uint64_t, 2> result{};  // the number, and whether it is there
         const VkResult read = device.vk().vkGetQueryPoolResults(
             device.get(), pool, query, 1, sizeof result, result.data(), sizeof result,
             VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WITH_AVAILABILITY_BIT);
         if (read != VK_SUCCESS && read != VK_NOT_READY) {
-            return fail(call_failure(Stage::readback, read, "vkGetQueryPoolResults"));
+            fail(call_failure(Stage::readback, read, "vkGetQueryPoolResults"));
         }
         if (read == VK_SUCCESS && result[1] != 0) {
             return result[0];
@@ -68,7 +68,7 @@ VkQueryPipelineStatisticFlags statistic_of(Query query) {
 
 // A pool has one kind of queries, and all that a case asks are as long as it has draws: those of
 // other draws are not used.
-Result<Queries> Queries::create(const Device& device, const cases::Case& c) {
+Queries Queries::create(const Device& device, const cases::Case& c) {
     Queries queries(device, c);
     for (const cases::Draw& draw : c.draws) {
         if (!queries.is_asked(draw.query) || queries.pools_.contains(statistic_of(draw.query))) {
@@ -79,13 +79,9 @@ Result<Queries> Queries::create(const Device& device, const cases::Case& c) {
         info.queryType = info.pipelineStatistics == 0 ? VK_QUERY_TYPE_OCCLUSION
                                                       : VK_QUERY_TYPE_PIPELINE_STATISTICS;
         info.queryCount = static_cast<uint32_t>(c.draws.size());
-        if (auto made =
-                put(queries.pools_[info.pipelineStatistics],
-                    make(device, Stage::memory, "vkCreateQueryPool", device.vk().vkCreateQueryPool,
-                         device.vk().vkDestroyQueryPool, info));
-            !made) {
-            return fail(made.error());
-        }
+        queries.pools_[info.pipelineStatistics] =
+            make(device, Stage::memory, "vkCreateQueryPool", device.vk().vkCreateQueryPool,
+                 device.vk().vkDestroyQueryPool, info);
     }
     return queries;
 }
@@ -122,7 +118,7 @@ void Queries::end(VkCommandBuffer commands, uint32_t draw) const {
     }
 }
 
-Result<std::vector<uint64_t>> Queries::read() const {
+std::vector<uint64_t> Queries::read() const {
     std::vector<uint64_t> counted(case_->draws.size(), 0);
     const auto end = std::chrono::steady_clock::now() + kLongestWait;  // of all of them
     for (uint32_t k = 0; k < counted.size(); ++k) {
@@ -132,11 +128,8 @@ Result<std::vector<uint64_t>> Queries::read() const {
             continue;
         }
         auto result = read_one(*device_, pool_of(query), k, end);
-        if (!result) {
-            return fail(result.error());
-        }
-        const bool is_any = query == Query::occlusion && *result != capture::kNotCounted;
-        counted[k] = is_any ? std::min(*result, uint64_t{1}) : *result;
+        const bool is_any = query == Query::occlusion && result != capture::kNotCounted;
+        counted[k] = is_any ? std::min(result, uint64_t{1}) : result;
     }
     return counted;
 }

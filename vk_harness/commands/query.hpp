@@ -18,7 +18,7 @@ namespace vk_harness {
 class Queries {
   public:
     // Keeps references.
-    static Result<Queries> create(const Device& device, const cases::Case& c);
+    static Queries create(const Device& device, const cases::Case& c);
 
     // Outside of a rendering, before its first query.
     void reset(VkCommandBuffer commands) const;
@@ -28,7 +28,7 @@ class Queries {
     void end(VkCommandBuffer commands, uint32_t draw) const;
 
     // What was counted (capture::Planes::counted), when the commands have been submitted.
-    Result<std::vector<uint64_t>> read() const;
+    std::vector<uint64_t> read() const;
 
   private:
     Queries(const Device& device, const cases::Case& c) : device_(&device), case_(&c) {}

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstring>
+#include <utility>
 
 #include "vk_harness/target/shader_interface.hpp"
 #include "vk_harness/target/target_way.hpp"
@@ -64,17 +65,13 @@ void write_vertices(const CasePlan& plan, std::span<std::byte> memory) {
     }
 }
 
-Result<void> make_door_buffers(const Device& device, const PipelineCache& pipelines,
-                               const CasePlan& plan, std::span<const std::byte> memory) {
+void make_door_buffers(const Device& device, const PipelineCache& pipelines, const CasePlan& plan,
+                       std::span<const std::byte> memory) {
     for (const DrawPlan& item : plan.draws) {
         if (item.feed) {
-            if (auto made = item.feed->make_buffers(device, memory, pipelines.pulled_set_layout());
-                !made) {
-                return made;
-            }
+            item.feed->make_buffers(device, memory, pipelines.pulled_set_layout());
         }
     }
-    return {};
 }
 
 void record_copy(const Device& device, VkCommandBuffer commands, const CasePlan& plan,
@@ -93,9 +90,8 @@ void record_copy(const Device& device, VkCommandBuffer commands, const CasePlan&
                                        readback, 1, &region);
 }
 
-void record_copies(const Device& device, std::span<const VkPipeline> pipelines,
-                   VkPipelineLayout copy_layout, VkCommandBuffer commands, const CasePlan& plan,
-                   VkBuffer readback, std::span<const VkDescriptorSet> sets) {
+void record_copies(const Device& device, PipelineCache& pipelines, VkCommandBuffer commands,
+                   const CasePlan& plan, VkBuffer readback, std::span<const VkDescriptorSet> sets) {
     const VolkDeviceTable& vk = device.vk();
     const cases::Target& target = plan.test->target;
     for (size_t k = 0; k < plan.images.size(); ++k) {
@@ -118,14 +114,14 @@ void record_copies(const Device& device, std::span<const VkPipeline> pipelines,
         if (plan.attachments[k].is_resolved() || plan.attachments[k].is_input) {
             continue;
         }
-        if (bound != pipelines[k]) {
-            bound = pipelines[k];
-            vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines[k]);
-            vk.vkCmdPushConstants(commands, copy_layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
+        const VkPipeline pipeline = pipelines.get_copy(plan.attachments[k]);
+        if (std::exchange(bound, pipeline) != pipeline) {
+            vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+            vk.vkCmdPushConstants(commands, pipelines.copy_layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                   sizeof(constants), constants.data());
         }
-        vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, copy_layout, 0, 1,
-                                   &sets[k], 0, nullptr);
+        vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
+                                   pipelines.copy_layout(), 0, 1, &sets[k], 0, nullptr);
         vk.vkCmdDispatch(commands, groups_x, groups_y, target.layers);
     }
 }

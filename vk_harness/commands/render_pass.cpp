@@ -10,8 +10,8 @@
 
 namespace vk_harness {
 
-Result<Handle<VkFramebuffer>> make_framebuffer(const Device& device, const CasePlan& plan,
-                                               VkRenderPass pass) {
+Handle<VkFramebuffer> make_framebuffer(const Device& device, const CasePlan& plan,
+                                       VkRenderPass pass) {
     std::vector<VkImageView> views;
     for (size_t k = 0; k < plan.images.size(); ++k) {
         if (!plan.attachments[k].is_beside_depth) {

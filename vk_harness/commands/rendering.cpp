@@ -1,15 +1,13 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// The rendering of a case: attachments that are cleared, loaded and stored around its draws, in one
-// piece or as a door of the group `recording` asks for (cases/model/door.hpp).
+#include "vk_harness/commands/rendering.hpp"
+
 #include <algorithm>
 #include <array>
 #include <optional>
 #include <vector>
 
 #include "vk_harness/commands/draw_commands.hpp"
-#include "vk_harness/commands/record.hpp"
 #include "vk_harness/commands/render_pass.hpp"
 #include "vk_harness/device/sample_locations.hpp"
 #include "vk_harness/memory/barrier.hpp"
@@ -288,9 +286,9 @@ void clear_by_draws(const Device& device, const PipelineCache& pipelines, VkComm
 }
 
 // Records draws [first, end) to a secondary command buffer that inherits the rendering.
-Result<void> record_secondary(const Device& device, const PipelineCache& pipelines,
-                              VkCommandBuffer secondary, const CasePlan& plan, uint32_t first,
-                              uint32_t end, VkBuffer vertices) {
+void record_secondary(const Device& device, const PipelineCache& pipelines,
+                      VkCommandBuffer secondary, const CasePlan& plan, uint32_t first, uint32_t end,
+                      VkBuffer vertices) {
     const VolkDeviceTable& vk = device.vk();
     std::vector<VkFormat> formats;
     VkCommandBufferInheritanceRenderingInfo rendering =
@@ -316,29 +314,20 @@ Result<void> record_secondary(const Device& device, const PipelineCache& pipelin
                   (is_reused ? VK_COMMAND_BUFFER_USAGE_SIMULTANEOUS_USE_BIT
                              : VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT);
     begin.pInheritanceInfo = &inheritance;
-    if (auto begun = check(Stage::submit, vk.vkBeginCommandBuffer(secondary, &begin),
-                           "vkBeginCommandBuffer");
-        !begun) {
-        return begun;
-    }
+    check(Stage::submit, vk.vkBeginCommandBuffer(secondary, &begin), "vkBeginCommandBuffer");
     for (uint32_t k = first; k < end; ++k) {
         record_draw(device, pipelines, secondary, plan, k, vertices);
     }
-    return check(Stage::submit, vk.vkEndCommandBuffer(secondary), "vkEndCommandBuffer");
+    check(Stage::submit, vk.vkEndCommandBuffer(secondary), "vkEndCommandBuffer");
 }
 
-Result<void> render_by_secondaries(const Device& device, const PipelineCache& pipelines,
-                                   VkCommandBuffer commands, const CasePlan& plan,
-                                   VkBuffer vertices) {
+void render_by_secondaries(const Device& device, const PipelineCache& pipelines,
+                           VkCommandBuffer commands, const CasePlan& plan, VkBuffer vertices) {
     const auto draws = static_cast<uint32_t>(plan.draws.size());
     const auto count = static_cast<uint32_t>(plan.secondaries.size());
     for (uint32_t k = 0; k < count; ++k) {
-        if (auto recorded =
-                record_secondary(device, pipelines, plan.secondaries[k], plan, count == 1 ? 0 : k,
-                                 count == 1 ? draws : k + 1, vertices);
-            !recorded) {
-            return recorded;
-        }
+        record_secondary(device, pipelines, plan.secondaries[k], plan, count == 1 ? 0 : k,
+                         count == 1 ? draws : k + 1, vertices);
     }
     const Attached attached(plan, VK_ATTACHMENT_LOAD_OP_CLEAR,
                             VK_RENDERING_CONTENTS_SECONDARY_COMMAND_BUFFERS_BIT);
@@ -357,14 +346,13 @@ Result<void> render_by_secondaries(const Device& device, const PipelineCache& pi
         }
         execute();
     }
-    return {};
 }
 
 // A rendering without draws, which clears, then one for each draw. With `next` each has a command
 // buffer of its own.
-Result<void> render_in_pieces(const Device& device, const PipelineCache& pipelines,
-                              VkCommandBuffer& commands, const CasePlan& plan, VkBuffer vertices,
-                              bool suspends, const NextCommands& next = {}) {
+void render_in_pieces(const Device& device, const PipelineCache& pipelines,
+                      VkCommandBuffer& commands, const CasePlan& plan, VkBuffer vertices,
+                      bool suspends, const NextCommands& next = {}) {
     const auto draws = static_cast<uint32_t>(plan.draws.size());
     for (uint32_t piece = 0; piece <= draws; ++piece) {
         VkRenderingFlags flags = 0;
@@ -373,11 +361,7 @@ Result<void> render_in_pieces(const Device& device, const PipelineCache& pipelin
                     (piece < draws ? VkRenderingFlags{VK_RENDERING_SUSPENDING_BIT} : 0U);
         } else if (piece > 0) {
             if (next) {
-                auto made = next();
-                if (!made) {
-                    return fail(made.error());
-                }
-                commands = *made;
+                commands = next();
             }
             barrier(device, commands, plan, kColorDrawn, kColorDrawn, kDepthDrawn, kDepthDrawn);
         }
@@ -392,7 +376,6 @@ Result<void> render_in_pieces(const Device& device, const PipelineCache& pipelin
         }
         device.vk().vkCmdEndRendering(commands);
     }
-    return {};
 }
 
 void render_at_once(const Device& device, const PipelineCache& pipelines, VkCommandBuffer commands,
@@ -434,9 +417,9 @@ size_t secondaries_of(const CasePlan& plan) {
     }
 }
 
-Result<void> record_draws(const Device& device, const PipelineCache& pipelines,
-                          VkCommandBuffer& commands, const CasePlan& plan, VkBuffer vertices,
-                          bool for_copies, const NextCommands& next) {
+void record_draws(const Device& device, const PipelineCache& pipelines, VkCommandBuffer& commands,
+                  const CasePlan& plan, VkBuffer vertices, bool for_copies,
+                  const NextCommands& next) {
     if (plan.test->variation.door == Door::transform_feedback) {
         record_feedback(device, commands, plan, vertices);
     }
@@ -448,18 +431,11 @@ Result<void> record_draws(const Device& device, const PipelineCache& pipelines,
     }
     const Door door = plan.test->variation.door;
     if (!plan.secondaries.empty()) {
-        if (auto rendered = render_by_secondaries(device, pipelines, commands, plan, vertices);
-            !rendered) {
-            return rendered;
-        }
+        render_by_secondaries(device, pipelines, commands, plan, vertices);
     } else if (door == Door::pass_split || door == Door::pass_suspended ||
                door == Door::submissions) {
-        if (auto rendered = render_in_pieces(device, pipelines, commands, plan, vertices,
-                                             door == Door::pass_suspended,
-                                             door == Door::submissions ? next : NextCommands());
-            !rendered) {
-            return rendered;
-        }
+        render_in_pieces(device, pipelines, commands, plan, vertices, door == Door::pass_suspended,
+                         door == Door::submissions ? next : NextCommands());
     } else if (plan.framebuffer) {
         render_by_pass(device, pipelines, commands, plan, vertices);
     } else {
@@ -471,7 +447,6 @@ Result<void> record_draws(const Device& device, const PipelineCache& pipelines,
         after.stage |= kCopied.stage;
         barrier(device, commands, plan, kColorDrawn, after, kDepthDrawn, after, &kCopied);
     }
-    return {};
 }
 
 }  // namespace vk_harness

@@ -18,32 +18,35 @@ namespace vk_harness {
 // The enumerator's name, or its number.
 std::string result_name(VkResult result);
 
+// "VkResult -4"; empty of VK_SUCCESS.
+std::string code_of(VkResult result);
+
 // A failure of one call: "vkCreateDevice failed with VK_ERROR_...".
 Failure call_failure(Stage stage, VkResult result, std::string_view call);
 
-// Nothing, or the failure of the call that returned `result`.
-Result<void> check(Stage stage, VkResult result, std::string_view call);
-
-inline tl::unexpected<Failure> fail(Failure failure) {
-    return tl::unexpected<Failure>(std::move(failure));
+// Inside the harness a failure is thrown, as Failure; others see it as a value, by attempt().
+[[noreturn]] inline void fail(Failure failure) {
+    throw std::move(failure);
 }
-inline tl::unexpected<Failure> fail(Stage stage, std::string message,
-                                    VkResult result = VK_SUCCESS) {
-    return fail(Failure{stage, static_cast<int>(result), std::move(message), {}});
+[[noreturn]] inline void fail(Stage stage, std::string message, VkResult result = VK_SUCCESS) {
+    fail(Failure{stage, std::move(message), {}, code_of(result), result == VK_ERROR_DEVICE_LOST});
 }
 
-// Puts what was made where it belongs, if it was made.
-template <class T>
-Result<void> put(T& to, Result<T> made) {
-    if (!made) {
-        return fail(made.error());
+// Throws the failure of the call that returned `result`, unless it succeeded.
+void check(Stage stage, VkResult result, std::string_view call);
+
+// What `make` makes, or the failure that it throws.
+template <class Make>
+auto attempt(const Make& make) -> Result<decltype(make())> {
+    try {
+        return make();
+    } catch (Failure& failure) {
+        return tl::unexpected<Failure>(std::move(failure));
     }
-    to = std::move(*made);
-    return {};
 }
 
 // Finds the loader and the functions that need no instance. Safe to call often.
-Result<void> load_vulkan(const Options& options);
+void load_vulkan(const Options& options);
 
 // A structure of Vulkan's begins as this: of its type, with zeros.
 struct Typed {

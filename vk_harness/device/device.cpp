@@ -37,19 +37,15 @@ bool names(const std::string& wanted, const DeviceInfo& info) {
 }  // namespace
 
 bool is_pinned(const Options& options, const DeviceInfo& info) {
-    return options.pinned_uuid.empty() ||
-           (info.uuid == options.pinned_uuid && info.driver_id == options.pinned_driver);
+    return options.pinned.empty() || info.key == options.pinned;
 }
 
-Result<Capabilities> choose_device(const Instance& instance, const Options& options) {
+Capabilities choose_device(const Instance& instance, const Options& options) {
     auto devices = instance.physical_devices();
-    if (!devices) {
-        return fail(devices.error());
-    }
     Failure failure;
     failure.stage = Stage::device;
-    for (uint32_t index = 0; index < devices->size(); ++index) {
-        Capabilities c = query_capabilities((*devices)[index], index);
+    for (uint32_t index = 0; index < devices.size(); ++index) {
+        Capabilities c = query_capabilities(devices[index], index);
         const std::string label = fmt::format("device {} ({})", index, c.info.name);
         if (!names(options.device, c.info)) {
             failure.reasons.push_back(fmt::format("{}: not the device that was asked for", label));
@@ -63,14 +59,14 @@ Result<Capabilities> choose_device(const Instance& instance, const Options& opti
             return c;
         }
     }
-    if (devices->empty()) {
+    if (devices.empty()) {
         failure.message =
             "no Vulkan device was found; install a driver (Debian: mesa-vulkan-drivers) or set "
             "VK_DRIVER_FILES";
-    } else if (!options.pinned_uuid.empty()) {
+    } else if (!options.pinned.empty()) {
         failure.message = fmt::format(
             "the device that the run began with (UUID {}) is not there any more, or cannot be used",
-            options.pinned_uuid);
+            options.pinned.substr(0, options.pinned.find(':')));
     } else if (options.device.empty()) {
         failure.message = "no Vulkan device can run the cases";
     } else {
@@ -78,26 +74,21 @@ Result<Capabilities> choose_device(const Instance& instance, const Options& opti
             "no usable Vulkan device is called '{}'; give an index, a part of the name, or a UUID",
             options.device);
     }
-    return fail(std::move(failure));
+    fail(std::move(failure));
 }
 
 Result<std::vector<DeviceInfo>> list_devices(const Options& options) {
-    auto instance = Instance::create(options);
-    if (!instance) {
-        return fail(instance.error());
-    }
-    auto devices = instance->physical_devices();
-    if (!devices) {
-        return fail(devices.error());
-    }
-    std::vector<DeviceInfo> infos;
-    for (uint32_t index = 0; index < devices->size(); ++index) {
-        infos.push_back(query_capabilities((*devices)[index], index).info);
-    }
-    return infos;
+    return attempt([&] {
+        const Instance instance = Instance::create(options);
+        std::vector<DeviceInfo> infos;
+        for (const VkPhysicalDevice physical : instance.physical_devices()) {
+            infos.push_back(query_capabilities(physical, static_cast<uint32_t>(infos.size())).info);
+        }
+        return infos;
+    });
 }
 
-Result<Device> Device::create(const Capabilities& capabilities) {
+Device Device::create(const Capabilities& capabilities) {
     const float priority = 1.0F;
     VkDeviceQueueCreateInfo queue = Typed{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
     queue.queueFamilyIndex = capabilities.queue_family;
@@ -130,7 +121,7 @@ Result<Device> Device::create(const Capabilities& capabilities) {
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_ENABLE_FEATURES_EXT};
     depth_clip.depthClipEnable = VK_TRUE;
     VkPhysicalDeviceFeatures2 features = Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
-    if (capabilities.info.api_version >= VK_API_VERSION_1_2) {
+    if (capabilities.api_version >= VK_API_VERSION_1_2) {
         features.pNext = &features12;
     }
     std::vector<const char*> extensions;
@@ -192,10 +183,8 @@ Result<Device> Device::create(const Capabilities& capabilities) {
     info.ppEnabledExtensionNames = extensions.data();
 
     Device device;
-    const VkResult result = vkCreateDevice(capabilities.physical, &info, nullptr, &device.device_);
-    if (result != VK_SUCCESS) {
-        return fail(call_failure(Stage::device, result, "vkCreateDevice"));
-    }
+    check(Stage::device, vkCreateDevice(capabilities.physical, &info, nullptr, &device.device_),
+          "vkCreateDevice");
     device.table_ = std::make_unique<VolkDeviceTable>();
     volkLoadDeviceTable(device.table_.get(), device.device_);
     use_extension_names(*device.table_);
@@ -233,8 +222,7 @@ Device::~Device() {
     }
 }
 
-Result<Handle<VkBuffer>> make_buffer(const Device& device, VkDeviceSize size,
-                                     VkBufferUsageFlags usage) {
+Handle<VkBuffer> make_buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage) {
     VkBufferCreateInfo info = Typed{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     info.size = size;
     info.usage = usage;

@@ -18,11 +18,11 @@ bool is_pinned(const Options& options, const DeviceInfo& info);
 
 // The device that options.device names ("" = the first usable one), or one reason for every device
 // that was rejected.
-Result<Capabilities> choose_device(const Instance& instance, const Options& options);
+Capabilities choose_device(const Instance& instance, const Options& options);
 
 class Device {
   public:
-    static Result<Device> create(const Capabilities& capabilities);
+    static Device create(const Capabilities& capabilities);
     Device(Device&& other) noexcept;
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
@@ -35,7 +35,8 @@ class Device {
     const Capabilities& capabilities() const { return *capabilities_; }
     // What it has answered, or why it has not.
     void set_sample_locations(std::vector<cases::SampleLocations> told, std::string error = {}) {
-        capabilities_->info.sample_locations = std::move(told);
+        capabilities_->info.sample_locations = cases::to_text(told);
+        capabilities_->told_locations = std::move(told);
         capabilities_->info.sample_locations_error = std::move(error);
     }
     // Nanoseconds that a wait for the device lasts at most; UINT64_MAX: without end.
@@ -59,20 +60,15 @@ class Device {
 
 // A new object of the device, made by the call that `name` names.
 template <class Info, class T>
-Result<Handle<T>> make(const Device& device, Stage stage, std::string_view name,
-                       VkResult(VKAPI_PTR* create)(VkDevice, const Info*,
-                                                   const VkAllocationCallbacks*, T*),
-                       typename Handle<T>::Destroy destroy, const Info& info) {
+Handle<T> make(const Device& device, Stage stage, std::string_view name,
+               VkResult(VKAPI_PTR* create)(VkDevice, const Info*, const VkAllocationCallbacks*, T*),
+               typename Handle<T>::Destroy destroy, const Info& info) {
     T handle = VK_NULL_HANDLE;
-    const VkResult result = create(device.get(), &info, nullptr, &handle);
-    if (result != VK_SUCCESS) {
-        return fail(call_failure(stage, result, name));
-    }
+    check(stage, create(device.get(), &info, nullptr, &handle), name);
     return Handle<T>(device.get(), handle, destroy);
 }
 
 // A buffer of the device, not bound to memory yet.
-Result<Handle<VkBuffer>> make_buffer(const Device& device, VkDeviceSize size,
-                                     VkBufferUsageFlags usage);
+Handle<VkBuffer> make_buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage);
 
 }  // namespace vk_harness

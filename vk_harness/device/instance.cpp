@@ -75,12 +75,10 @@ std::vector<std::string> MessageLog::take() {
     return std::exchange(messages_, {});
 }
 
-Result<Instance> Instance::create(const Options& options) {
-    if (auto loaded = load_vulkan(options); !loaded) {
-        return fail(loaded.error());
-    }
+Instance Instance::create(const Options& options) {
+    load_vulkan(options);
     if (volkGetInstanceVersion() < VK_API_VERSION_1_1) {
-        return fail(Stage::loader, "the Vulkan loader knows Vulkan 1.0 only; install a newer one");
+        fail(Stage::loader, "the Vulkan loader knows Vulkan 1.0 only; install a newer one");
     }
     Instance instance;
     std::vector<const char*> layers;
@@ -103,10 +101,10 @@ Result<Instance> Instance::create(const Options& options) {
         instance.validation_version_ = layer_version(kValidationLayer);
         if (!instance.validation_version_ ||
             !has_extension(kValidationLayer, VK_EXT_DEBUG_UTILS_EXTENSION_NAME)) {
-            return fail(Stage::instance,
-                        std::string("the validation layer ") + kValidationLayer +
-                            " is not installed (Debian: vulkan-validationlayers)",
-                        VK_ERROR_LAYER_NOT_PRESENT);
+            fail(Stage::instance,
+                 std::string("the validation layer ") + kValidationLayer +
+                     " is not installed (Debian: vulkan-validationlayers)",
+                 VK_ERROR_LAYER_NOT_PRESENT);
         }
         layers.push_back(kValidationLayer);
         extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
@@ -134,16 +132,15 @@ Result<Instance> Instance::create(const Options& options) {
                                    : ": the loader found no Vulkan driver; install one (Debian: "
                                      "mesa-vulkan-drivers) or name its JSON file";
         }
-        return fail(std::move(failure));
+        fail(std::move(failure));
     }
     volkLoadInstanceOnly(instance.instance_);
     if (options.validation) {
         instance.destroy_messenger_ = vkDestroyDebugUtilsMessengerEXT;
-        const VkResult created = vkCreateDebugUtilsMessengerEXT(instance.instance_, &messenger,
-                                                                nullptr, &instance.messenger_);
-        if (created != VK_SUCCESS) {
-            return fail(call_failure(Stage::instance, created, "vkCreateDebugUtilsMessengerEXT"));
-        }
+        check(Stage::instance,
+              vkCreateDebugUtilsMessengerEXT(instance.instance_, &messenger, nullptr,
+                                             &instance.messenger_),
+              "vkCreateDebugUtilsMessengerEXT");
     }
     return instance;
 }
@@ -164,7 +161,7 @@ Instance::~Instance() {
     }
 }
 
-Result<std::vector<VkPhysicalDevice>> Instance::physical_devices() const {
+std::vector<VkPhysicalDevice> Instance::physical_devices() const {
     uint32_t count = 0;
     VkResult result = vkEnumeratePhysicalDevices(instance_, &count, nullptr);
     std::vector<VkPhysicalDevice> devices(count);
@@ -176,7 +173,7 @@ Result<std::vector<VkPhysicalDevice>> Instance::physical_devices() const {
         return std::vector<VkPhysicalDevice>{};
     }
     if (result != VK_SUCCESS && result != VK_INCOMPLETE) {
-        return fail(call_failure(Stage::device, result, "vkEnumeratePhysicalDevices"));
+        fail(call_failure(Stage::device, result, "vkEnumeratePhysicalDevices"));
     }
     return devices;
 }

@@ -30,7 +30,7 @@ class Instance {
   public:
     // Loads Vulkan and creates an instance of version 1.3, with the Khronos validation layer if
     // options.validation asks for it.
-    static Result<Instance> create(const Options& options);
+    static Instance create(const Options& options);
     Instance(Instance&& other) noexcept;
     Instance(const Instance&) = delete;
     Instance& operator=(const Instance&) = delete;
@@ -39,7 +39,7 @@ class Instance {
 
     VkInstance get() const { return instance_; }
     MessageLog& messages() const { return *messages_; }
-    Result<std::vector<VkPhysicalDevice>> physical_devices() const;
+    std::vector<VkPhysicalDevice> physical_devices() const;
     // The version of Vulkan that the validation layer was written for, if there is one.
     std::optional<uint32_t> validation_version() const { return validation_version_; }
 

@@ -319,8 +319,8 @@ void Feed::write(std::span<std::byte> memory) const {
     write_commands(memory);
 }
 
-Result<void> Feed::make_pulled(const Device& device, std::span<const std::byte> memory,
-                               VkDescriptorSetLayout layout) {
+void Feed::make_pulled(const Device& device, std::span<const std::byte> memory,
+                       VkDescriptorSetLayout layout) {
     constexpr VkDeviceSize kHead = kPulledWords * sizeof(uint32_t);
     const VkDeviceSize first = arrays_.front().begin;
     const auto bytes = memory.subspan(first, arrays_.back().end - first);
@@ -328,36 +328,23 @@ Result<void> Feed::make_pulled(const Device& device, std::span<const std::byte> 
     const VkDeviceSize triangles = triangles_.size() * sizeof triangles_[0];
     auto made = Buffer::create(device, kHead + (vertices + 1) * sizeof(glm::vec4) + triangles,
                                VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, HostAccess::write);
-    if (!made) {
-        return fail(made.error());
-    }
     std::array<uint32_t, kPulledWords> head{};
     for (const Array& array : arrays_) {
         head.at(array.binding) = static_cast<uint32_t>((array.offset - first) / sizeof(glm::vec4));
     }
     head.back() = static_cast<uint32_t>(vertices);
-    std::memcpy(made->bytes().data(), head.data(), sizeof head);
+    std::memcpy(made.bytes().data(), head.data(), sizeof head);
     if (!triangles_.empty()) {
-        std::memcpy(made->bytes().data() + kHead + vertices * sizeof(glm::vec4), triangles_.data(),
+        std::memcpy(made.bytes().data() + kHead + vertices * sizeof(glm::vec4), triangles_.data(),
                     triangles);
     }
-    std::copy(bytes.begin(), bytes.end(), made->bytes().begin() + kHead);
-    if (auto flushed = made->flush(); !flushed) {
-        return flushed;
-    }
-    pulled_ = std::move(*made);
-    const VkDescriptorPoolSize size = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1};
-    if (auto sets = put(pulled_set_, make_sets(device, {&size, 1}, {&layout, 1})); !sets) {
-        return sets;
-    }
-    const VkDescriptorBufferInfo buffer = {pulled_.get(), 0, VK_WHOLE_SIZE};
-    VkWriteDescriptorSet write = Typed{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
-    write.dstSet = pulled_set_.sets.front();
-    write.descriptorCount = 1;
-    write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    write.pBufferInfo = &buffer;
-    device.vk().vkUpdateDescriptorSets(device.get(), 1, &write, 0, nullptr);
-    return {};
+    std::copy(bytes.begin(), bytes.end(), made.bytes().begin() + kHead);
+    made.flush();
+    pulled_ = std::move(made);
+    pulled_set_ = make_sets(device, {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}, layout);
+    DescriptorWrites writes;
+    writes.add(pulled_set_.sets.front(), 0, {pulled_.get(), 0, VK_WHOLE_SIZE});
+    writes.write(device);
 }
 
 void Feed::record_feedback(const Device& device, VkCommandBuffer commands, VkPipeline pipeline,
@@ -381,55 +368,44 @@ void Feed::bind_pulled(const Device& device, VkCommandBuffer commands,
     }
 }
 
-Result<void> Feed::make_buffers(const Device& device, std::span<const std::byte> memory,
-                                VkDescriptorSetLayout pulled) {
+void Feed::make_buffers(const Device& device, std::span<const std::byte> memory,
+                        VkDescriptorSetLayout pulled) {
     buffers_.clear();
     if (way_.pulled) {
-        return make_pulled(device, memory, pulled);
+        make_pulled(device, memory, pulled);
+        return;
     }
     if (door_ == Door::transform_feedback) {
         const VkDeviceSize size = arrays_.front().end - arrays_.front().begin;
-        auto made = Buffer::create(
+        Buffer& made = buffers_.emplace_back(Buffer::create(
             device, std::max<VkDeviceSize>(size, 16),
             VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFORM_FEEDBACK_BUFFER_BIT_EXT,
-            HostAccess::write);
-        if (!made) {
-            return fail(made.error());
+            HostAccess::write));
+        for (size_t at = 0; at + sizeof kForeign <= made.bytes().size(); at += sizeof kForeign) {
+            std::memcpy(made.bytes().data() + at, &kForeign, sizeof kForeign);
         }
-        for (size_t at = 0; at + sizeof kForeign <= made->bytes().size(); at += sizeof kForeign) {
-            std::memcpy(made->bytes().data() + at, &kForeign, sizeof kForeign);
-        }
-        auto flushed = made->flush();
-        buffers_.push_back(std::move(*made));
-        return flushed;
+        made.flush();
+        return;
     }
     if (!has_own_buffers(door_)) {
-        return {};
+        return;
     }
-    const auto add = [&](VkDeviceSize begin, VkDeviceSize end,
-                         VkBufferUsageFlags usage) -> Result<void> {
+    const auto add = [&](VkDeviceSize begin, VkDeviceSize end, VkBufferUsageFlags usage) {
         const auto bytes = memory.subspan(begin, end - begin);
         const VkDeviceSize size = std::max<VkDeviceSize>(bytes.size(), 16);
-        auto made = door_ == Door::memory_imported
-                        ? Buffer::import(device, size, usage)
-                        : Buffer::create(device, size, usage, HostAccess::write);
-        if (!made) {
-            return fail(made.error());
-        }
-        std::copy(bytes.begin(), bytes.end(), made->bytes().begin());
-        if (auto flushed = made->flush(); !flushed) {
-            return flushed;
-        }
-        buffers_.push_back(std::move(*made));
-        return {};
+        Buffer& made =
+            buffers_.emplace_back(door_ == Door::memory_imported
+                                      ? Buffer::import(device, size, usage)
+                                      : Buffer::create(device, size, usage, HostAccess::write));
+        std::copy(bytes.begin(), bytes.end(), made.bytes().begin());
+        made.flush();
     };
     for (const Array& array : arrays_) {
-        if (auto added = add(array.begin, array.end, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT); !added) {
-            return added;
-        }
+        add(array.begin, array.end, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
     }
-    return is_indexed_ ? add(index_begin_, index_end_, VK_BUFFER_USAGE_INDEX_BUFFER_BIT)
-                       : Result<void>();
+    if (is_indexed_) {
+        add(index_begin_, index_end_, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+    }
 }
 
 void Feed::bind(const Device& device, VkCommandBuffer commands, VkBuffer vertices) const {

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "vk_harness/memory/descriptor.hpp"
 #include "vk_harness/memory/memory.hpp"
 #include "vk_harness/pipeline/vertex_way.hpp"
 
@@ -26,8 +27,8 @@ class Feed {
     void write(std::span<std::byte> memory) const;
     // Buffers and memory of their own, if the door gives them; after place() and write().
     // `pulled`: the layout of the descriptor set from which a shader reads vertices.
-    Result<void> make_buffers(const Device& device, std::span<const std::byte> memory,
-                              VkDescriptorSetLayout pulled);
+    void make_buffers(const Device& device, std::span<const std::byte> memory,
+                      VkDescriptorSetLayout pulled);
 
     // Binds vertices and indices; `vertices` is the buffer that was written.
     void bind(const Device& device, VkCommandBuffer commands, VkBuffer vertices) const;
@@ -55,8 +56,8 @@ class Feed {
     std::span<const glm::vec4> values_of(uint32_t binding) const;
     void make_indices();
     void make_triangles(const cases::Case& c);
-    Result<void> make_pulled(const Device& device, std::span<const std::byte> memory,
-                             VkDescriptorSetLayout layout);
+    void make_pulled(const Device& device, std::span<const std::byte> memory,
+                     VkDescriptorSetLayout layout);
     VkDeviceSize index_size() const;
     VkDeviceSize place_commands(VkDeviceSize begin);
     void write_vertices(std::span<std::byte> memory) const;

@@ -52,34 +52,26 @@ GuardPlaces place_guards(const VkMemoryRequirements& image, const VkMemoryRequir
     return places;
 }
 
-Result<std::unique_ptr<Guard>> Guard::create(const Device& device) {
+std::unique_ptr<Guard> Guard::create(const Device& device) {
     auto guard = std::make_unique<Guard>();
     for (Handle<VkBuffer>* side : {&guard->before_, &guard->after_}) {
-        if (auto made = put(*side, make_buffer(device, kGuardBytes,
-                                               VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
-                                                   VK_BUFFER_USAGE_TRANSFER_DST_BIT));
-            !made) {
-            return fail(made.error());
-        }
+        *side = make_buffer(device, kGuardBytes,
+                            VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
     }
     // Those of the other buffer, made with the same parameters, are the same.
     device.vk().vkGetBufferMemoryRequirements(device.get(), guard->before(), &guard->needs_);
     return guard;
 }
 
-Result<void> Guard::bind(const Device& device, VkDeviceMemory memory, const GuardPlaces& places,
-                         VkDeviceSize image_size) {
+void Guard::bind(const Device& device, VkDeviceMemory memory, const GuardPlaces& places,
+                 VkDeviceSize image_size) {
     gap_before_ = places.image - (places.before + kGuardBytes);
     gap_after_ = places.after - (places.image + image_size);
     for (const auto& [buffer, offset] :
          {std::pair(before(), places.before), std::pair(after(), places.after)}) {
-        const VkResult result =
-            device.vk().vkBindBufferMemory(device.get(), buffer, memory, offset);
-        if (result != VK_SUCCESS) {
-            return fail(call_failure(Stage::memory, result, "vkBindBufferMemory"));
-        }
+        check(Stage::memory, device.vk().vkBindBufferMemory(device.get(), buffer, memory, offset),
+              "vkBindBufferMemory");
     }
-    return {};
 }
 
 void GuardCheck::add(Guard* guard) {
@@ -125,7 +117,7 @@ void GuardCheck::record_copies(VkCommandBuffer commands, VkBuffer readback) cons
     }
 }
 
-Result<std::vector<GuardDamage>> GuardCheck::read(std::span<const std::byte> memory) const {
+std::vector<GuardDamage> GuardCheck::read(std::span<const std::byte> memory) const {
     std::vector<GuardDamage> found;
     const auto* words = reinterpret_cast<const uint32_t*>(memory.data() + begin_);
     for (Guard* guard : guards_) {
@@ -135,10 +127,9 @@ Result<std::vector<GuardDamage>> GuardCheck::read(std::span<const std::byte> mem
             words += kGuardWords;
             if (std::all_of(side.begin(), side.end(),
                             [](uint32_t word) { return word == capture::kPoison; })) {
-                return fail(
-                    Stage::readback,
-                    "the memory beside an attachment was not copied from the device: it still "
-                    "holds the read-back memory's fill pattern");
+                fail(Stage::readback,
+                     "the memory beside an attachment was not copied from the device: it still "
+                     "holds the read-back memory's fill pattern");
             }
             if (std::optional<GuardDamage> damage = compare_side(side, is_before)) {
                 damage->guard = guard;

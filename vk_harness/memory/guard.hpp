@@ -31,12 +31,12 @@ GuardPlaces place_guards(const VkMemoryRequirements& image, const VkMemoryRequir
 // The two buffers of an image.
 class Guard {
   public:
-    static Result<std::unique_ptr<Guard>> create(const Device& device);
+    static std::unique_ptr<Guard> create(const Device& device);
 
     VkMemoryRequirements needs() const { return needs_; }  // of either
     // `image_size`: bytes of the image between them.
-    Result<void> bind(const Device& device, VkDeviceMemory memory, const GuardPlaces& places,
-                      VkDeviceSize image_size);
+    void bind(const Device& device, VkDeviceMemory memory, const GuardPlaces& places,
+              VkDeviceSize image_size);
 
     VkBuffer before() const { return before_.get(); }
     VkBuffer after() const { return after_.get(); }
@@ -72,7 +72,7 @@ class GuardCheck {
     void record_fills(VkCommandBuffer commands) const;
     void record_copies(VkCommandBuffer commands, VkBuffer readback) const;
     // What was recorded has run. Guards that are damaged count as not filled.
-    Result<std::vector<GuardDamage>> read(std::span<const std::byte> memory) const;
+    std::vector<GuardDamage> read(std::span<const std::byte> memory) const;
 
   private:
     const Device* device_;

@@ -35,8 +35,8 @@ std::optional<uint32_t> find_memory_type(const VkPhysicalDeviceMemoryProperties&
     return fallback;
 }
 
-Result<Handle<VkDeviceMemory>> allocate(const Device& device, VkDeviceSize size, uint32_t type,
-                                        const void* next = nullptr) {
+Handle<VkDeviceMemory> allocate(const Device& device, VkDeviceSize size, uint32_t type,
+                                const void* next = nullptr) {
     VkMemoryAllocateInfo info = Typed{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
     info.pNext = next;
     info.allocationSize = size;
@@ -46,20 +46,19 @@ Result<Handle<VkDeviceMemory>> allocate(const Device& device, VkDeviceSize size,
     if (result != VK_SUCCESS) {
         Failure failure = call_failure(Stage::memory, result, "vkAllocateMemory");
         failure.message += fmt::format(" for {} bytes", size);
-        return fail(std::move(failure));
+        fail(std::move(failure));
     }
     return Handle<VkDeviceMemory>(device.get(), memory, device.vk().vkFreeMemory);
 }
 
-tl::unexpected<Failure> no_memory_type(std::string_view what) {
-    return fail(Stage::memory, fmt::format("the device has no memory type for {}", what));
+[[noreturn]] void no_memory_type(std::string_view what) {
+    fail(Stage::memory, fmt::format("the device has no memory type for {}", what));
 }
 
 // Several layers, or samples that copy_samples.comp reads, are seen as an array.
-Result<Handle<VkImageView>> create_view(const Device& device, const VkImageCreateInfo& of,
-                                        VkImage image, VkFormat format,
-                                        const VkImageSubresourceRange& range,
-                                        VkImageUsageFlags usage) {
+Handle<VkImageView> create_view(const Device& device, const VkImageCreateInfo& of, VkImage image,
+                                VkFormat format, const VkImageSubresourceRange& range,
+                                VkImageUsageFlags usage) {
     VkImageViewUsageCreateInfo usage_info = Typed{VK_STRUCTURE_TYPE_IMAGE_VIEW_USAGE_CREATE_INFO};
     usage_info.usage = usage;
     VkImageViewCreateInfo info = Typed{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
@@ -122,7 +121,7 @@ void add_usages(const Device& device, VkImageCreateInfo& info, bool is_depth) {
 
 // An image of colour, of as many texels as the other has samples in all, which is cleared by a
 // command; every device clears these formats ("Required Format Support").
-Result<Handle<VkImage>> make_alias(const Device& device, const VkImageCreateInfo& other) {
+Handle<VkImage> make_alias(const Device& device, const VkImageCreateInfo& other) {
     const VkFormat format = other.format == kColorFormat  ? kColorFormat
                             : other.format == kTwoNumbers ? VK_FORMAT_R16G16B16A16_SFLOAT
                                                           : VK_FORMAT_R8G8B8A8_UNORM;
@@ -153,14 +152,12 @@ bool has_linear(VkPhysicalDevice physical, const VkImageCreateInfo& info) {
            limits.maxExtent.height >= info.extent.height;
 }
 
-Result<Buffer> Buffer::create(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage,
-                              HostAccess access) {
+Buffer Buffer::create(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage,
+                      HostAccess access) {
     const VolkDeviceTable& vk = device.vk();
     Buffer buffer;
     buffer.device_ = &device;
-    if (auto made = put(buffer.buffer_, make_buffer(device, size, usage)); !made) {
-        return fail(made.error());
-    }
+    buffer.buffer_ = make_buffer(device, size, usage);
     buffer.size_ = size;
 
     VkMemoryRequirements needs{};
@@ -171,27 +168,22 @@ Result<Buffer> Buffer::create(const Device& device, VkDeviceSize size, VkBufferU
                          access == HostAccess::read ? VK_MEMORY_PROPERTY_HOST_CACHED_BIT
                                                     : VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
     if (!type) {
-        return no_memory_type("a buffer that the host can map");
+        no_memory_type("a buffer that the host can map");
     }
     buffer.coherent_ =
         (memory.memoryTypes[*type].propertyFlags & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT) != 0;
-    if (auto made = put(buffer.memory_, allocate(device, needs.size, *type)); !made) {
-        return fail(made.error());
-    }
-    VkResult result = vk.vkBindBufferMemory(device.get(), buffer.get(), buffer.memory_.get(), 0);
-    if (result != VK_SUCCESS) {
-        return fail(call_failure(Stage::memory, result, "vkBindBufferMemory"));
-    }
+    buffer.memory_ = allocate(device, needs.size, *type);
+    check(Stage::memory, vk.vkBindBufferMemory(device.get(), buffer.get(), buffer.memory_.get(), 0),
+          "vkBindBufferMemory");
     void* data = nullptr;
-    result = vk.vkMapMemory(device.get(), buffer.memory_.get(), 0, VK_WHOLE_SIZE, 0, &data);
-    if (result != VK_SUCCESS) {
-        return fail(call_failure(Stage::memory, result, "vkMapMemory"));
-    }
+    check(Stage::memory,
+          vk.vkMapMemory(device.get(), buffer.memory_.get(), 0, VK_WHOLE_SIZE, 0, &data),
+          "vkMapMemory");
     buffer.data_ = static_cast<std::byte*>(data);
     return buffer;
 }
 
-Result<Buffer> Buffer::import(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage) {
+Buffer Buffer::import(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage) {
     constexpr VkExternalMemoryHandleTypeFlagBits kHost =
         VK_EXTERNAL_MEMORY_HANDLE_TYPE_HOST_ALLOCATION_BIT_EXT;
     const VolkDeviceTable& vk = device.vk();
@@ -206,11 +198,8 @@ Result<Buffer> Buffer::import(const Device& device, VkDeviceSize size, VkBufferU
     Buffer buffer;
     buffer.device_ = &device;
     buffer.size_ = size;
-    if (auto made = put(buffer.buffer_, make(device, Stage::memory, "vkCreateBuffer",
-                                             vk.vkCreateBuffer, vk.vkDestroyBuffer, info));
-        !made) {
-        return fail(made.error());
-    }
+    buffer.buffer_ =
+        make(device, Stage::memory, "vkCreateBuffer", vk.vkCreateBuffer, vk.vkDestroyBuffer, info);
     VkMemoryRequirements needs{};
     vk.vkGetBufferMemoryRequirements(device.get(), buffer.get(), &needs);
     // A power of two, of which address and size are multiples.
@@ -221,45 +210,34 @@ Result<Buffer> Buffer::import(const Device& device, VkDeviceSize size, VkBufferU
     buffer.host_.reset(static_cast<std::byte*>(
         std::aligned_alloc(static_cast<size_t>(alignment), static_cast<size_t>(bytes))));
     if (!buffer.host_) {
-        return fail(Stage::memory, fmt::format("the host has no {} bytes to import", bytes));
+        fail(Stage::memory, fmt::format("the host has no {} bytes to import", bytes));
     }
     VkMemoryHostPointerPropertiesEXT offered =
         Typed{VK_STRUCTURE_TYPE_MEMORY_HOST_POINTER_PROPERTIES_EXT};
-    if (auto asked = check(Stage::memory,
-                           vk.vkGetMemoryHostPointerPropertiesEXT(device.get(), kHost,
-                                                                  buffer.host_.get(), &offered),
-                           "vkGetMemoryHostPointerPropertiesEXT");
-        !asked) {
-        return fail(asked.error());
-    }
+    check(Stage::memory,
+          vk.vkGetMemoryHostPointerPropertiesEXT(device.get(), kHost, buffer.host_.get(), &offered),
+          "vkGetMemoryHostPointerPropertiesEXT");
     const auto type = find_memory_type(
         device.capabilities().memory, needs.memoryTypeBits & offered.memoryTypeBits,
         VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT, 0);
     if (!type) {
-        return no_memory_type("a buffer in memory of the host");
+        no_memory_type("a buffer in memory of the host");
     }
     VkImportMemoryHostPointerInfoEXT imported =
         Typed{VK_STRUCTURE_TYPE_IMPORT_MEMORY_HOST_POINTER_INFO_EXT};
     imported.handleType = kHost;
     imported.pHostPointer = buffer.host_.get();
-    if (auto made = put(buffer.memory_, allocate(device, bytes, *type, &imported)); !made) {
-        return fail(made.error());
-    }
-    if (auto bound =
-            check(Stage::memory,
-                  vk.vkBindBufferMemory(device.get(), buffer.get(), buffer.memory_.get(), 0),
-                  "vkBindBufferMemory");
-        !bound) {
-        return fail(bound.error());
-    }
+    buffer.memory_ = allocate(device, bytes, *type, &imported);
+    check(Stage::memory, vk.vkBindBufferMemory(device.get(), buffer.get(), buffer.memory_.get(), 0),
+          "vkBindBufferMemory");
     buffer.data_ = buffer.host_.get();
     return buffer;
 }
 
-Result<void> Buffer::synchronize(PFN_vkFlushMappedMemoryRanges VolkDeviceTable::*call, Stage stage,
-                                 std::string_view name) const {
+void Buffer::synchronize(PFN_vkFlushMappedMemoryRanges VolkDeviceTable::*call, Stage stage,
+                         std::string_view name) const {
     if (coherent_) {
-        return {};
+        return;
     }
     VkMappedMemoryRange range = Typed{VK_STRUCTURE_TYPE_MAPPED_MEMORY_RANGE};
     range.memory = memory_.get();
@@ -267,18 +245,18 @@ Result<void> Buffer::synchronize(PFN_vkFlushMappedMemoryRanges VolkDeviceTable::
     return check(stage, (device_->vk().*call)(device_->get(), 1, &range), name);
 }
 
-Result<void> Buffer::flush() const {
+void Buffer::flush() const {
     return synchronize(&VolkDeviceTable::vkFlushMappedMemoryRanges, Stage::memory,
                        "vkFlushMappedMemoryRanges");
 }
 
-Result<void> Buffer::invalidate() const {
+void Buffer::invalidate() const {
     return synchronize(&VolkDeviceTable::vkInvalidateMappedMemoryRanges, Stage::readback,
                        "vkInvalidateMappedMemoryRanges");
 }
 
-Result<ImageMemory> bind_guarded(const Device& device, VkImage image, bool is_dedicated,
-                                 Handle<VkImage>* alias) {
+ImageMemory bind_guarded(const Device& device, VkImage image, bool is_dedicated,
+                         Handle<VkImage>* alias) {
     VkImageMemoryRequirementsInfo2 asked =
         Typed{VK_STRUCTURE_TYPE_IMAGE_MEMORY_REQUIREMENTS_INFO_2};
     asked.image = image;
@@ -312,13 +290,10 @@ Result<ImageMemory> bind_guarded(const Device& device, VkImage image, bool is_de
     is_dedicated = is_dedicated || dedicated.requiresDedicatedAllocation != VK_FALSE;
     if (!is_dedicated) {
         auto guard = Guard::create(device);
-        if (!guard) {
-            return fail(guard.error());
-        }
-        const VkMemoryRequirements side = (*guard)->needs();
+        const VkMemoryRequirements side = guard->needs();
         type = find_type(needs.memoryTypeBits & side.memoryTypeBits);
         if (type) {
-            made.guard = std::move(*guard);
+            made.guard = std::move(guard);
             places = place_guards(needs, side, device.capabilities().limits.bufferImageGranularity);
         }
     }
@@ -326,30 +301,22 @@ Result<ImageMemory> bind_guarded(const Device& device, VkImage image, bool is_de
         type = find_type(needs.memoryTypeBits);
     }
     if (!type) {
-        return no_memory_type("an image");
+        no_memory_type("an image");
     }
     VkMemoryDedicatedAllocateInfo alone = Typed{VK_STRUCTURE_TYPE_MEMORY_DEDICATED_ALLOCATE_INFO};
     alone.image = image;
-    if (auto allocated =
-            put(made.memory, allocate(device, places.size, *type, is_dedicated ? &alone : nullptr));
-        !allocated) {
-        return fail(allocated.error());
-    }
+    made.memory = allocate(device, places.size, *type, is_dedicated ? &alone : nullptr);
     made.size = places.size;
     for (const VkImage bound : {image, alias != nullptr ? alias->get() : VK_NULL_HANDLE}) {
         if (bound == VK_NULL_HANDLE) {
             continue;
         }
-        const VkResult result =
-            device.vk().vkBindImageMemory(device.get(), bound, made.memory.get(), places.image);
-        if (result != VK_SUCCESS) {
-            return fail(call_failure(Stage::memory, result, "vkBindImageMemory"));
-        }
+        check(Stage::memory,
+              device.vk().vkBindImageMemory(device.get(), bound, made.memory.get(), places.image),
+              "vkBindImageMemory");
     }
     if (made.guard) {
-        if (auto bound = made.guard->bind(device, made.memory.get(), places, needs.size); !bound) {
-            return fail(bound.error());
-        }
+        made.guard->bind(device, made.memory.get(), places, needs.size);
     }
     return made;
 }
@@ -363,9 +330,8 @@ VkImageCreateFlags color_flags(uint32_t samples) {
     return samples > 1 ? VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT : 0;
 }
 
-Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D extent,
-                            uint32_t samples, uint32_t layers, VkImageCreateFlags flags,
-                            const ImageWay& way) {
+Image Image::create(const Device& device, VkFormat format, VkExtent2D extent, uint32_t samples,
+                    uint32_t layers, VkImageCreateFlags flags, const ImageWay& way) {
     const bool stencil = is_depth_format(format, &cases::DepthFormatRow::with_stencil);
     const bool depth = stencil || is_depth_format(format, &cases::DepthFormatRow::vulkan);
     const bool multisampled = samples > 1;
@@ -394,9 +360,7 @@ Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D ex
     }
     Image image;
     image.is_linear_ = info.tiling == VK_IMAGE_TILING_LINEAR;
-    if (auto made = put(image.image_, make_image(device, info)); !made) {
-        return fail(made.error());
-    }
+    image.image_ = make_image(device, info);
     const VkImage handle = image.get();
     image.range_ = {depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT, way.level, 1,
                     way.first_layer, layers};
@@ -405,15 +369,10 @@ Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D ex
     }
 
     if (way.is_aliased) {
-        if (auto made = put(image.alias_, make_alias(device, info)); !made) {
-            return fail(made.error());
-        }
+        image.alias_ = make_alias(device, info);
     }
-    if (auto made = put(image.memory_, bind_guarded(device, handle, way.is_dedicated,
-                                                    image.alias_ ? &image.alias_ : nullptr));
-        !made) {
-        return fail(made.error());
-    }
+    image.memory_ =
+        bind_guarded(device, handle, way.is_dedicated, image.alias_ ? &image.alias_ : nullptr);
 
     const VkImageUsageFlags input =
         way.is_input ? VkImageUsageFlags{VK_IMAGE_USAGE_INPUT_ATTACHMENT_BIT} : 0U;
@@ -425,80 +384,27 @@ Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D ex
                               VkImageUsageFlags usage) {
         VkImageSubresourceRange range = image.range_;
         range.aspectMask = aspect;
-        return put(to, create_view(device, info, handle, seen, range, usage));
+        to = create_view(device, info, handle, seen, range, usage);
     };
     image.drawn_ = image.range_;
     if (way.is_multiview) {
         image.drawn_.baseArrayLayer = 0;
         image.drawn_.layerCount = info.arrayLayers;
     }
-    auto made =
-        put(image.view_, create_view(device, info, handle, format, image.drawn_, view_usage));
-    if (made && multisampled && !depth) {
-        made = add_view(image.bits_view_, bits_format(format), image.aspect(),
-                        VK_IMAGE_USAGE_SAMPLED_BIT);
+    image.view_ = create_view(device, info, handle, format, image.drawn_, view_usage);
+    if (multisampled && !depth) {
+        add_view(image.bits_view_, bits_format(format), image.aspect(), VK_IMAGE_USAGE_SAMPLED_BIT);
     }
-    if (made && multisampled && way.is_multiview && depth && !stencil) {
-        made = add_view(image.bits_view_, format, VK_IMAGE_ASPECT_DEPTH_BIT,
-                        VK_IMAGE_USAGE_SAMPLED_BIT);
+    if (multisampled && way.is_multiview && depth && !stencil) {
+        add_view(image.bits_view_, format, VK_IMAGE_ASPECT_DEPTH_BIT, VK_IMAGE_USAGE_SAMPLED_BIT);
     }
-    if (made && (multisampled || way.is_input) && stencil) {  // a descriptor names one aspect
+    if ((multisampled || way.is_input) && stencil) {  // a descriptor names one aspect
         const VkImageUsageFlags usage =
             input | (multisampled ? VkImageUsageFlags{VK_IMAGE_USAGE_SAMPLED_BIT} : 0U);
-        made = add_view(image.bits_view_, format, VK_IMAGE_ASPECT_DEPTH_BIT, usage);
-        if (made) {
-            made = add_view(image.stencil_view_, format, VK_IMAGE_ASPECT_STENCIL_BIT, usage);
-        }
-    }
-    if (!made) {
-        return fail(made.error());
+        add_view(image.bits_view_, format, VK_IMAGE_ASPECT_DEPTH_BIT, usage);
+        add_view(image.stencil_view_, format, VK_IMAGE_ASPECT_STENCIL_BIT, usage);
     }
     return image;
-}
-
-void write_copy_set(const Device& device, VkDescriptorSet set, VkImageView from,
-                    const VkDescriptorBufferInfo& to) {
-    const VkDescriptorImageInfo image = {VK_NULL_HANDLE, from,
-                                         VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-    std::array<VkWriteDescriptorSet, 2> writes{};
-    for (uint32_t binding = 0; binding < 2; ++binding) {
-        writes[binding] = Typed{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
-        writes[binding].dstSet = set;
-        writes[binding].dstBinding = binding;
-        writes[binding].descriptorCount = 1;
-    }
-    writes[0].descriptorType = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
-    writes[0].pImageInfo = &image;
-    writes[1].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    writes[1].pBufferInfo = &to;
-    device.vk().vkUpdateDescriptorSets(device.get(), 2, writes.data(), 0, nullptr);
-}
-
-Result<DescriptorSets> make_sets(const Device& device, std::span<const VkDescriptorPoolSize> sizes,
-                                 std::span<const VkDescriptorSetLayout> layouts) {
-    const VolkDeviceTable& vk = device.vk();
-    const auto count = static_cast<uint32_t>(layouts.size());
-    VkDescriptorPoolCreateInfo pool_info = Typed{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
-    pool_info.maxSets = count;
-    pool_info.poolSizeCount = static_cast<uint32_t>(sizes.size());
-    pool_info.pPoolSizes = sizes.data();
-    DescriptorSets out;
-    if (auto made =
-            put(out.pool, make(device, Stage::memory, "vkCreateDescriptorPool",
-                               vk.vkCreateDescriptorPool, vk.vkDestroyDescriptorPool, pool_info));
-        !made) {
-        return fail(made.error());
-    }
-    VkDescriptorSetAllocateInfo info = Typed{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
-    info.descriptorPool = out.pool.get();
-    info.descriptorSetCount = count;
-    info.pSetLayouts = layouts.data();
-    out.sets.resize(count);
-    const VkResult result = vk.vkAllocateDescriptorSets(device.get(), &info, out.sets.data());
-    if (result != VK_SUCCESS) {
-        return fail(call_failure(Stage::memory, result, "vkAllocateDescriptorSets"));
-    }
-    return out;
 }
 
 VkImageCreateInfo image_info(VkFormat format, VkExtent2D extent, VkImageUsageFlags usage) {
@@ -516,29 +422,34 @@ VkImageCreateInfo image_info(VkFormat format, VkExtent2D extent, VkImageUsageFla
     return info;
 }
 
-Result<Handle<VkImage>> make_image(const Device& device, const VkImageCreateInfo& info) {
+Handle<VkImage> make_image(const Device& device, const VkImageCreateInfo& info) {
     return make(device, Stage::memory, "vkCreateImage", device.vk().vkCreateImage,
                 device.vk().vkDestroyImage, info);
 }
 
-Result<Handle<VkDeviceMemory>> bind_memory(const Device& device, VkImage image) {
+SampledImage make_sampled(const Device& device, const VkImageCreateInfo& info, VkImageViewType type,
+                          const VkImageSubresourceRange& range) {
+    SampledImage out;
+    out.image = make_image(device, info);
     VkMemoryRequirements needs{};
-    device.vk().vkGetImageMemoryRequirements(device.get(), image, &needs);
-    const auto type = find_memory_type(device.capabilities().memory, needs.memoryTypeBits, 0,
-                                       VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
-    if (!type) {
-        return no_memory_type("an image");
+    device.vk().vkGetImageMemoryRequirements(device.get(), out.image.get(), &needs);
+    const auto memory_type = find_memory_type(device.capabilities().memory, needs.memoryTypeBits, 0,
+                                              VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+    if (!memory_type) {
+        no_memory_type("an image");
     }
-    auto allocation = allocate(device, needs.size, *type);
-    if (!allocation) {
-        return fail(allocation.error());
-    }
-    const VkResult result =
-        device.vk().vkBindImageMemory(device.get(), image, allocation->get(), 0);
-    if (result != VK_SUCCESS) {
-        return fail(call_failure(Stage::memory, result, "vkBindImageMemory"));
-    }
-    return std::move(*allocation);
+    out.memory = allocate(device, needs.size, *memory_type);
+    check(Stage::memory,
+          device.vk().vkBindImageMemory(device.get(), out.image.get(), out.memory.get(), 0),
+          "vkBindImageMemory");
+    VkImageViewCreateInfo view = Typed{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
+    view.image = out.image.get();
+    view.viewType = type;
+    view.format = info.format;
+    view.subresourceRange = range;
+    out.view = make(device, Stage::memory, "vkCreateImageView", device.vk().vkCreateImageView,
+                    device.vk().vkDestroyImageView, view);
+    return out;
 }
 
 }  // namespace vk_harness

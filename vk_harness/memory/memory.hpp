@@ -22,23 +22,23 @@ enum class HostAccess { write, read };
 class Buffer {
   public:
     Buffer() = default;
-    static Result<Buffer> create(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage,
-                                 HostAccess access);
+    static Buffer create(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage,
+                         HostAccess access);
 
     // In memory of the application, which the device imports: DoorSupport::host_import. Not mapped.
-    static Result<Buffer> import(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage);
+    static Buffer import(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage);
 
     VkBuffer get() const { return buffer_.get(); }
     VkDeviceSize size() const { return size_; }
     std::span<std::byte> bytes() const { return {data_, static_cast<size_t>(size_)}; }
     // Makes host writes visible to the device, or device writes to the host.
-    Result<void> flush() const;
-    Result<void> invalidate() const;
+    void flush() const;
+    void invalidate() const;
 
   private:
     // Flushes or invalidates all of the memory by `call`, unless it is coherent.
-    Result<void> synchronize(PFN_vkFlushMappedMemoryRanges VolkDeviceTable::*call, Stage stage,
-                             std::string_view name) const;
+    void synchronize(PFN_vkFlushMappedMemoryRanges VolkDeviceTable::*call, Stage stage,
+                     std::string_view name) const;
 
     struct Free {
         void operator()(std::byte* memory) const { std::free(memory); }
@@ -66,8 +66,8 @@ struct ImageMemory {
 // Memory of its own for an image that is written to, bound to it.
 // is_dedicated: without guards, in an allocation for it alone. `alias`: an image that is bound to
 // the same place, where the device has memory for both; else it is destroyed.
-Result<ImageMemory> bind_guarded(const Device& device, VkImage image, bool is_dedicated = false,
-                                 Handle<VkImage>* alias = nullptr);
+ImageMemory bind_guarded(const Device& device, VkImage image, bool is_dedicated = false,
+                         Handle<VkImage>* alias = nullptr);
 
 // Whether the device draws to, and blends where it does so otherwise, images like this of one
 // sample, level and layer with linear tiling.
@@ -81,9 +81,8 @@ class Image {
     // shader. `flags`: besides those that this needs.
     // The views show all layers; those of several layers or samples are of an array.
     // `way`: of what it is a part; `extent` and `layers` are its own.
-    static Result<Image> create(const Device& device, VkFormat format, VkExtent2D extent,
-                                uint32_t samples, uint32_t layers, VkImageCreateFlags flags = 0,
-                                const ImageWay& way = {});
+    static Image create(const Device& device, VkFormat format, VkExtent2D extent, uint32_t samples,
+                        uint32_t layers, VkImageCreateFlags flags = 0, const ImageWay& way = {});
 
     VkImage get() const { return image_.get(); }
     VkImageView view() const { return view_.get(); }
@@ -119,24 +118,17 @@ class Image {
     VkImageSubresourceRange drawn_ = range_;
 };
 
-// Descriptor sets of these layouts, from a new pool with these sizes that owns them.
-struct DescriptorSets {
-    Handle<VkDescriptorPool> pool;
-    std::vector<VkDescriptorSet> sets;
-};
-Result<DescriptorSets> make_sets(const Device& device, std::span<const VkDescriptorPoolSize> sizes,
-                                 std::span<const VkDescriptorSetLayout> layouts);
-
-// Lets a set of two bindings show an image that a shader reads (binding 0, in
-// SHADER_READ_ONLY_OPTIMAL) and the part of a buffer that it writes (binding 1).
-void write_copy_set(const Device& device, VkDescriptorSet set, VkImageView from,
-                    const VkDescriptorBufferInfo& to);
-
 // What all images have in common: two dimensions, one level, layer and sample, no contents.
 VkImageCreateInfo image_info(VkFormat format, VkExtent2D extent, VkImageUsageFlags usage);
-Result<Handle<VkImage>> make_image(const Device& device, const VkImageCreateInfo& info);
+Handle<VkImage> make_image(const Device& device, const VkImageCreateInfo& info);
 
-// Memory of its own for an image that needs no host access, bound to it.
-Result<Handle<VkDeviceMemory>> bind_memory(const Device& device, VkImage image);
+// An image that shaders read, in memory of its own, with a view of what they see.
+struct SampledImage {
+    Handle<VkDeviceMemory> memory;  // freed after the image
+    Handle<VkImage> image;
+    Handle<VkImageView> view;
+};
+SampledImage make_sampled(const Device& device, const VkImageCreateInfo& info, VkImageViewType type,
+                          const VkImageSubresourceRange& range);
 
 }  // namespace vk_harness

@@ -80,21 +80,18 @@ VkClearValue other_clear(const Attachment& attachment) {
     return out;
 }
 
-Result<VkPipeline> PipelineCache::get_clear(const ClearKey& key) {
+VkPipeline PipelineCache::get_clear(const ClearKey& key) {
     return get_or_make(clears_, key, [&] { return make_clear(key); });
 }
 
-Result<Handle<VkPipeline>> PipelineCache::make_clear(const ClearKey& key) {
+Handle<VkPipeline> PipelineCache::make_clear(const ClearKey& key) {
     const bool is_depth = !key.location;
     auto vertex = shader_module(shaders::clear_vertex());
     auto fragment = shader_module(is_depth ? shaders::clear_depth()
                                            : shaders::clear_color(*key.location, key.is_integer));
-    if (!vertex || !fragment) {
-        return fail(!vertex ? vertex.error() : fragment.error());
-    }
     const std::array<VkPipelineShaderStageCreateInfo, 2> stages = {
-        stage_info(VK_SHADER_STAGE_VERTEX_BIT, *vertex),
-        stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, *fragment)};
+        stage_info(VK_SHADER_STAGE_VERTEX_BIT, vertex),
+        stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, fragment)};
     PipelineKey target;
     target.samples = key.samples;
     target.sample_locations = key.sample_locations;

@@ -7,16 +7,13 @@
 
 namespace vk_harness {
 
-Result<VkPipeline> PipelineCache::get_feedback(uint32_t attribute_count) {
+VkPipeline PipelineCache::get_feedback(uint32_t attribute_count) {
     return get_or_make(feedbacks_, attribute_count, [&] { return make_feedback(attribute_count); });
 }
 
-Result<Handle<VkPipeline>> PipelineCache::make_feedback(uint32_t attribute_count) {
+Handle<VkPipeline> PipelineCache::make_feedback(uint32_t attribute_count) {
     auto vertex = shader_module(shaders::feedback_vertex(attribute_count));
-    if (!vertex) {
-        return fail(vertex.error());
-    }
-    const VkPipelineShaderStageCreateInfo stage = stage_info(VK_SHADER_STAGE_VERTEX_BIT, *vertex);
+    const VkPipelineShaderStageCreateInfo stage = stage_info(VK_SHADER_STAGE_VERTEX_BIT, vertex);
     PipelineKey key;
     key.attribute_count = attribute_count;
     key.way.interleaved = true;

@@ -32,39 +32,33 @@ InputKey input_key(const PassKey& pass, const cases::Target& target, const Attac
     return key;
 }
 
-Result<VkPipeline> PipelineCache::get_input(const InputKey& key) {
+VkPipeline PipelineCache::get_input(const InputKey& key) {
     return get_or_make(inputs_, key, [&] { return make_input(key); });
 }
 
-Result<Handle<VkPipeline>> PipelineCache::make_input(const InputKey& key) {
+Handle<VkPipeline> PipelineCache::make_input(const InputKey& key) {
     ShaderChanges changes;
     changes.input_index = key.index;
     auto vertex = shader_module(shaders::clear_vertex());
     auto fragment = shader_module(
         shaders::read_input(key.kind == cases::ComponentKind::uint, key.pass.samples > 1), changes);
-    if (!vertex || !fragment) {
-        return fail(!vertex ? vertex.error() : fragment.error());
-    }
     Specialization constants;
     specialize_input(key, constants);
     std::array<VkPipelineShaderStageCreateInfo, 2> stages = {
-        stage_info(VK_SHADER_STAGE_VERTEX_BIT, *vertex),
-        stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, *fragment)};
+        stage_info(VK_SHADER_STAGE_VERTEX_BIT, vertex),
+        stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, fragment)};
     stages[1].pSpecializationInfo = &constants.info;
     // Nothing is drawn to: one sample covers a pixel, of which the shader reads all.
     PipelineKey target;
     MultisampleState multisample;
     multisample_state(target, multisample);
     auto pass = get_pass(key.pass);
-    if (!pass) {
-        return fail(pass.error());
-    }
     VkGraphicsPipelineCreateInfo info = Typed{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO};
     info.stageCount = static_cast<uint32_t>(stages.size());
     info.pStages = stages.data();
     info.pMultisampleState = &multisample.info;
     info.layout = input_layout_.get();
-    info.renderPass = *pass;
+    info.renderPass = pass;
     info.subpass = 1;
     FullTargetState full;
     full.apply(info);

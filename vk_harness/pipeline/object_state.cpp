@@ -82,9 +82,9 @@ void set_rasterization(const Device& device, VkCommandBuffer commands, const Pip
 
 }  // namespace
 
-Result<Handle<ShaderObject>> PipelineCache::make_object(
-    VkShaderStageFlagBits stage, std::span<const uint32_t> code,
-    const VkSpecializationInfo* specialization) {
+Handle<ShaderObject> PipelineCache::make_object(VkShaderStageFlagBits stage,
+                                                std::span<const uint32_t> code,
+                                                const VkSpecializationInfo* specialization) {
     const VkDescriptorSetLayout set = texture_set_layout_.get();
     const VkPushConstantRange range{draw_stages(*device_), 0, sizeof(shaders::DrawConstants)};
     ShaderObjectInfo info;
@@ -99,35 +99,23 @@ Result<Handle<ShaderObject>> PipelineCache::make_object(
     info.ranges = &range;
     info.specialization = specialization;
     ShaderObject made = VK_NULL_HANDLE;
-    const VkResult result =
-        device_->shader_objects().create(device_->get(), 1, &info, nullptr, &made);
-    if (result != VK_SUCCESS) {
-        return fail(call_failure(Stage::shader, result, "vkCreateShadersEXT"));
-    }
+    check(Stage::shader, device_->shader_objects().create(device_->get(), 1, &info, nullptr, &made),
+          "vkCreateShadersEXT");
     return Handle<ShaderObject>(device_->get(), made, device_->shader_objects().destroy);
 }
 
-Result<ShaderPair> PipelineCache::get_objects(const PipelineKey& key) {
+ShaderPair PipelineCache::get_objects(const PipelineKey& key) {
     auto found = objects_.find(key);
     if (found == objects_.end()) {
         auto code =
             changed_code(shaders::capture_fragment(fragment_variant(key)),
                          fragment_changes(key, device_->capabilities().info.has_primitive_id));
-        if (!code) {
-            return fail(code.error());
-        }
         Specialization specialization;
         specialize(key, specialization);
         auto vertex = make_object(VK_SHADER_STAGE_VERTEX_BIT,
                                   shaders::capture_vertex(vertex_variant(key)), nullptr);
-        if (!vertex) {
-            return fail(vertex.error());
-        }
-        auto fragment = make_object(VK_SHADER_STAGE_FRAGMENT_BIT, *code, &specialization.info);
-        if (!fragment) {
-            return fail(fragment.error());
-        }
-        std::array<Handle<ShaderObject>, 2> made = {std::move(*vertex), std::move(*fragment)};
+        auto fragment = make_object(VK_SHADER_STAGE_FRAGMENT_BIT, code, &specialization.info);
+        std::array<Handle<ShaderObject>, 2> made = {std::move(vertex), std::move(fragment)};
         found = objects_.emplace(key, std::move(made)).first;
     }
     return ShaderPair{found->second[0].get(), found->second[1].get()};

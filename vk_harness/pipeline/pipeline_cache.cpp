@@ -14,9 +14,8 @@ namespace vk_harness {
 
 namespace {
 
-Result<Handle<VkPipelineLayout>> make_layout(const Device& device, VkShaderStageFlags stage,
-                                             uint32_t bytes,
-                                             std::span<const VkDescriptorSetLayout> sets) {
+Handle<VkPipelineLayout> make_layout(const Device& device, VkShaderStageFlags stage, uint32_t bytes,
+                                     std::span<const VkDescriptorSetLayout> sets) {
     const VkPushConstantRange range{stage, 0, bytes};
     VkPipelineLayoutCreateInfo info = Typed{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
     info.setLayoutCount = static_cast<uint32_t>(sets.size());
@@ -27,7 +26,7 @@ Result<Handle<VkPipelineLayout>> make_layout(const Device& device, VkShaderStage
                 device.vk().vkCreatePipelineLayout, device.vk().vkDestroyPipelineLayout, info);
 }
 
-Result<Handle<VkDescriptorSetLayout>> make_set_layout(
+Handle<VkDescriptorSetLayout> make_set_layout(
     const Device& device, std::span<const VkDescriptorSetLayoutBinding> bindings) {
     VkDescriptorSetLayoutCreateInfo info =
         Typed{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
@@ -47,79 +46,57 @@ VkShaderStageFlags draw_stages(const Device& device) {
            (doors.mesh ? VkShaderStageFlags{VK_SHADER_STAGE_MESH_BIT_EXT} : 0U);
 }
 
-Result<PipelineCache> PipelineCache::create(const Device& device) {
+PipelineCache PipelineCache::create(const Device& device) {
     PipelineCache cache(device);
     const VolkDeviceTable& vk = device.vk();
 
     VkPipelineCacheCreateInfo cache_info = Typed{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
-    auto made =
-        put(cache.cache_, make(device, Stage::pipeline, "vkCreatePipelineCache",
-                               vk.vkCreatePipelineCache, vk.vkDestroyPipelineCache, cache_info));
-    const auto then = [&made](auto& to, const auto& make_next) {
-        if (made) {
-            made = put(to, make_next());
-        }
-    };
-    const std::array<VkDescriptorSetLayoutBinding, 1> texture = {
-        {{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr}}};
-    then(cache.texture_set_layout_, [&] { return make_set_layout(device, texture); });
+    cache.cache_ = make(device, Stage::pipeline, "vkCreatePipelineCache", vk.vkCreatePipelineCache,
+                        vk.vkDestroyPipelineCache, cache_info);
     const auto draw_layout = [&](std::initializer_list<VkDescriptorSetLayout> sets) {
         return make_layout(device, draw_stages(device), sizeof(shaders::DrawConstants), sets);
     };
-    then(cache.layout_, [&] { return draw_layout({cache.texture_set_layout_.get()}); });
+    const std::array<VkDescriptorSetLayoutBinding, 1> texture = {
+        {{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr}}};
+    cache.texture_set_layout_ = make_set_layout(device, texture);
+    cache.layout_ = draw_layout({cache.texture_set_layout_.get()});
     const VkShaderStageFlags readers =
         VkShaderStageFlags{VK_SHADER_STAGE_VERTEX_BIT} |
         (device.capabilities().doors.mesh ? VkShaderStageFlags{VK_SHADER_STAGE_MESH_BIT_EXT} : 0U);
     const std::array<VkDescriptorSetLayoutBinding, 1> inputs = {
         {{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, readers, nullptr}}};
-    then(cache.pulled_set_layout_, [&] { return make_set_layout(device, inputs); });
-    then(cache.pulled_layout_, [&] {
-        return draw_layout({cache.texture_set_layout_.get(), cache.pulled_set_layout_.get()});
-    });
-    const std::array<VkDescriptorSetLayoutBinding, 2> reads = {
-        {{0, VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
-         {1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr}}};
-    then(cache.input_set_layout_, [&] { return make_set_layout(device, reads); });
-    then(cache.input_layout_, [&] {
-        const VkDescriptorSetLayout set = cache.input_set_layout_.get();
-        return make_layout(device, VK_SHADER_STAGE_FRAGMENT_BIT, kInputConstants * sizeof(uint32_t),
-                           {&set, 1});
-    });
-    const std::array<VkDescriptorSetLayoutBinding, 2> copies = {
-        {{0, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr},
-         {1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr}}};
-    then(cache.copy_set_layout_, [&] { return make_set_layout(device, copies); });
-    then(cache.copy_layout_, [&] {
-        const VkDescriptorSetLayout set = cache.copy_set_layout_.get();
-        return make_layout(device, VK_SHADER_STAGE_COMPUTE_BIT, kCopyConstants * sizeof(uint32_t),
-                           {&set, 1});
-    });
-    if (!made) {
-        return fail(made.error());
-    }
+    cache.pulled_set_layout_ = make_set_layout(device, inputs);
+    cache.pulled_layout_ =
+        draw_layout({cache.texture_set_layout_.get(), cache.pulled_set_layout_.get()});
+    const auto read_layout = [&](VkDescriptorType from, VkShaderStageFlags stage,
+                                 uint32_t constants, auto& set_layout, auto& layout) {
+        const std::array<VkDescriptorSetLayoutBinding, 2> reads = {
+            {{0, from, 1, stage, nullptr},
+             {1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, stage, nullptr}}};
+        set_layout = make_set_layout(device, reads);
+        const VkDescriptorSetLayout set = set_layout.get();
+        layout = make_layout(device, stage, constants * sizeof(uint32_t), {&set, 1});
+    };
+    read_layout(VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, VK_SHADER_STAGE_FRAGMENT_BIT, kInputConstants,
+                cache.input_set_layout_, cache.input_layout_);
+    read_layout(VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, VK_SHADER_STAGE_COMPUTE_BIT, kCopyConstants,
+                cache.copy_set_layout_, cache.copy_layout_);
     return cache;
 }
 
-Result<VkShaderModule> PipelineCache::shader_module(std::span<const uint32_t> code,
-                                                    ShaderChanges changes) {
+VkShaderModule PipelineCache::shader_module(std::span<const uint32_t> code, ShaderChanges changes) {
     std::tuple key(code.data(), std::move(changes));
     const auto found = modules_.find(key);
     if (found != modules_.end()) {
         return found->second.get();
     }
     auto changed = changed_code(code, std::get<1>(key));
-    if (!changed) {
-        return fail(changed.error());
-    }
     VkShaderModuleCreateInfo info = Typed{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
-    info.codeSize = changed->size() * sizeof(uint32_t);
-    info.pCode = changed->data();
+    info.codeSize = changed.size() * sizeof(uint32_t);
+    info.pCode = changed.data();
     auto made = make(*device_, Stage::shader, "vkCreateShaderModule",
                      device_->vk().vkCreateShaderModule, device_->vk().vkDestroyShaderModule, info);
-    if (!made) {
-        return fail(made.error());
-    }
-    return modules_.emplace(std::move(key), std::move(*made)).first->second.get();
+    return modules_.emplace(std::move(key), std::move(made)).first->second.get();
 }
 
 void PipelineCache::trim(size_t most) {
@@ -130,61 +107,51 @@ void PipelineCache::trim(size_t most) {
     }
 }
 
-Result<VkPipeline> PipelineCache::get(const PipelineKey& key) {
+VkPipeline PipelineCache::get(const PipelineKey& key) {
     return get_or_make(pipelines_, key, [&] { return make_graphics(key); });
 }
 
-Result<VkRenderPass> PipelineCache::get_pass(const PassKey& key) {
+VkRenderPass PipelineCache::get_pass(const PassKey& key) {
     return get_or_make(passes_, key, [&] { return make_render_pass(*device_, key); });
 }
 
-Result<VkPipeline> PipelineCache::get_copy(const Attachment& attachment) {
+VkPipeline PipelineCache::get_copy(const Attachment& attachment) {
     return get_copy(shaders::copy_samples(attachment.is_depth(), attachment.sample_bytes / 4));
 }
 
-Result<VkPipeline> PipelineCache::get_code_copy() {
+VkPipeline PipelineCache::get_code_copy() {
     return get_copy(shaders::copy_codes_of_depth());
 }
 
-Result<VkPipeline> PipelineCache::get_copy(std::span<const uint32_t> source) {
+VkPipeline PipelineCache::get_copy(std::span<const uint32_t> source) {
     const auto found = copies_.find(source.data());
     if (found != copies_.end()) {
         return found->second.get();
     }
     auto code = shader_module(source);
-    if (!code) {
-        return fail(code.error());
-    }
     VkComputePipelineCreateInfo info = Typed{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
-    info.stage = stage_info(VK_SHADER_STAGE_COMPUTE_BIT, *code);
+    info.stage = stage_info(VK_SHADER_STAGE_COMPUTE_BIT, code);
     info.layout = copy_layout_.get();
     VkPipeline pipeline = VK_NULL_HANDLE;
-    const VkResult result = device_->vk().vkCreateComputePipelines(device_->get(), cache_.get(), 1,
-                                                                   &info, nullptr, &pipeline);
-    if (result != VK_SUCCESS) {
-        return fail(call_failure(Stage::pipeline, result, "vkCreateComputePipelines"));
-    }
+    check(Stage::pipeline,
+          device_->vk().vkCreateComputePipelines(device_->get(), cache_.get(), 1, &info, nullptr,
+                                                 &pipeline),
+          "vkCreateComputePipelines");
     Handle<VkPipeline> owned(device_->get(), pipeline, device_->vk().vkDestroyPipeline);
     return copies_.emplace(source.data(), std::move(owned)).first->second.get();
 }
 
-Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) {
+Handle<VkPipeline> PipelineCache::make_graphics(const PipelineKey& key) {
     const bool is_mesh = key.stages == StageWay::mesh;
     auto vertex =
         is_mesh ? shader_module(shaders::capture_mesh(geometry_variant(key)))
                 : shader_module(shaders::capture_vertex(vertex_variant(key)), vertex_changes(key));
-    if (!vertex) {
-        return fail(vertex.error());
-    }
     auto fragment =
         shader_module(shaders::capture_fragment(fragment_variant(key)),
                       fragment_changes(key, device_->capabilities().info.has_primitive_id));
-    if (!fragment) {
-        return fail(fragment.error());
-    }
     std::vector<VkPipelineShaderStageCreateInfo> stages = {
-        stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, *fragment),
-        stage_info(is_mesh ? VK_SHADER_STAGE_MESH_BIT_EXT : VK_SHADER_STAGE_VERTEX_BIT, *vertex)};
+        stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, fragment),
+        stage_info(is_mesh ? VK_SHADER_STAGE_MESH_BIT_EXT : VK_SHADER_STAGE_VERTEX_BIT, vertex)};
     Specialization specialization;
     specialize(key, specialization);
     stages[0].pSpecializationInfo = &specialization.info;
@@ -192,10 +159,7 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
     specialize_patch(key, patch);
     for (const auto& [stage, code] : stages_between(key)) {
         auto module = shader_module(code);
-        if (!module) {
-            return fail(module.error());
-        }
-        stages.push_back(stage_info(stage, *module));
+        stages.push_back(stage_info(stage, module));
         if (stage == VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT) {
             stages.back().pSpecializationInfo = &patch.info;
         }
@@ -248,10 +212,7 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
     VkGraphicsPipelineCreateInfo info = Typed{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO};
     if (key.pass) {
         auto pass = get_pass(*key.pass);
-        if (!pass) {
-            return fail(pass.error());
-        }
-        info.renderPass = *pass;
+        info.renderPass = pass;
         info.subpass = key.subpass;
         info.pNext = further;
     } else {
@@ -289,14 +250,13 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
     return create(info, cache_.get());
 }
 
-Result<Handle<VkPipeline>> PipelineCache::create(const VkGraphicsPipelineCreateInfo& info,
-                                                 VkPipelineCache cache) {
+Handle<VkPipeline> PipelineCache::create(const VkGraphicsPipelineCreateInfo& info,
+                                         VkPipelineCache cache) {
     VkPipeline pipeline = VK_NULL_HANDLE;
-    const VkResult result = device_->vk().vkCreateGraphicsPipelines(device_->get(), cache, 1, &info,
-                                                                    nullptr, &pipeline);
-    if (result != VK_SUCCESS) {
-        return fail(call_failure(Stage::pipeline, result, "vkCreateGraphicsPipelines"));
-    }
+    check(Stage::pipeline,
+          device_->vk().vkCreateGraphicsPipelines(device_->get(), cache, 1, &info, nullptr,
+                                                  &pipeline),
+          "vkCreateGraphicsPipelines");
     return Handle<VkPipeline>(device_->get(), pipeline, device_->vk().vkDestroyPipeline);
 }
 

@@ -23,25 +23,25 @@ using ShaderPair = std::array<ShaderObject, 2>;
 
 class PipelineCache {
   public:
-    static Result<PipelineCache> create(const Device& device);
+    static PipelineCache create(const Device& device);
 
     // The pipeline of that key, made at the first call.
-    Result<VkPipeline> get(const PipelineKey& key);
+    VkPipeline get(const PipelineKey& key);
     // The render pass of that key, made at the first call.
-    Result<VkRenderPass> get_pass(const PassKey& key);
+    VkRenderPass get_pass(const PassKey& key);
     // The shaders of that key as objects, made at the first call: vertex, fragment.
-    Result<ShaderPair> get_objects(const PipelineKey& key);
+    ShaderPair get_objects(const PipelineKey& key);
     // The pipeline that writes positions and attributes by transform feedback, interleaved as they
     // are read.
-    Result<VkPipeline> get_feedback(uint32_t attribute_count);
+    VkPipeline get_feedback(uint32_t attribute_count);
     // The pipeline that clears by a draw, made at the first call.
-    Result<VkPipeline> get_clear(const ClearKey& key);
+    VkPipeline get_clear(const ClearKey& key);
     // The pipeline that reads an input attachment, made at the first call.
-    Result<VkPipeline> get_input(const InputKey& key);
+    VkPipeline get_input(const InputKey& key);
     // The compute pipeline that copies the samples of an attachment to a buffer.
-    Result<VkPipeline> get_copy(const Attachment& attachment);
+    VkPipeline get_copy(const Attachment& attachment);
     // That which copies depth of one sample, as it reads that of several.
-    Result<VkPipeline> get_code_copy();
+    VkPipeline get_code_copy();
 
     // Lets go of all pipelines and shader objects of draws if there are more than `most` of them,
     // and of what those were linked from. Nothing on the device may need them any more.
@@ -61,39 +61,32 @@ class PipelineCache {
 
   private:
     explicit PipelineCache(const Device& device) : device_(&device) {}
-    Result<VkPipeline> get_copy(std::span<const uint32_t> source);
+    VkPipeline get_copy(std::span<const uint32_t> source);
     // What a map has for the key, else what is made for it, which the map then keeps.
     template <class Key, class Object, class Make>
-    static Result<Object> get_or_make(std::map<Key, Handle<Object>>& kept, const Key& key,
-                                      const Make& make) {
+    static Object get_or_make(std::map<Key, Handle<Object>>& kept, const Key& key,
+                              const Make& make) {
         const auto found = kept.find(key);
         if (found != kept.end()) {
             return found->second.get();
         }
         auto made = make();
-        if (!made) {
-            return fail(made.error());
-        }
-        return kept.emplace(key, std::move(*made)).first->second.get();
+        return kept.emplace(key, std::move(made)).first->second.get();
     }
     // The module `code`, embedded in the program, with changes.
-    Result<VkShaderModule> shader_module(std::span<const uint32_t> code,
-                                         ShaderChanges changes = {});
-    Result<Handle<VkPipeline>> make_graphics(const PipelineKey& key);
+    VkShaderModule shader_module(std::span<const uint32_t> code, ShaderChanges changes = {});
+    Handle<VkPipeline> make_graphics(const PipelineKey& key);
     // As PipelineKey::made asks for, of what describes a usual pipeline; the first of one for
     // dynamic rendering, which is all that its pNext names.
-    Result<Handle<VkPipeline>> make_from_library(const VkGraphicsPipelineCreateInfo& info);
-    Result<Handle<VkPipeline>> make_derived(const PipelineKey& key,
-                                            VkGraphicsPipelineCreateInfo info);
-    Result<Handle<VkPipeline>> make_cached(const VkGraphicsPipelineCreateInfo& info);
-    Result<Handle<ShaderObject>> make_object(VkShaderStageFlagBits stage,
-                                             std::span<const uint32_t> code,
-                                             const VkSpecializationInfo* specialization);
-    Result<Handle<VkPipeline>> make_feedback(uint32_t attribute_count);
-    Result<Handle<VkPipeline>> make_input(const InputKey& key);
-    Result<Handle<VkPipeline>> make_clear(const ClearKey& key);
-    Result<Handle<VkPipeline>> create(const VkGraphicsPipelineCreateInfo& info,
-                                      VkPipelineCache cache);
+    Handle<VkPipeline> make_from_library(const VkGraphicsPipelineCreateInfo& info);
+    Handle<VkPipeline> make_derived(const PipelineKey& key, VkGraphicsPipelineCreateInfo info);
+    Handle<VkPipeline> make_cached(const VkGraphicsPipelineCreateInfo& info);
+    Handle<ShaderObject> make_object(VkShaderStageFlagBits stage, std::span<const uint32_t> code,
+                                     const VkSpecializationInfo* specialization);
+    Handle<VkPipeline> make_feedback(uint32_t attribute_count);
+    Handle<VkPipeline> make_input(const InputKey& key);
+    Handle<VkPipeline> make_clear(const ClearKey& key);
+    Handle<VkPipeline> create(const VkGraphicsPipelineCreateInfo& info, VkPipelineCache cache);
 
     const Device* device_;
     Handle<VkPipelineCache> cache_;

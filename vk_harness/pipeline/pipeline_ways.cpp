@@ -57,8 +57,7 @@ VkGraphicsPipelineCreateInfo part_of(const VkGraphicsPipelineCreateInfo& whole,
 
 }  // namespace
 
-Result<Handle<VkPipeline>> PipelineCache::make_from_library(
-    const VkGraphicsPipelineCreateInfo& info) {
+Handle<VkPipeline> PipelineCache::make_from_library(const VkGraphicsPipelineCreateInfo& info) {
     constexpr std::array<VkGraphicsPipelineLibraryFlagBitsEXT, 4> kParts = {
         VK_GRAPHICS_PIPELINE_LIBRARY_VERTEX_INPUT_INTERFACE_BIT_EXT,
         VK_GRAPHICS_PIPELINE_LIBRARY_PRE_RASTERIZATION_SHADERS_BIT_EXT,
@@ -88,11 +87,8 @@ Result<Handle<VkPipeline>> PipelineCache::make_from_library(
         own.pNext = &which;
         own.flags |= VK_PIPELINE_CREATE_LIBRARY_BIT_KHR;
         auto library = create(own, cache_.get());
-        if (!library) {
-            return library;
-        }
-        handles.push_back(library->get());
-        libraries.push_back(std::move(*library));
+        handles.push_back(library.get());
+        libraries.push_back(std::move(library));
     }
     VkPipelineLibraryCreateInfoKHR linked =
         Typed{VK_STRUCTURE_TYPE_PIPELINE_LIBRARY_CREATE_INFO_KHR};
@@ -102,14 +98,12 @@ Result<Handle<VkPipeline>> PipelineCache::make_from_library(
     whole.pNext = &linked;
     whole.layout = info.layout;
     auto made = create(whole, cache_.get());
-    if (made) {
-        std::move(libraries.begin(), libraries.end(), std::back_inserter(libraries_));
-    }
+    std::move(libraries.begin(), libraries.end(), std::back_inserter(libraries_));
     return made;
 }
 
-Result<Handle<VkPipeline>> PipelineCache::make_derived(const PipelineKey& key,
-                                                       VkGraphicsPipelineCreateInfo info) {
+Handle<VkPipeline> PipelineCache::make_derived(const PipelineKey& key,
+                                               VkGraphicsPipelineCreateInfo info) {
     PipelineKey other = key;
     other.made = PipelineWay::base;
     other.masked = std::numeric_limits<uint32_t>::max();
@@ -117,16 +111,13 @@ Result<Handle<VkPipeline>> PipelineCache::make_derived(const PipelineKey& key,
         color.write_mask = 0;
     }
     auto base = get(other);
-    if (!base) {
-        return fail(base.error());
-    }
     info.flags = VK_PIPELINE_CREATE_DERIVATIVE_BIT;
-    info.basePipelineHandle = *base;
+    info.basePipelineHandle = base;
     info.basePipelineIndex = -1;
     return create(info, cache_.get());
 }
 
-Result<Handle<VkPipeline>> PipelineCache::make_cached(const VkGraphicsPipelineCreateInfo& info) {
+Handle<VkPipeline> PipelineCache::make_cached(const VkGraphicsPipelineCreateInfo& info) {
     const VolkDeviceTable& vk = device_->vk();
     VkPipelineCacheCreateInfo cache_info = Typed{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
     const auto make_cache = [&] {
@@ -134,35 +125,19 @@ Result<Handle<VkPipeline>> PipelineCache::make_cached(const VkGraphicsPipelineCr
                     vk.vkDestroyPipelineCache, cache_info);
     };
     auto first = make_cache();
-    if (!first) {
-        return fail(first.error());
-    }
-    if (auto pipeline = create(info, first->get()); !pipeline) {
-        return pipeline;
-    }
+    create(info, first.get());
     size_t size = 0;
     std::vector<char> data;
-    if (auto asked = check(Stage::pipeline,
-                           vk.vkGetPipelineCacheData(device_->get(), first->get(), &size, nullptr),
-                           "vkGetPipelineCacheData");
-        !asked) {
-        return fail(asked.error());
-    }
+    check(Stage::pipeline, vk.vkGetPipelineCacheData(device_->get(), first.get(), &size, nullptr),
+          "vkGetPipelineCacheData");
     data.resize(size);
-    if (auto asked =
-            check(Stage::pipeline,
-                  vk.vkGetPipelineCacheData(device_->get(), first->get(), &size, data.data()),
-                  "vkGetPipelineCacheData");
-        !asked) {
-        return fail(asked.error());
-    }
+    check(Stage::pipeline,
+          vk.vkGetPipelineCacheData(device_->get(), first.get(), &size, data.data()),
+          "vkGetPipelineCacheData");
     cache_info.initialDataSize = size;
     cache_info.pInitialData = data.data();
     auto second = make_cache();
-    if (!second) {
-        return fail(second.error());
-    }
-    return create(info, second->get());
+    return create(info, second.get());
 }
 
 }  // namespace vk_harness

@@ -158,7 +158,7 @@ VkImageLayout input_layout(VkImageAspectFlags aspect) {
                                                : VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
 }
 
-Result<Handle<VkRenderPass>> make_render_pass(const Device& device, const PassKey& key) {
+Handle<VkRenderPass> make_render_pass(const Device& device, const PassKey& key) {
     std::vector<VkAttachmentDescription2> descriptions;
     for (const PassKey::Part& part : key.parts) {
         descriptions.push_back(description_of(part, key));

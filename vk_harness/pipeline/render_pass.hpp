@@ -46,6 +46,6 @@ uint32_t subpass_of(const cases::Case& c, size_t draw);
 // In which the subpass of PassKey::inputs reads such an attachment.
 VkImageLayout input_layout(VkImageAspectFlags aspect);
 
-Result<Handle<VkRenderPass>> make_render_pass(const Device& device, const PassKey& key);
+Handle<VkRenderPass> make_render_pass(const Device& device, const PassKey& key);
 
 }  // namespace vk_harness

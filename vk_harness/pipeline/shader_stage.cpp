@@ -123,8 +123,7 @@ ShaderChanges fragment_changes(const PipelineKey& key, bool has_primitive_id) {
     return out;
 }
 
-Result<std::vector<uint32_t>> changed_code(std::span<const uint32_t> code,
-                                           const ShaderChanges& changes) {
+std::vector<uint32_t> changed_code(std::span<const uint32_t> code, const ShaderChanges& changes) {
     auto changed = shaders::change_inputs(code, changes.inputs);
     if (changed && !changes.modes.empty()) {
         changed = shaders::with_modes(*changed, changes.modes);
@@ -144,7 +143,7 @@ Result<std::vector<uint32_t>> changed_code(std::span<const uint32_t> code,
         changed = shaders::with_input_index(*changed, *changes.input_index);
     }
     if (!changed) {
-        return fail(Stage::shader, changed.error());
+        fail(Stage::shader, changed.error());
     }
     return std::move(*changed);
 }

@@ -39,8 +39,7 @@ struct ShaderChanges {
 ShaderChanges vertex_changes(const PipelineKey& key);
 // Of the fragment shader.
 ShaderChanges fragment_changes(const PipelineKey& key, bool has_primitive_id);
-Result<std::vector<uint32_t>> changed_code(std::span<const uint32_t> code,
-                                           const ShaderChanges& changes);
+std::vector<uint32_t> changed_code(std::span<const uint32_t> code, const ShaderChanges& changes);
 
 // Values of the specialization constants of capture.frag. Must not be moved once it is filled.
 struct Specialization {

@@ -24,9 +24,9 @@ class TargetCache {
 
     // One image an attachment, of the size, layers and sample count of the target, or of which it
     // is a part that way; no image twice in one answer. Valid until trim().
-    Result<std::vector<const Image*>> get(const cases::Target& target,
-                                          const std::vector<Attachment>& attachments,
-                                          const ImageWay& way = {});
+    std::vector<const Image*> get(const cases::Target& target,
+                                  const std::vector<Attachment>& attachments,
+                                  const ImageWay& way = {});
 
     // Frees an image, with what it holds of the device's memory; null is left alone.
     void release(const Image* image);

@@ -6,7 +6,7 @@
 
 #include "capture/capture.hpp"
 #include "ref/expectation/expectation.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 
 // A case of one draw, list topology, vertices in pixels of a power-of-two target, w = 1, z = 1/2.
 inline cases::Case pixel_case(uint32_t width, uint32_t height,

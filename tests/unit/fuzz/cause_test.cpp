@@ -21,9 +21,9 @@ using report::Status;
 report::CaseRecord failed() {
     report::CaseRecord record;
     record.status = Status::fail;
-    record.groups = {{FindingKind::missing, "cover.inside", Profile::direct3d, 90, 0},
-                     {FindingKind::value, "interp.linear", Profile::vulkan, 2, 0},
-                     {FindingKind::extra, "cover.outside", Profile::vulkan, 7, 0}};
+    record.outcome.groups = {{FindingKind::missing, "cover.inside", Profile::direct3d, 90, 0},
+                             {FindingKind::value, "interp.linear", Profile::vulkan, 2, 0},
+                             {FindingKind::extra, "cover.outside", Profile::vulkan, 7, 0}};
     return record;
 }
 
@@ -33,10 +33,10 @@ TEST(Symptom, IsTheGravestAndOfTheseTheCommonest) {
     EXPECT_EQ(to_text(*symptom), "extra of cover.outside [vulkan]");
     EXPECT_TRUE(shows(failed(), *symptom));
     report::CaseRecord other = failed();
-    other.groups.pop_back();
+    other.outcome.groups.pop_back();
     EXPECT_FALSE(shows(other, *symptom));
     other.status = Status::crash;
-    other.signal = "SIGSEGV";
+    other.death.signal = "SIGSEGV";
     EXPECT_EQ(to_text(*symptom_of(other)), "crash by SIGSEGV");
     EXPECT_FALSE(shows(other, *symptom));
 }

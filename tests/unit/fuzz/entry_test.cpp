@@ -40,7 +40,7 @@ std::vector<CaseRecord> draw_sample_depth(const std::vector<cases::Case>& all) {
                                             [](const auto& draw) { return draw.depth.clamp; });
         if (c.target.samples > 1 && is_sloping(c)) {
             record.status = Status::fail;
-            record.groups = {
+            record.outcome.groups = {
                 {FindingKind::value, is_clamped ? "depth.clamp" : "depth.linear",
                  is_clamped && c.draws.size() > 1 ? Profile::vulkan : Profile::practice, 1, 0}};
         }
@@ -70,9 +70,10 @@ TEST(ReduceCase, TellsWhatTheDeviceLeft) {
     const Draw draw = [](const std::vector<cases::Case>& all) {
         std::vector<CaseRecord> records = draw_sample_depth(all);
         for (CaseRecord& record : records) {
-            for (const auto& group : record.groups) {
-                record.findings.push_back({group.kind, group.rule, group.level, 3, 1, 2, "depth",
-                                           "0.5", "0.75", "it is another sample's"});
+            for (const auto& group : record.outcome.groups) {
+                record.outcome.findings.push_back({group.kind, group.rule, group.level, 3, 1, 2,
+                                                   "depth", "0.5", "0.75",
+                                                   "it is another sample's"});
             }
         }
         return records;
@@ -96,9 +97,10 @@ TEST(ReduceCase, TellsWhatItsOwnCaseShows) {
     const Draw draw = [&](const std::vector<cases::Case>& all) {
         std::vector<CaseRecord> records = draw_sample_depth(all);
         for (size_t k = 0; k < all.size(); ++k) {
-            for (const auto& group : records[k].groups) {
-                records[k].findings.push_back({group.kind, group.rule, group.level, 0, 0, 0, "",
-                                               "none", size_of(all[k]) + " pixels", "so"});
+            for (const auto& group : records[k].outcome.groups) {
+                records[k].outcome.findings.push_back({group.kind, group.rule, group.level, 0, 0, 0,
+                                                       "", "none", size_of(all[k]) + " pixels",
+                                                       "so"});
             }
         }
         return records;
@@ -123,7 +125,7 @@ TEST(ReduceCase, StaysAsSoundAsTheDrawnCase) {
         std::vector<CaseRecord> records(all.size());
         for (CaseRecord& record : records) {
             record.status = Status::fail;
-            record.groups = {{FindingKind::value, "store.unorm", Profile::direct3d, 1, 0}};
+            record.outcome.groups = {{FindingKind::value, "store.unorm", Profile::direct3d, 1, 0}};
         }
         return records;
     };
@@ -152,7 +154,8 @@ TEST(ReduceCase, KeepsATriangleThatIsSeen) {
             CaseRecord& record = records.emplace_back();
             record.status = c.target.has_instruments ? Status::pass : Status::fail;
             if (!c.target.has_instruments) {
-                record.groups = {{FindingKind::value, "store.unorm", Profile::vulkan, 1, 0}};
+                record.outcome.groups = {
+                    {FindingKind::value, "store.unorm", Profile::vulkan, 1, 0}};
             }
         }
         return records;
@@ -173,7 +176,7 @@ TEST(ReduceCase, ALikeFailureIsNoLessGrave) {
     const Draw draw = [](const std::vector<cases::Case>& all) {
         std::vector<CaseRecord> records = draw_sample_depth(all);
         for (CaseRecord& record : records) {
-            for (auto& group : record.groups) {
+            for (auto& group : record.outcome.groups) {
                 group.level = group.rule == "depth.linear" ? Profile::direct3d : group.level;
             }
         }

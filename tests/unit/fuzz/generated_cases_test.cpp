@@ -21,7 +21,7 @@
 #include "rasterizers/strength/strength.hpp"
 #include "ref/color/color.hpp"
 #include "ref/expectation/expectation.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 #include "tests/share.hpp"
 
 namespace fuzz {

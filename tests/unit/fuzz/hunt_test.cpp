@@ -67,7 +67,7 @@ struct Device {
                 group.rule = "cover.inside";
                 group.level = cases::Profile::vulkan;
                 group.count = 1;
-                record.groups.push_back(group);
+                record.outcome.groups.push_back(group);
             }
             goes_on = on_progress(drawn.size());
         }

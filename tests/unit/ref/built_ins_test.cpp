@@ -12,7 +12,7 @@
 
 #include "ref/number/fixed_point.hpp"
 #include "ref/value/places.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 #include "tests/unit/ref/multisample_fixture.hpp"
 
 namespace ref::test {

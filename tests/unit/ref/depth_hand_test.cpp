@@ -8,7 +8,7 @@
 
 #include "ref/expectation/expectation.hpp"
 #include "ref/expectation/explain.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 #include "tests/unit/ref/value_case.hpp"
 
 namespace ref::test {

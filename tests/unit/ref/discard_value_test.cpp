@@ -12,7 +12,7 @@
 #include "ref/expectation/counted.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/expectation/explain.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 #include "tests/unit/ref/same_expectations.hpp"
 #include "tests/unit/ref/value_case.hpp"
 

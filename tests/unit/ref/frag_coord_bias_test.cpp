@@ -4,7 +4,7 @@
 // FragCoord.z of a draw with a depth bias, worked out by hand.
 #include <gtest/gtest.h>
 
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 #include "tests/unit/ref/value_case.hpp"
 
 namespace ref::test {

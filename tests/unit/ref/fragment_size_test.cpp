@@ -9,7 +9,7 @@
 
 #include "cases/model/sample.hpp"
 #include "ref/value/fragment/fragment_coverage.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 #include "tests/unit/ref/multisample_fixture.hpp"
 
 namespace ref::test {

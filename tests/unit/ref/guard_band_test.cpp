@@ -10,7 +10,7 @@
 
 #include "cases/load/loader.hpp"
 #include "ref/expectation/expectation.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 
 namespace ref::test {
 namespace {

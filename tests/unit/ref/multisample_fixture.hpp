@@ -11,7 +11,7 @@
 
 #include "cases/model/sample.hpp"
 #include "ref/value/places.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 #include "tests/unit/ref/coverage_fixture.hpp"
 
 namespace ref::test {

@@ -14,7 +14,7 @@
 #include "ref/value/accept/one_point.hpp"
 #include "ref/value/fragment/fragment_coverage.hpp"
 #include "ref/value/places.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 #include "tests/unit/ref/multisample_fixture.hpp"
 #include "tests/unit/ref/same_expectations.hpp"
 

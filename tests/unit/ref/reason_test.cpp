@@ -24,7 +24,7 @@
 #include "ref/expectation/expectation.hpp"
 #include "ref/expectation/explain.hpp"
 #include "ref/expectation/reason_text.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 #include "tests/share.hpp"
 
 namespace ref::test {

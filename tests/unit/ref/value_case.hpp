@@ -11,7 +11,7 @@
 #include <random>
 
 #include "cases/model/case.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 
 namespace value_test {
 

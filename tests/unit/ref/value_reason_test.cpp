@@ -14,7 +14,7 @@
 #include "cases/model/profile.hpp"
 #include "folders.hpp"
 #include "ref/expectation/expectation.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 #include "tests/share.hpp"
 
 namespace ref::test {

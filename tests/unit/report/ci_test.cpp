@@ -64,11 +64,11 @@ CaseRecord failed(const std::string& id, const std::string& rule, cases::Profile
     CaseRecord record;
     record.id = id;
     record.status = Status::fail;
-    record.level = level;
+    record.outcome.level = level;
     diff::Finding finding;
     finding.rule = rule;
     finding.level = level;
-    record.findings = {finding};
+    record.outcome.findings = {finding};
     return record;
 }
 
@@ -76,18 +76,18 @@ CaseRecord failed(const std::string& id, const std::string& rule, cases::Profile
 CaseRecord by_doors(const std::string& id, const std::vector<std::string>& doors,
                     uint64_t known_of_first) {
     CaseRecord record = failed(id, "door.state", cases::Profile::vulkan);
-    record.findings.clear();
+    record.outcome.findings.clear();
     for (const std::string& door : doors) {
         diff::Finding finding;
         finding.kind = diff::FindingKind::value;
         finding.rule = "door.state";
         finding.level = cases::Profile::vulkan;
         finding.door = door;
-        record.findings.push_back(finding);
-        record.groups.push_back({finding.kind, finding.rule, finding.level, 4, 0, door});
-        record.counts.at(static_cast<size_t>(finding.kind)) += 4;
+        record.outcome.findings.push_back(finding);
+        record.outcome.groups.push_back({finding.kind, finding.rule, finding.level, 4, 0, door});
+        record.outcome.counts.at(static_cast<size_t>(finding.kind)) += 4;
     }
-    record.groups.front().known = known_of_first;
+    record.outcome.groups.front().known = known_of_first;
     return record;
 }
 
@@ -124,7 +124,7 @@ TEST(causes, of_a_broken_door_do_not_hide_another) {
     EXPECT_NE(what_happened(run.cases[0]).find("door.state=state-static ["), std::string::npos);
     // Of what is known, each has a cause, too.
     run.cases[0].status = Status::xfail;
-    run.cases[0].groups[1].known = 4;
+    run.cases[0].outcome.groups[1].known = 4;
     EXPECT_TRUE(causes(run).empty());
     EXPECT_EQ(titles(known_causes(run)),
               (std::vector<std::string>{
@@ -136,13 +136,15 @@ TEST(causes, of_a_broken_door_do_not_hide_another) {
 TEST(causes, of_a_wrong_picture_do_not_hide_a_relation) {
     report::Run run;
     CaseRecord record = by_doors("ties/a", {"state-first"}, 0);
-    record.groups.push_back({diff::FindingKind::value, "repeat.same", cases::Profile::vulkan, 1});
+    record.outcome.groups.push_back(
+        {diff::FindingKind::value, "repeat.same", cases::Profile::vulkan, 1});
     diff::Finding missing;
     missing.rule = "cover.inside";
     missing.level = cases::Profile::vulkan;
-    record.findings.insert(record.findings.begin(), missing);
+    record.outcome.findings.insert(record.outcome.findings.begin(), missing);
     // A second rule of the picture itself follows from the first as a rule, and has no line.
-    record.groups.push_back({diff::FindingKind::extra, "cover.outside", cases::Profile::vulkan, 1});
+    record.outcome.groups.push_back(
+        {diff::FindingKind::extra, "cover.outside", cases::Profile::vulkan, 1});
     run.cases = {record};
     EXPECT_EQ(titles(causes(run)), (std::vector<std::string>{
                                        "fail: cover.inside missing in ties, 1 case vulkan",
@@ -150,7 +152,7 @@ TEST(causes, of_a_wrong_picture_do_not_hide_a_relation) {
                                        "fail: door.state=state-first value in ties, 1 case vulkan",
                                    }));
     // Neither says more than the level of its own.
-    run.cases[0].groups[1].level = cases::Profile::practice;
+    run.cases[0].outcome.groups[1].level = cases::Profile::practice;
     EXPECT_EQ(titles(causes(run)).back(), "fail: repeat.same value in ties, 1 case practice");
 }
 
@@ -207,17 +209,18 @@ TEST(github, a_cause_tells_its_own_finding) {
     report::Run run = test::sample_run();
     run.cases = {run.cases[3]};
     CaseRecord& record = run.cases[0];
-    ASSERT_GE(record.findings.size(), 2U);
-    record.findings.resize(2);
-    record.findings[0].rule = "scissor.half-open";
-    record.findings[0].kind = diff::FindingKind::extra;
-    record.findings[0].why = "the first";
-    record.findings[1] = record.findings[0];
-    record.findings[1].rule = "repeat.scissor";
-    record.findings[1].kind = diff::FindingKind::value;
-    record.findings[1].why = "the second";
-    record.groups = {{diff::FindingKind::extra, "scissor.half-open", cases::Profile::vulkan, 1, 0},
-                     {diff::FindingKind::value, "repeat.scissor", cases::Profile::vulkan, 1, 0}};
+    ASSERT_GE(record.outcome.findings.size(), 2U);
+    record.outcome.findings.resize(2);
+    record.outcome.findings[0].rule = "scissor.half-open";
+    record.outcome.findings[0].kind = diff::FindingKind::extra;
+    record.outcome.findings[0].why = "the first";
+    record.outcome.findings[1] = record.outcome.findings[0];
+    record.outcome.findings[1].rule = "repeat.scissor";
+    record.outcome.findings[1].kind = diff::FindingKind::value;
+    record.outcome.findings[1].why = "the second";
+    record.outcome.groups = {
+        {diff::FindingKind::extra, "scissor.half-open", cases::Profile::vulkan, 1, 0},
+        {diff::FindingKind::value, "repeat.scissor", cases::Profile::vulkan, 1, 0}};
     const std::string text = to_github_annotations(run, "/x");
     ASSERT_EQ(lines_with(text, "::error "), 2U);
     for (const std::string& line :
@@ -315,8 +318,8 @@ TEST(gitlab, is_an_issue_a_case_with_a_fingerprint_of_its_own) {
     }
     EXPECT_EQ(fingerprints.size(), json.size());
     report::Run later = run;
-    later.cases[3].seconds = 99;
-    later.cases[3].findings[0].x += 1;
+    later.cases[3].drawn.seconds = 99;
+    later.cases[3].outcome.findings[0].x += 1;
     EXPECT_EQ(nlohmann::json::parse(to_gitlab(later, "/x"))[0].at("fingerprint"),
               json[0].at("fingerprint"));
     later.cases[3].status = Status::crash;

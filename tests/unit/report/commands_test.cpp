@@ -80,8 +80,8 @@ TEST(commands, known_failures_have_causes_of_their_own) {
     }
     // In order of their levels, whatever the order of the run: the first one is of vulkan.
     CaseRecord ties = run.cases[4], diagonal = run.cases[3];
-    ASSERT_EQ(ties.level, cases::Profile::direct3d);
-    ASSERT_EQ(diagonal.level, cases::Profile::vulkan);
+    ASSERT_EQ(ties.outcome.level, cases::Profile::direct3d);
+    ASSERT_EQ(diagonal.outcome.level, cases::Profile::vulkan);
     ties.status = diagonal.status = Status::xfail;
     run.cases = {ties, diagonal};
     ASSERT_EQ(known().size(), 2U);

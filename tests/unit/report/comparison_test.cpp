@@ -51,13 +51,13 @@ TEST(comparison, every_pair_of_statuses) {
 TEST(comparison, bits_tell_what_statuses_do_not) {
     std::vector<NamedRun> runs = {{"a", test::sample_run()}, {"b", test::sample_run()}};
     CaseRecord& b = runs[1].run.cases[0];
-    b.bits = "1";
+    b.drawn.bits = "1";
     EXPECT_EQ(compare_runs(runs)->cases[0].change, Change::other_values);
-    b.hit_bits = "2";
+    b.drawn.hit_bits = "2";
     EXPECT_EQ(compare_runs(runs)->cases[0].change, Change::other_coverage);
     EXPECT_EQ(compare_runs(runs)->cases[0].detail,
               "8 of 64 samples are free in A, 8 of 64 samples are free in B");
-    runs[1].run.cases[3].counts[0] += 1;
+    runs[1].run.cases[3].outcome.counts[0] += 1;
     EXPECT_EQ(compare_runs(runs)->cases[3].change, Change::fails_otherwise);
     EXPECT_EQ(exit_code(*compare_runs(runs)), kExitInternal);  // the sample run is not whole
 }
@@ -88,15 +88,16 @@ TEST(comparison, more_findings_of_a_cause_are_worse) {
     std::vector<NamedRun> runs = {{"a", test::sample_run()}, {"b", test::sample_run()}};
     for (NamedRun& run : runs) {
         CaseRecord& c = run.run.cases[3];
-        c.groups = {{diff::FindingKind::value, "interp.linear", cases::Profile::vulkan, 127, 0}};
+        c.outcome.groups = {
+            {diff::FindingKind::value, "interp.linear", cases::Profile::vulkan, 127, 0}};
     }
     EXPECT_EQ(compare_runs(runs)->cases[3].change, Change::fails_alike);
-    runs[1].run.cases[3].groups[0].count = 128;
+    runs[1].run.cases[3].outcome.groups[0].count = 128;
     const auto worse = compare_runs(runs);
     EXPECT_EQ(worse->cases[3].change, Change::regression);
     EXPECT_THAT(worse->cases[3].detail,
                 testing::HasSubstr("128 value of interp.linear [vulkan] instead of 127"));
-    runs[1].run.cases[3].groups[0].count = 126;
+    runs[1].run.cases[3].outcome.groups[0].count = 126;
     EXPECT_NE(compare_runs(runs)->cases[3].change, Change::regression);
 }
 

@@ -94,8 +94,8 @@ TEST(Repeated, ACauseOfWhichEveryTriedCaseIs) {
     // Relations between drawings are of none, whatever the picture is like.
     diff::Finding finding;
     finding.rule = "repeat.same";
-    run.cases[0].findings = {finding};
-    run.cases[1].findings = run.cases[2].findings = run.cases[0].findings;
+    run.cases[0].outcome.findings = {finding};
+    run.cases[1].outcome.findings = run.cases[2].outcome.findings = run.cases[0].outcome.findings;
     EXPECT_EQ(repeated_causes(run)[0], (std::pair<std::string, int>{"a", -1}));
     run.diagnoses.clear();
     EXPECT_EQ(repeated_causes(run), (std::vector<std::pair<std::string, int>>{

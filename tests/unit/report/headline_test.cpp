@@ -26,7 +26,7 @@ TEST(headline, tells_what_is_unexpected_before_all_else) {
 TEST(headline, counts_of_what_was_judged) {
     report::Run run = run_of({fail, pass, pass, unsupported, skip});
     EXPECT_EQ(headline(run), "1 of 3 judged cases fails");
-    run.cases[0].counts.at(0) = 1;
+    run.cases[0].outcome.counts.at(0) = 1;
     EXPECT_TRUE(levels_line(run).find("in 3 cases") != std::string::npos) << levels_line(run);
     // A crash is no judgement.
     EXPECT_EQ(headline(run_of({fail, crash, unsupported})), "1 of 2 cases fails, 1 crashes");
@@ -53,13 +53,13 @@ TEST(headline, has_words_for_every_status) {
 TEST(headline, tells_apart_what_fails_only_beyond_the_level_of_the_run) {
     report::Run run = run_of({fail, fail, pass});
     for (CaseRecord& record : run.cases) {
-        record.counts.at(0) = record.status == fail ? 1 : 0;
-        record.level = cases::Profile::direct3d;
+        record.outcome.counts.at(0) = record.status == fail ? 1 : 0;
+        record.outcome.level = cases::Profile::direct3d;
     }
     EXPECT_EQ(headline(run), "2 of 3 cases fail");
     run.fail_at = cases::Profile::practice;
     EXPECT_EQ(headline(run), "2 of 3 cases fail only beyond practice");
-    run.cases[0].level = cases::Profile::vulkan;
+    run.cases[0].outcome.level = cases::Profile::vulkan;
     EXPECT_EQ(headline(run), "1 of 3 cases fails, 1 fails only beyond practice");
 }
 

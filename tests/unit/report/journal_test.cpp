@@ -91,42 +91,42 @@ TEST_F(JournalTest, round_trip_is_exact) {
     ASSERT_EQ(loaded->cases.size(), run.cases.size());
     const CaseRecord& a = loaded->cases[3];
     const CaseRecord& b = run.cases[3];
-    EXPECT_EQ(a.pictures.marks, b.pictures.marks);
-    EXPECT_EQ(a.pictures.expected_hits, b.pictures.expected_hits);
-    EXPECT_EQ(a.pictures.device_hits, b.pictures.device_hits);
-    EXPECT_EQ(a.pictures.errors, b.pictures.errors);
-    EXPECT_EQ(a.pictures.device_colors, b.pictures.device_colors);
-    EXPECT_EQ(a.pictures.expected_colors, b.pictures.expected_colors);
-    EXPECT_EQ(a.pictures.device_depths, b.pictures.device_depths);
-    EXPECT_EQ(a.pictures.expected_depths, b.pictures.expected_depths);
-    EXPECT_EQ(a.geometry, b.geometry);
-    EXPECT_EQ(a.evidence, b.evidence);
-    EXPECT_EQ(loaded->cases[0].reference, run.cases[0].reference);
+    EXPECT_EQ(a.evidence.pictures.marks, b.evidence.pictures.marks);
+    EXPECT_EQ(a.evidence.pictures.expected_hits, b.evidence.pictures.expected_hits);
+    EXPECT_EQ(a.evidence.pictures.device_hits, b.evidence.pictures.device_hits);
+    EXPECT_EQ(a.evidence.pictures.errors, b.evidence.pictures.errors);
+    EXPECT_EQ(a.evidence.pictures.device_colors, b.evidence.pictures.device_colors);
+    EXPECT_EQ(a.evidence.pictures.expected_colors, b.evidence.pictures.expected_colors);
+    EXPECT_EQ(a.evidence.pictures.device_depths, b.evidence.pictures.device_depths);
+    EXPECT_EQ(a.evidence.pictures.expected_depths, b.evidence.pictures.expected_depths);
+    EXPECT_EQ(a.evidence.geometry, b.evidence.geometry);
+    EXPECT_EQ(a.evidence.samples, b.evidence.samples);
+    EXPECT_EQ(loaded->cases[0].evidence.reference, run.cases[0].evidence.reference);
     EXPECT_EQ(loaded->sources, run.sources);
     EXPECT_EQ(a.catches, b.catches);
-    EXPECT_EQ(a.counts, b.counts);
-    EXPECT_EQ(a.level, cases::Profile::vulkan);
-    EXPECT_EQ(a.findings[2].kind, diff::FindingKind::double_hit);
-    EXPECT_EQ(a.findings[3].level, cases::Profile::practice);
+    EXPECT_EQ(a.outcome.counts, b.outcome.counts);
+    EXPECT_EQ(a.outcome.level, cases::Profile::vulkan);
+    EXPECT_EQ(a.outcome.findings[2].kind, diff::FindingKind::double_hit);
+    EXPECT_EQ(a.outcome.findings[3].level, cases::Profile::practice);
     EXPECT_EQ(loaded->seed, 18446744073709551615ULL);
-    EXPECT_EQ(loaded->cases[5].expected, Status::fail);
-    EXPECT_EQ(loaded->cases[0].expected, std::nullopt);
+    EXPECT_EQ(loaded->cases[5].known.expected, Status::fail);
+    EXPECT_EQ(loaded->cases[0].known.expected, std::nullopt);
 }
 
 // Reports of very many cases keep what grows of the first ones, and of each its status and counts.
 TEST_F(JournalTest, reports_have_a_bound_and_say_so) {
     report::Run run = test::sample_run();
     CaseRecord one = run.cases.front();
-    one.pictures.width = one.pictures.height = 1;
-    one.pictures.device_hits = {1};
+    one.evidence.pictures.width = one.evidence.pictures.height = 1;
+    one.evidence.pictures.device_hits = {1};
     one.status = Status::fail;
-    one.counts = {};
-    one.counts.front() = 40;
+    one.outcome.counts = {};
+    one.outcome.counts.front() = 40;
     diff::Finding strict, loose;
     strict.level = cases::Profile::direct3d;
     loose.level = cases::Profile::vulkan;
-    one.findings.assign(40, strict);
-    one.findings.back() = loose;
+    one.outcome.findings.assign(40, strict);
+    one.outcome.findings.back() = loose;
     run.cases.assign(4, one);
     for (size_t k = 0; k < run.cases.size(); ++k) {
         run.cases[k].id = "case/" + std::to_string(k);
@@ -141,30 +141,30 @@ TEST_F(JournalTest, reports_have_a_bound_and_say_so) {
     ASSERT_TRUE(bounded);
     EXPECT_GE(bounded->shortened_cases, 1U);
     EXPECT_LE(bounded->shortened_cases, 3U);
-    EXPECT_EQ(bounded->cases.front().findings.size(), 40U);
-    EXPECT_EQ(bounded->cases.front().pictures.device_hits.size(), 1U);
+    EXPECT_EQ(bounded->cases.front().outcome.findings.size(), 40U);
+    EXPECT_EQ(bounded->cases.front().evidence.pictures.device_hits.size(), 1U);
     const CaseRecord& last = bounded->cases.back();
     EXPECT_EQ(last.status, Status::fail);
-    EXPECT_EQ(last.counts, one.counts);
-    EXPECT_TRUE(last.pictures.device_hits.empty());
-    ASSERT_EQ(last.findings.size(), 16U);
-    EXPECT_EQ(last.findings.front().level, cases::Profile::vulkan);  // the gravest is kept
+    EXPECT_EQ(last.outcome.counts, one.outcome.counts);
+    EXPECT_TRUE(last.evidence.pictures.device_hits.empty());
+    ASSERT_EQ(last.outcome.findings.size(), 16U);
+    EXPECT_EQ(last.outcome.findings.front().level, cases::Profile::vulkan);  // the gravest is kept
 }
 
 TEST_F(JournalTest, layers_survive) {
     report::Run run = test::sample_run();
-    run.cases[3].findings[0].layer = 0;
-    run.cases[3].findings[1].layer = 255;
-    run.cases[3].pictures.layer_height = 4;
+    run.cases[3].outcome.findings[0].layer = 0;
+    run.cases[3].outcome.findings[1].layer = 255;
+    run.cases[3].evidence.pictures.layer_height = 4;
     write(run);
     const auto loaded = load_journal(dir_);
     ASSERT_TRUE(loaded) << cases::to_string(loaded.error());
     const CaseRecord& r = loaded->cases[3];
-    EXPECT_EQ(r.findings[0].layer, 0U);
-    EXPECT_EQ(r.findings[1].layer, 255U);
-    EXPECT_EQ(r.findings[2].layer, std::nullopt);
-    EXPECT_EQ(r.pictures.layer_height, 4U);
-    EXPECT_EQ(loaded->cases[4].pictures.layer_height, 0U);
+    EXPECT_EQ(r.outcome.findings[0].layer, 0U);
+    EXPECT_EQ(r.outcome.findings[1].layer, 255U);
+    EXPECT_EQ(r.outcome.findings[2].layer, std::nullopt);
+    EXPECT_EQ(r.evidence.pictures.layer_height, 4U);
+    EXPECT_EQ(loaded->cases[4].evidence.pictures.layer_height, 0U);
 }
 
 TEST_F(JournalTest, hostile_bytes_survive) {
@@ -175,8 +175,8 @@ TEST_F(JournalTest, hostile_bytes_survive) {
     EXPECT_EQ(loaded->device.name, test::kHostile);
     EXPECT_EQ(loaded->environment, run.environment);
     EXPECT_EQ(loaded->cases[4].id, run.cases[4].id);
-    EXPECT_EQ(loaded->cases[4].stderr_text, test::kHostile);
-    EXPECT_EQ(loaded->cases[4].findings[0].why, test::kHostile);
+    EXPECT_EQ(loaded->cases[4].death.output, test::kHostile);
+    EXPECT_EQ(loaded->cases[4].outcome.findings[0].why, test::kHostile);
     EXPECT_EQ(image_of(*loaded), image_of(run));
 }
 
@@ -184,17 +184,17 @@ RC_GTEST_FIXTURE_PROP(JournalTest, every_text_and_number_survives,
                       (const std::string& text, uint64_t bits, const std::vector<uint8_t>& bytes)) {
     CaseRecord r;
     r.id = "a/b";
-    r.stderr_text = text;
-    r.worst_ratio = std::bit_cast<double>(bits);
-    r.pictures.marks = bytes;
+    r.death.output = text;
+    r.outcome.worst_ratio = std::bit_cast<double>(bits);
+    r.evidence.pictures.marks = bytes;
     const auto json = nlohmann::ordered_json::parse(encode(r).dump());
     const CaseRecord back = decode<CaseRecord>(json);
-    RC_ASSERT(back.stderr_text == text);
-    RC_ASSERT(back.pictures.marks == bytes);
-    if (!std::isnan(back.worst_ratio)) {
-        RC_ASSERT(std::bit_cast<uint64_t>(back.worst_ratio) == bits);
+    RC_ASSERT(back.death.output == text);
+    RC_ASSERT(back.evidence.pictures.marks == bytes);
+    if (!std::isnan(back.outcome.worst_ratio)) {
+        RC_ASSERT(std::bit_cast<uint64_t>(back.outcome.worst_ratio) == bits);
     } else {
-        RC_ASSERT(std::isnan(r.worst_ratio));
+        RC_ASSERT(std::isnan(r.outcome.worst_ratio));
     }
 }
 
@@ -202,9 +202,9 @@ TEST_F(JournalTest, special_numbers_survive) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     for (const double value : {kInfinity, -kInfinity, -0.0, 5e-324, 1.7976931348623157e308, 0.1}) {
         CaseRecord r;
-        r.seconds = value;
+        r.drawn.seconds = value;
         const auto json = nlohmann::ordered_json::parse(encode(r).dump());
-        EXPECT_EQ(std::bit_cast<uint64_t>(decode<CaseRecord>(json).seconds),
+        EXPECT_EQ(std::bit_cast<uint64_t>(decode<CaseRecord>(json).drawn.seconds),
                   std::bit_cast<uint64_t>(value));
     }
 }
@@ -219,10 +219,10 @@ TEST(evidence, of_older_journals_is_empty) {
         json["pictures"].erase(key);
     }
     const CaseRecord old = decode<CaseRecord>(json);
-    EXPECT_EQ(old.geometry, Geometry{});
-    EXPECT_TRUE(old.evidence.empty());
-    EXPECT_TRUE(old.pictures.errors.empty());
-    EXPECT_EQ(old.findings.size(), 5U);
+    EXPECT_EQ(old.evidence.geometry, Geometry{});
+    EXPECT_TRUE(old.evidence.samples.empty());
+    EXPECT_TRUE(old.evidence.pictures.errors.empty());
+    EXPECT_EQ(old.outcome.findings.size(), 5U);
 }
 
 TEST(evidence, that_is_malformed_is_an_error) {
@@ -272,7 +272,7 @@ TEST(error_code, is_a_scale_of_eighths_of_an_octave) {
 TEST_F(JournalTest, every_prefix_loads_or_is_an_error) {
     report::Run run = test::sample_run();
     run.cases.resize(4);
-    run.cases[3].findings.resize(2);
+    run.cases[3].outcome.findings.resize(2);
     write(run);
     const std::string whole = content();
     const size_t first_line = whole.find('\n') + 1;

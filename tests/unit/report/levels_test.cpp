@@ -34,17 +34,19 @@ CaseRecord a_case(const std::string& id, Status status, const std::vector<Wrong>
     CaseRecord record;
     record.id = id;
     record.status = status;
-    record.compared_samples = 64;
+    record.outcome.compared_samples = 64;
     for (const Wrong& wrong : groups) {
         diff::Finding finding;
         finding.kind = diff::FindingKind::missing;
         finding.rule = wrong.level == Profile::direct3d ? "tie.top-left" : "cover.inside";
         finding.level = wrong.level;
-        record.level = record.findings.empty() ? wrong.level : std::min(record.level, wrong.level);
-        record.counts.at(0) += wrong.count;
-        record.groups.push_back(
+        record.outcome.level = record.outcome.findings.empty()
+                                   ? wrong.level
+                                   : std::min(record.outcome.level, wrong.level);
+        record.outcome.counts.at(0) += wrong.count;
+        record.outcome.groups.push_back(
             {finding.kind, finding.rule, wrong.level, wrong.count, wrong.known});
-        record.findings.push_back(finding);
+        record.outcome.findings.push_back(finding);
     }
     return record;
 }
@@ -70,7 +72,8 @@ TEST(levels, of_a_cause_are_those_of_what_is_new_in_it) {
     EXPECT_FALSE(causes(run)[0].is_known);
     // Another level is another cause, the gravest first.
     run.cases.push_back(a_case("ties/b", Status::fail, {{Profile::vulkan}}));
-    run.cases.back().findings[0].rule = run.cases.back().groups[0].rule = "tie.top-left";
+    run.cases.back().outcome.findings[0].rule = run.cases.back().outcome.groups[0].rule =
+        "tie.top-left";
     ASSERT_EQ(causes(run).size(), 2U);
     EXPECT_EQ(causes(run)[0].level, Profile::vulkan);
     EXPECT_EQ(causes(run)[1].level, Profile::direct3d);
@@ -113,7 +116,7 @@ TEST(levels, a_cause_whose_findings_are_all_expected_says_so) {
 
 TEST(levels, news_beyond_the_findings_that_are_kept_lead) {
     CaseRecord record = a_case("ties/a", Status::fail, {{Profile::direct3d, 2, 2}});
-    record.groups.push_back({diff::FindingKind::double_hit, "", Profile::vulkan, 1, 0});
+    record.outcome.groups.push_back({diff::FindingKind::double_hit, "", Profile::vulkan, 1, 0});
     const report::Run run = run_of({record});
     EXPECT_EQ(cause_title(causes(run)[0]) + " " + cause_level(causes(run)[0]),
               "fail: double in ties, 1 case vulkan");
@@ -143,7 +146,7 @@ TEST(levels, what_could_not_be_judged_has_none) {
     }
     // --require-support makes a failure of it, which has no findings.
     CaseRecord lacking = a_case("ties/a", Status::fail);
-    lacking.actual = Status::unsupported;
+    lacking.known.actual = Status::unsupported;
     const report::Run run =
         run_of({lacking, a_case("ties/b", Status::fail, {{Profile::direct3d}})});
     EXPECT_EQ(levels(run).judged, 1U);

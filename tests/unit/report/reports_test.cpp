@@ -138,9 +138,9 @@ TEST(console, three_lines_and_the_explain_command) {
         const std::string text = console_case(r, {});
         const auto lines = std::count(text.begin(), text.end(), '\n');
         const bool died = r.status == Status::crash || r.status == Status::timeout;
-        EXPECT_EQ(lines, r.explain.empty() && !died  ? 3
-                         : r.status == Status::crash ? 7
-                                                     : 4)
+        EXPECT_EQ(lines, r.commands.explain.empty() && !died ? 3
+                         : r.status == Status::crash         ? 7
+                                                             : 4)
             << text;
         EXPECT_NE(text.find(r.id), std::string::npos);
         EXPECT_NE(text.find("rerun: " + r.rerun), std::string::npos);
@@ -270,8 +270,9 @@ TEST(console, the_end_tells_the_causes) {
 
 TEST(console, the_loosest_level_leads) {
     CaseRecord r = test::sample_run().cases[3];
-    std::rotate(r.findings.begin(), r.findings.begin() + 1, r.findings.end());
-    ASSERT_EQ(r.findings[0].level, cases::Profile::direct3d);
+    std::rotate(r.outcome.findings.begin(), r.outcome.findings.begin() + 1,
+                r.outcome.findings.end());
+    ASSERT_EQ(r.outcome.findings[0].level, cases::Profile::direct3d);
     EXPECT_NE(console_case(r, {}).find("[vulkan: not conformant]"), std::string::npos);
     EXPECT_NE(console_case(r, {}).find("(1,1): expected 1, got 2"), std::string::npos);
 }
@@ -282,15 +283,15 @@ TEST(console, hostile_bytes_are_shown_inert) {
 
 TEST(console, pictures_that_do_not_fit_together_are_left_out) {
     CaseRecord r = test::sample_run().cases[3];
-    r.pictures.marks.pop_back();
+    r.evidence.pictures.marks.pop_back();
     EXPECT_EQ(console_case(r, {false, true, 100}), console_case(r, {}));
 }
 
 // The 8 x 8 picture as two layers of four rows.
 TEST(console, layers_are_named) {
     CaseRecord r = test::sample_run().cases[3];
-    r.pictures.layer_height = 4;
-    for (diff::Finding& f : r.findings) {
+    r.evidence.pictures.layer_height = 4;
+    for (diff::Finding& f : r.outcome.findings) {
         f.layer = f.y / 4;
         f.y %= 4;
     }
@@ -303,8 +304,8 @@ TEST(console, layers_are_named) {
 
 TEST(json, layers_are_written_where_there_are_several) {
     report::Run run = test::sample_run();
-    run.cases[3].pictures.layer_height = 4;
-    run.cases[3].findings[1].layer = 1;
+    run.cases[3].evidence.pictures.layer_height = 4;
+    run.cases[3].outcome.findings[1].layer = 1;
     const auto json = nlohmann::ordered_json::parse(to_json(run));
     const auto& fail = json.at("cases").at(3);
     EXPECT_EQ(fail.at("findings").at(1).at("sample").at("layer"), 1);
@@ -314,30 +315,30 @@ TEST(json, layers_are_written_where_there_are_several) {
 
 TEST(sentences, samples_are_told_where_they_are_fewer_than_findings) {
     CaseRecord record;
-    record.compared_samples = 256;
-    record.counts = {0, 0, 0, 376, 0};
+    record.outcome.compared_samples = 256;
+    record.outcome.counts = {0, 0, 0, 376, 0};
     EXPECT_EQ(report::counts_text(record),
               "376 wrong values of 256 samples");  // of an older journal
-    record.wrong_samples = 188;
+    record.outcome.wrong_samples = 188;
     EXPECT_EQ(report::counts_text(record), "188 of 256 samples wrong (376 values)");
-    record.counts = {2, 0, 0, 376, 0};
-    record.wrong_samples = 190;
+    record.outcome.counts = {2, 0, 0, 376, 0};
+    record.outcome.wrong_samples = 190;
     EXPECT_EQ(report::counts_text(record), "190 of 256 samples wrong (2 missing, 376 values)");
-    record.counts = {2, 0, 0, 188, 0};
+    record.outcome.counts = {2, 0, 0, 188, 0};
     EXPECT_EQ(report::counts_text(record), "2 missing, 188 wrong values of 256 samples");
 }
 
 TEST(sentences, what_the_whole_case_gave_has_no_sample) {
     CaseRecord record;
-    record.compared_samples = 256;
-    record.counts = {0, 0, 0, 3, 0};
-    record.wrong_samples = 0;
+    record.outcome.compared_samples = 256;
+    record.outcome.counts = {0, 0, 0, 3, 0};
+    record.outcome.wrong_samples = 0;
     EXPECT_EQ(report::counts_text(record), "3 wrong values");
     diff::Finding finding = diff::finding_of_case(diff::FindingKind::value);
     finding.quantity = "occlusion query of draw 1";
     finding.expected = "28";
     finding.got = "14";
-    record.findings = {finding};
+    record.outcome.findings = {finding};
     EXPECT_EQ(why_it_happened(record), "occlusion query of draw 1: expected 28, got 14");
     EXPECT_EQ(report::sample_text(finding), "the case");
 }
@@ -361,10 +362,10 @@ TEST(sentences, explain_is_led_to_the_sample) {
 TEST(json, a_finding_of_the_whole_case_has_no_sample_and_no_box) {
     report::Run run = test::sample_run();
     CaseRecord& fail = run.cases[3];
-    for (diff::Finding& finding : fail.findings) {
+    for (diff::Finding& finding : fail.outcome.findings) {
         finding.of_case = true;
     }
-    fail.wrong_samples = 0;
+    fail.outcome.wrong_samples = 0;
     const std::string text = to_json(run);
     const auto json = nlohmann::ordered_json::parse(text).at("cases").at(3);
     EXPECT_TRUE(json.at("findings").at(0).at("sample").is_null());
@@ -470,7 +471,7 @@ TEST(ExhaustiveHtml, thousands_of_failures_stay_small) {
     run.cases.assign(2000, fail);
     for (size_t k = 0; k < run.cases.size(); ++k) {
         run.cases[k].id += std::to_string(k);
-        run.cases[k].findings.assign(1000, fail.findings[0]);
+        run.cases[k].outcome.findings.assign(1000, fail.outcome.findings[0]);
     }
     EXPECT_LT(to_html(run).size(), size_t{8} << 20);
 }
@@ -492,10 +493,11 @@ TEST(ExhaustiveHtml, every_picture_stands_in_one_part) {
     for (size_t k = 0; k < run.cases.size(); ++k) {
         CaseRecord& r = run.cases[k];
         r.id += std::to_string(k);
-        r.findings.assign(1000, fail.findings[0]);
-        r.pictures.width = r.pictures.height = 64;
+        r.outcome.findings.assign(1000, fail.outcome.findings[0]);
+        r.evidence.pictures.width = r.evidence.pictures.height = 64;
         for (std::vector<uint8_t>* plane :
-             {&r.pictures.expected_hits, &r.pictures.device_hits, &r.pictures.marks}) {
+             {&r.evidence.pictures.expected_hits, &r.evidence.pictures.device_hits,
+              &r.evidence.pictures.marks}) {
             plane->clear();
             for (size_t at = 0; at < 64 * 64; ++at) {
                 noise = noise * 1664525U + 1013904223U;
@@ -519,9 +521,9 @@ TEST(ExhaustiveHtml, every_picture_stands_in_one_part) {
 TEST(html, a_picture_larger_than_a_page_may_be_is_shown_all_the_same) {
     report::Run run = test::sample_run();
     run.cases = {run.cases[3]};
-    run.cases[0].pictures.expected_colors.clear();
+    run.cases[0].evidence.pictures.expected_colors.clear();
     for (size_t k = 0; k < (size_t{3} << 20); ++k) {
-        run.cases[0].pictures.expected_colors.push_back(static_cast<uint8_t>(k));
+        run.cases[0].evidence.pictures.expected_colors.push_back(static_cast<uint8_t>(k));
     }
     const std::vector<std::string> parts = pages_of(run);
     ASSERT_EQ(parts.size(), 1U);

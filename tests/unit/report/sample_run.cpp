@@ -19,16 +19,16 @@ CaseRecord make(const std::string& id, Status status) {
     r.description = "Two triangles share a diagonal: each sample on it belongs to exactly one.";
     r.rules = {"cover.shared-edge", "tie.top-left"};
     r.status = status;
-    r.seconds = 0.0125;
-    r.attempts = 1;
-    r.compared_samples = 64;
-    r.compared_values = 128;
-    r.must_samples = 28;
-    r.either_samples = 8;
-    r.worst_ratio = 0.25;
-    r.worst_quantity = "depth";
-    r.bits = "0123456789abcdef";
-    r.hit_bits = "fedcba9876543210";
+    r.drawn.seconds = 0.0125;
+    r.drawn.attempts = 1;
+    r.outcome.compared_samples = 64;
+    r.outcome.compared_values = 128;
+    r.outcome.must_samples = 28;
+    r.outcome.either_samples = 8;
+    r.outcome.worst_ratio = 0.25;
+    r.outcome.worst_quantity = "depth";
+    r.drawn.bits = "0123456789abcdef";
+    r.drawn.hit_bits = "fedcba9876543210";
     r.rerun = "edgecase run '" + id + "'";
     return r;
 }
@@ -142,21 +142,21 @@ Run sample_run() {
     run.sources = {{"cases/suite/coverage/half-square.toml", "format = 1\n<&>\xff"}};
 
     run.cases.push_back(make("coverage/half-square", Status::pass));
-    run.cases.back().reference = {2, 1, 3, 4, 5, {0, 255}};
-    run.cases.back().geometry = make_geometry();
+    run.cases.back().evidence.reference = {2, 1, 3, 4, 5, {0, 255}};
+    run.cases.back().evidence.geometry = make_geometry();
     run.cases.push_back(make("coverage/wide:samples=4", Status::unsupported));
     run.cases.back().reason = "the device has no target of 4 samples";
     run.cases.push_back(make("coverage/slow", Status::skip));
-    run.cases.back().expected = Status::skip;
+    run.cases.back().known.expected = Status::skip;
 
     CaseRecord fail = make("shared-edge/diag:rot=90,flip=false", Status::fail);
-    fail.level = Profile::vulkan;
-    fail.counts = {1, 1, 1, 1, 1};
-    fail.wrong_samples = 5;
-    fail.min_x = 1;
-    fail.max_x = 6;
-    fail.max_y = 6;
-    fail.findings = {
+    fail.outcome.level = Profile::vulkan;
+    fail.outcome.counts = {1, 1, 1, 1, 1};
+    fail.outcome.wrong_samples = 5;
+    fail.outcome.min_x = 1;
+    fail.outcome.max_x = 6;
+    fail.outcome.max_y = 6;
+    fail.outcome.findings = {
         {FindingKind::missing, "cover.shared-edge", Profile::vulkan, 3, 2, 0, "", "1", "0",
          "2 triangles meet here along edges they share with identical end points", 0},
         {FindingKind::extra, "tie.top-left", Profile::direct3d, 6, 6, 0, "", "0", "1",
@@ -169,52 +169,52 @@ Run sample_run() {
          "triangle 1 of draw 0", "triangle 0 of draw 0", "later primitives overwrite earlier ones",
          0},
     };
-    for (const diff::Finding& f : fail.findings) {
-        fail.groups.push_back({f.kind, f.rule, f.level, 1, 0});
+    for (const diff::Finding& f : fail.outcome.findings) {
+        fail.outcome.groups.push_back({f.kind, f.rule, f.level, 1, 0});
     }
-    fail.worst_ratio = std::numeric_limits<double>::infinity();
-    fail.worst_quantity = "attribute 0.x";
-    fail.pictures = make_pictures();
-    fail.geometry = make_geometry();
-    fail.evidence = {make_evidence()};
+    fail.outcome.worst_ratio = std::numeric_limits<double>::infinity();
+    fail.outcome.worst_quantity = "attribute 0.x";
+    fail.evidence.pictures = make_pictures();
+    fail.evidence.geometry = make_geometry();
+    fail.evidence.samples = {make_evidence()};
     fail.catches = "a diagonal that is drawn twice";
-    fail.explain = "edgecase explain 'shared-edge/diag:rot=90,flip=false' --pixel 3,2";
+    fail.commands.explain = "edgecase explain 'shared-edge/diag:rot=90,flip=false' --pixel 3,2";
     run.cases.push_back(fail);
 
     CaseRecord ties = make("ties/left", Status::fail);
-    ties.level = Profile::direct3d;
-    ties.counts = {1, 0, 0, 0, 0};
-    ties.findings = {{FindingKind::missing, "tie.top-left", Profile::direct3d, 0, 3, 2, "", "1",
-                      "0", "E(v1,v2) = 0 exactly on a left edge", 0}};
-    ties.max_y = ties.min_y = 3;
+    ties.outcome.level = Profile::direct3d;
+    ties.outcome.counts = {1, 0, 0, 0, 0};
+    ties.outcome.findings = {{FindingKind::missing, "tie.top-left", Profile::direct3d, 0, 3, 2, "",
+                              "1", "0", "E(v1,v2) = 0 exactly on a left edge", 0}};
+    ties.outcome.max_y = ties.outcome.min_y = 3;
     run.cases.push_back(ties);
 
     CaseRecord xfail = make("clip/near", Status::xfail);
-    xfail.expected = Status::fail;
-    xfail.bug = "mesa#1234";
-    xfail.actual = Status::fail;
-    xfail.expectation = "cases/expectations/llvmpipe.txt:4";
+    xfail.known.expected = Status::fail;
+    xfail.known.bug = "mesa#1234";
+    xfail.known.actual = Status::fail;
+    xfail.known.place = "cases/expectations/llvmpipe.txt:4";
     run.cases.push_back(xfail);
     CaseRecord xpass = make("clip/far", Status::xpass);
-    xpass.expected = Status::fail;
-    xpass.bug = "mesa#1235";
-    xpass.actual = Status::pass;
-    xpass.expectation = "cases/expectations/llvmpipe.txt:5";
+    xpass.known.expected = Status::fail;
+    xpass.known.bug = "mesa#1235";
+    xpass.known.actual = Status::pass;
+    xpass.known.place = "cases/expectations/llvmpipe.txt:5";
     run.cases.push_back(xpass);
     CaseRecord improved = make("clip/guard", Status::improved);
-    improved.expected = Status::crash;
+    improved.known.expected = Status::crash;
     run.cases.push_back(improved);
     run.cases.push_back(make("interp/flat", Status::flake));
-    run.cases.back().attempts = 2;
+    run.cases.back().drawn.attempts = 2;
     run.cases.push_back(make("interp/lost", Status::device_lost));
-    run.cases.back().step = "submit";
+    run.cases.back().death.step = "submit";
     run.cases.push_back(make("large/hang", Status::timeout));
-    run.cases.back().step = "submit";
-    run.cases.back().seconds = 30;
+    run.cases.back().death.step = "submit";
+    run.cases.back().drawn.seconds = 30;
     CaseRecord crash = make("large/offscreen:n=3", Status::crash);
-    crash.signal = "SIGSEGV";
-    crash.step = "pipeline";
-    crash.stderr_text = "LLVM ERROR: cannot select\nstack dump:\n";
+    crash.death.signal = "SIGSEGV";
+    crash.death.step = "pipeline";
+    crash.death.output = "LLVM ERROR: cannot select\nstack dump:\n";
     run.cases.push_back(crash);
     run.cases.push_back(make("large/poison", Status::error));
     run.cases.back().reason = "read-back failed: 12 samples still hold the poison";
@@ -228,21 +228,22 @@ Run hostile_run() {
     run.started = run.ended = kHostile;
     run.arguments = {kHostile, kHostile};
     run.environment = {{kHostile, kHostile}};
-    Device& d = run.device;
+    capture::DeviceInfo& d = run.device;
     d.name = d.driver_name = d.driver_info = d.uuid = d.type = d.api_version = kHostile;
     for (CaseRecord& r : run.cases) {
         r.id += kHostile;
         r.catches = kHostile;
-        for (SampleEvidence& e : r.evidence) {
+        for (SampleEvidence& e : r.evidence.samples) {
             e.writer = e.allowed = e.hits = e.values[0].quantity = e.values[0].exact =
                 e.values[1].also = kHostile;
         }
-        r.file = r.description = r.bug = r.reason = r.step = r.signal = r.stderr_text = kHostile;
-        r.rerun = r.explain = r.worst_quantity = kHostile;
-        r.reproducer = r.no_reproducer = kHostile;
-        r.expectation = r.expired = r.bits = r.hit_bits = kHostile;
-        r.rules = r.links = r.messages = {kHostile};
-        for (diff::Finding& f : r.findings) {
+        r.file = r.description = r.known.bug = r.reason = r.death.step = r.death.signal =
+            r.death.output = kHostile;
+        r.rerun = r.commands.explain = r.outcome.worst_quantity = kHostile;
+        r.commands.reproducer = r.commands.no_reproducer = kHostile;
+        r.known.place = r.known.expired = r.drawn.bits = r.drawn.hit_bits = kHostile;
+        r.rules = r.links = r.drawn.messages = {kHostile};
+        for (diff::Finding& f : r.outcome.findings) {
             f.rule = f.quantity = f.expected = f.got = f.why = kHostile;
         }
     }

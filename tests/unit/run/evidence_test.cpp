@@ -13,13 +13,15 @@
 namespace run {
 namespace {
 
+using cases::operator""_fault;
+
 using testing::Contains;
 using testing::HasSubstr;
 using testing::Pair;
 
 // The record of a case of the suite that a device with a fault drew.
 report::CaseRecord drawn_with(const std::string& file, const std::string& leaf,
-                              software::Fault fault) {
+                              cases::Fault fault) {
     const std::string root = test_support::source_dir() + "/cases/suite";
     const auto loaded = cases::load_file(root + "/" + file + ".toml", root);
     for (const cases::Case& c : loaded.value()) {
@@ -37,21 +39,21 @@ report::CaseRecord drawn_with(const std::string& file, const std::string& leaf,
 
 TEST(Evidence, TellsDiscardsTestsAndStencils) {
     const report::CaseRecord discard =
-        drawn_with("discard/fragments", "samples=1", software::Fault::discard_fragment_ignored);
-    ASSERT_FALSE(discard.evidence.empty());
-    EXPECT_THAT(discard.evidence[0].courses,
+        drawn_with("discard/fragments", "samples=1", "discard-fragment-ignored"_fault);
+    ASSERT_FALSE(discard.evidence.samples.empty());
+    EXPECT_THAT(discard.evidence.samples[0].courses,
                 Contains(Pair(testing::EndsWith("of draw 1"), HasSubstr("discards"))));
 
     const report::CaseRecord stencil =
-        drawn_with("stencil/draws", "samples=1", software::Fault::stencil_fail_lost);
-    ASSERT_FALSE(stencil.evidence.empty());
-    EXPECT_THAT(stencil.evidence[0].courses,
+        drawn_with("stencil/draws", "samples=1", "stencil-fail-lost"_fault);
+    ASSERT_FALSE(stencil.evidence.samples.empty());
+    EXPECT_THAT(stencil.evidence.samples[0].courses,
                 Contains(Pair(testing::StartsWith("triangle "), HasSubstr("the stencil test"))));
-    EXPECT_FALSE(stencil.evidence[0].stencil.empty());
-    EXPECT_FALSE(stencil.evidence[0].device_stencil.empty());
+    EXPECT_FALSE(stencil.evidence.samples[0].stencil.empty());
+    EXPECT_FALSE(stencil.evidence.samples[0].device_stencil.empty());
 
     // The picture of the stencil, from the least to the greatest number.
-    const report::Pictures& p = stencil.pictures;
+    const report::Pictures& p = stencil.evidence.pictures;
     EXPECT_EQ(p.device_stencils.size(), p.marks.size());
     EXPECT_EQ(p.expected_stencils.size(), p.marks.size());
     EXPECT_LT(p.stencil_low, p.stencil_high);
@@ -59,21 +61,20 @@ TEST(Evidence, TellsDiscardsTestsAndStencils) {
 
     // Nothing of it where nothing is tested or discarded.
     const report::CaseRecord plain =
-        drawn_with("ties/diagonal-edge", "rotation=0", software::Fault::ties_top_right);
-    ASSERT_FALSE(plain.evidence.empty());
-    for (const report::SampleEvidence& e : plain.evidence) {
+        drawn_with("ties/diagonal-edge", "rotation=0", "ties-top-right"_fault);
+    ASSERT_FALSE(plain.evidence.samples.empty());
+    for (const report::SampleEvidence& e : plain.evidence.samples) {
         EXPECT_TRUE(e.courses.empty() && e.stencil.empty());
     }
 }
 
 TEST(Evidence, TellsHowAColorComesAbout) {
-    const report::CaseRecord record =
-        drawn_with("logic/operations", "op=and-reverse,format=rgba8-uint",
-                   software::Fault::logic_operands_exchanged);
-    ASSERT_FALSE(record.evidence.empty());
-    EXPECT_TRUE(record.pictures.is_uncounted);
+    const report::CaseRecord record = drawn_with(
+        "logic/operations", "op=and-reverse,format=rgba8-uint", "logic-operands-exchanged"_fault);
+    ASSERT_FALSE(record.evidence.samples.empty());
+    EXPECT_TRUE(record.evidence.pictures.is_uncounted);
     bool is_told = false;
-    for (const report::SampleEvidence& e : record.evidence) {
+    for (const report::SampleEvidence& e : record.evidence.samples) {
         EXPECT_TRUE(e.colors.at(0).first.empty());
         for (const auto& [name, sentence] : e.colors) {
             is_told = is_told || (name == "triangle 0 of draw 1" &&
@@ -98,9 +99,9 @@ TEST(Evidence, HasNoDepthThatTheDrawDoesNotWrite) {
         }
         report::CaseRecord record = make_record(c);
         judge(record, c, wrong, {}, {8}, cases::Profile::direct3d, KeepPictures::failed);
-        ASSERT_FALSE(record.evidence.empty());
+        ASSERT_FALSE(record.evidence.samples.empty());
         bool has_depth = false;
-        for (const report::SampleEvidence& e : record.evidence) {
+        for (const report::SampleEvidence& e : record.evidence.samples) {
             for (const report::SampleValue& value : e.values) {
                 has_depth = has_depth || value.quantity == "depth";
             }

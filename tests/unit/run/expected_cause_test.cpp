@@ -26,9 +26,9 @@ ExpectedCause parsed(std::initializer_list<const char*> words) {
 report::CaseRecord failed(uint64_t extra, uint64_t values) {
     report::CaseRecord record;
     record.status = report::Status::fail;
-    record.groups = {{FindingKind::extra, "cover.outside", Profile::vulkan, extra, 0},
-                     {FindingKind::value, "interp.linear", Profile::practice, values, 0}};
-    record.bits = "0123456789abcdef";
+    record.outcome.groups = {{FindingKind::extra, "cover.outside", Profile::vulkan, extra, 0},
+                             {FindingKind::value, "interp.linear", Profile::practice, values, 0}};
+    record.drawn.bits = "0123456789abcdef";
     return record;
 }
 
@@ -60,10 +60,10 @@ TEST(ExpectedCause, ACountIsABound) {
 TEST(ExpectedCause, WhatIsKnownIsMarked) {
     report::CaseRecord record = failed(10, 4);
     mark_known(parsed({"extra:cover.outside@vulkan<=9"}), record);
-    EXPECT_EQ(record.groups[0].known, 9U);
-    EXPECT_EQ(record.groups[1].known, 0U);
+    EXPECT_EQ(record.outcome.groups[0].known, 9U);
+    EXPECT_EQ(record.outcome.groups[1].known, 0U);
     mark_known(parsed({"bits=0123456789abcdef"}), record);
-    EXPECT_EQ(record.groups[1].known, 4U);
+    EXPECT_EQ(record.outcome.groups[1].known, 4U);
 }
 
 TEST(ExpectedCause, BitsSayNothingOfWhatIsNotInThePicture) {
@@ -71,20 +71,20 @@ TEST(ExpectedCause, BitsSayNothingOfWhatIsNotInThePicture) {
     const ExpectedCause bits = parsed({"bits=0123456789abcdef"});
     for (const char* rule : {"write.outside", "repeat.same", "repeat.scissor", "repeat.clears",
                              "repeat.write-masks", "repeat.attachments"}) {
-        record.groups.push_back({FindingKind::value, rule, Profile::vulkan, 2, 0});
+        record.outcome.groups.push_back({FindingKind::value, rule, Profile::vulkan, 2, 0});
         EXPECT_EQ(what_is_new(bits, record),
                   std::string("2 value of ") + rule + " [vulkan] are new");
         mark_known(bits, record);
-        EXPECT_EQ(record.groups[0].known, 1U);
-        EXPECT_EQ(record.groups.back().known, 0U);
-        record.groups.pop_back();
+        EXPECT_EQ(record.outcome.groups[0].known, 1U);
+        EXPECT_EQ(record.outcome.groups.back().known, 0U);
+        record.outcome.groups.pop_back();
     }
 }
 
 TEST(ExpectedCause, ADoorIsItsOwnCause) {
     report::CaseRecord record = failed(1, 1);
     const auto add = [&](const char* door, uint64_t count) {
-        record.groups.push_back(
+        record.outcome.groups.push_back(
             {FindingKind::value, "door.state", Profile::vulkan, count, 0, door});
     };
     add("state-static", 36);
@@ -102,8 +102,8 @@ TEST(ExpectedCause, ADoorIsItsOwnCause) {
     EXPECT_EQ(what_is_new(known, record),
               "1 value of door.state by door state-first [vulkan] is new");
     mark_known(known, record);
-    EXPECT_EQ(record.groups[2].known, 36U);
-    EXPECT_EQ(record.groups[3].known, 0U);
+    EXPECT_EQ(record.outcome.groups[2].known, 36U);
+    EXPECT_EQ(record.outcome.groups[3].known, 0U);
     EXPECT_EQ(to_text(cause_of(record)),
               "extra:cover.outside@vulkan<=1 value:door.state=state-first@vulkan<=1 "
               "value:door.state=state-static@vulkan<=36 value:interp.linear@practice<=1");
@@ -124,7 +124,7 @@ TEST(ExpectedCause, ADoorThatWasNotDrawnIsNotSpokenOf) {
     record.status = report::Status::pass;
     apply(line, record);
     EXPECT_EQ(record.status, report::Status::pass);
-    record.drawn_doors = {"state-static"};
+    record.drawn.doors = {"state-static"};
     apply(line, record);
     EXPECT_EQ(record.status, report::Status::xpass);
 }
@@ -147,17 +147,17 @@ TEST(ExpectedCause, WrongDoorsAreRefused) {
 
 TEST(ExpectedCause, AFlakeThatWasADeathIsKnownByItsDeathAlone) {
     report::CaseRecord record = failed(0, 0);
-    record.groups.clear();
+    record.outcome.groups.clear();
     record.status = report::Status::flake;
     EXPECT_EQ(what_is_new({}, record), "");  // the first drawing was right
-    record.suspects = {"a"};
-    record.signal = "SIGSEGV";
+    record.death.suspects = {"a"};
+    record.death.signal = "SIGSEGV";
     EXPECT_NE(what_is_new({}, record), "");
     EXPECT_NE(what_is_new(parsed({"extra:cover.outside@vulkan<=9"}), record), "");
     EXPECT_NE(what_is_new(parsed({"bits=0123456789abcdef"}), record), "");
     EXPECT_NE(what_is_new(parsed({"signal=SIGABRT"}), record), "");
     EXPECT_EQ(what_is_new(parsed({"signal=SIGSEGV"}), record), "");
-    record.suspects = {"a", "b"};
+    record.death.suspects = {"a", "b"};
     EXPECT_NE(what_is_new(parsed({"signal=SIGSEGV"}), record), "");
 }
 
@@ -177,8 +177,8 @@ TEST(ExpectedCause, GrowsToTheLargestCount) {
     widen(cause, cause_of(failed(2, 5)));
     EXPECT_EQ(to_text(cause), "extra:cover.outside@vulkan<=9 value:interp.linear@practice<=5");
     report::CaseRecord crash;
-    crash.signal = "SIGSEGV";
-    crash.step = "submit";
+    crash.death.signal = "SIGSEGV";
+    crash.death.step = "submit";
     EXPECT_EQ(to_text(cause_of(crash)), "signal=SIGSEGV");
     add_up(cause, cause_of(crash));
     EXPECT_EQ(cause.signal, "SIGSEGV");

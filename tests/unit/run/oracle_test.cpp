@@ -14,7 +14,7 @@
 #include "ref/expectation/expectation.hpp"
 #include "ref/expectation/on_demand.hpp"
 #include "ref/expectation/scene.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/reference.hpp"
 #include "tests/share.hpp"
 #include "tests/unit/ref/same_expectations.hpp"
 #include "tests/unit/ref/value_case.hpp"

@@ -52,7 +52,7 @@ TEST(OwnSamples, AreWhereTheDeviceSays) {
             const report::CaseRecord right = judged(c, limits);
             EXPECT_EQ(right.status, report::Status::pass)
                 << c.id << ": " << right.reason
-                << (right.findings.empty() ? "" : right.findings.front().why);
+                << (right.outcome.findings.empty() ? "" : right.outcome.findings.front().why);
             wrong_without += judged(c, {}).status == report::Status::fail;
             limits.sample_locations = {{{1, 5}, {9, 2}, {13, 11}, {8, 8}}};
             wrong_elsewhere += judged(c, limits).status == report::Status::fail;

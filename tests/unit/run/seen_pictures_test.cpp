@@ -23,8 +23,9 @@ report::CaseRecord failed(const char* bits, Status status = Status::fail) {
     report::CaseRecord record;
     record.id = "fam/c1";
     record.status = status;
-    record.groups = {{diff::FindingKind::extra, "cover.outside", cases::Profile::vulkan, 1, 0}};
-    record.bits = bits;
+    record.outcome.groups = {
+        {diff::FindingKind::extra, "cover.outside", cases::Profile::vulkan, 1, 0}};
+    record.drawn.bits = bits;
     return record;
 }
 
@@ -41,13 +42,13 @@ std::pair<Status, bool> judged(const std::string& words, report::CaseRecord reco
                                const std::string& pictures, bool is_strict,
                                const std::string& device = "GPU 1") {
     std::map<std::string, ExpectationLine> expected = {{record.id, known(words)}};
-    report::Device on;
+    capture::DeviceInfo on;
     on.name = device;
     tell_pictures(expected, {parsed(pictures)}, on, is_strict);
     const Status counts = counts_as(expected.at(record.id), record);
     apply(expected.at(record.id), record);
     EXPECT_EQ(record.status, counts);
-    return {record.status, record.unseen_picture};
+    return {record.status, record.known.unseen_picture};
 }
 
 TEST(SeenPictures, AreKnowledgeAndNoCondition) {
@@ -79,13 +80,13 @@ TEST(SeenPictures, AreAddedAndWritten) {
     drawn.device.name = "GPU [x]*";
     drawn.cases = {failed(kOther), failed(kOther, Status::pass), failed(kSeen, Status::flake)};
     drawn.cases[0].status = Status::xfail;
-    drawn.cases[0].actual = Status::fail;
+    drawn.cases[0].known.actual = Status::fail;
     drawn.cases[1].id = "fam/c2";
     drawn.cases[2].id = "fam/c3";
     SeenPictures fresh = new_pictures(drawn, "f.pictures");
     EXPECT_TRUE(fits(fresh, drawn.device));
     add_pictures(fresh, drawn);
-    drawn.cases[0].bits = kSeen;
+    drawn.cases[0].drawn.bits = kSeen;
     add_pictures(fresh, drawn);
     const std::string text = to_text(fresh);
     EXPECT_EQ(text,

@@ -8,20 +8,13 @@
 #include <algorithm>
 
 #include "hand_case.hpp"
-#include "vk_harness/renderer.hpp"
+#include "vk_harness/batch_renderer.hpp"
 
 namespace vk_harness::testing {
 namespace {
 
 // A renderer whose device functions a test may replace.
 struct Faulty {
-    Faulty() {
-        auto made = BatchRenderer::create({});
-        if (!made) {
-            throw std::runtime_error(made.error().message);
-        }
-        body = std::make_unique<BatchRenderer>(std::move(*made));
-    }
     // The table is an ordinary object of the device, const only to the harness.
     VolkDeviceTable& vk() { return const_cast<VolkDeviceTable&>(body->device().vk()); }
     Rendered render(const cases::Case& c) {
@@ -29,7 +22,7 @@ struct Faulty {
         return body->render(batch, true, [](std::string_view) {}).front();
     }
 
-    std::unique_ptr<BatchRenderer> body;
+    std::unique_ptr<BatchRenderer> body = std::make_unique<BatchRenderer>(Options{});
 };
 
 cases::Case half() {

@@ -10,7 +10,7 @@
 #include <cstring>
 
 #include "vk_harness/case_check.hpp"
-#include "vk_harness/renderer.hpp"
+#include "vk_harness/own_samples.hpp"
 #include "vk_harness/target/shader_interface.hpp"
 #include "vk_harness/target/target.hpp"
 

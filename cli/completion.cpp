@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 #include "cases/model/rule.hpp"
+#include "cli/commands.hpp"
 #include "cli/options/command_table.hpp"
+#include "cli/options/stop.hpp"
+#include "report/record/run.hpp"
 
 namespace cli {
 
@@ -132,8 +135,6 @@ _edgecase_cases() {
     esac
 }
 )SH";
-
-}  // namespace
 
 std::string bash_completion(const CommandTable& table) {
     std::vector<std::string> names;
@@ -338,6 +339,17 @@ std::string fish_completion(const CommandTable& table) {
         }
     }
     return text;
+}
+
+}  // namespace
+
+int completion_command(const std::string& shell) {
+    const CommandTable table = command_table();
+    const std::string text = shell == "bash"  ? bash_completion(table)
+                             : shell == "zsh" ? zsh_completion(table)
+                                              : fish_completion(table);
+    say(text);
+    return report::kExitOk;
 }
 
 }  // namespace cli

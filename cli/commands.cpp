@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
+#include "cli/commands.hpp"
+
 #include <malloc.h>
 
 #include <cstdio>
@@ -7,7 +9,6 @@
 #include <functional>
 #include <map>
 
-#include "cli/commands.hpp"
 #include "cli/options/parse.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "run/process/pool.hpp"

@@ -1,14 +1,11 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// The commands "report", "completion", "man" and "version".
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
 #include "cli/commands.hpp"
 #include "cli/diagnose.hpp"
-#include "cli/options/command_table.hpp"
 #include "cli/prepare/ci.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
@@ -174,25 +171,6 @@ int report_command(const Program& program, const ReportOptions& options) {
     return failed          ? report::kExitInternal
            : options.merge ? report::exit_code(run)
                            : report::kExitOk;
-}
-
-int completion_command(const std::string& shell) {
-    const CommandTable table = command_table();
-    const std::string text = shell == "bash"  ? bash_completion(table)
-                             : shell == "zsh" ? zsh_completion(table)
-                                              : fish_completion(table);
-    std::fputs(text.c_str(), stdout);
-    return report::kExitOk;
-}
-
-int man_command() {
-    std::fputs(manual_page(command_table(), kVersion).c_str(), stdout);
-    return report::kExitOk;
-}
-
-int version_command() {
-    std::printf("edgecase %s\ncase format 1, results schema 1, expectation format 2\n", kVersion);
-    return report::kExitOk;
 }
 
 }  // namespace cli

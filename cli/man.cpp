@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <sstream>
 
+#include "cli/commands.hpp"
 #include "cli/options/command_table.hpp"
+#include "cli/options/program.hpp"
+#include "cli/options/stop.hpp"
+#include "report/record/run.hpp"
 
 namespace cli {
 
@@ -44,8 +48,6 @@ std::string option_text(const OptionEntry& option) {
     return text + "\n" + roff(option.text) + "\n";
 }
 
-}  // namespace
-
 std::string manual_page(const CommandTable& table, const std::string& version) {
     std::string text =
         ".\\\" Made by 'edgecase man' from the table of options.\n.TH EDGECASE 1 \"\" \"edgecase " +
@@ -65,6 +67,13 @@ std::string manual_page(const CommandTable& table, const std::string& version) {
     }
     text += ".SH NOTES\n" + verbatim(table.footer);
     return text + ".SH SEE ALSO\ndocs/cli.md, docs/cases.md and docs/rules.md of the source tree\n";
+}
+
+}  // namespace
+
+int man_command() {
+    say(manual_page(command_table(), kVersion));
+    return report::kExitOk;
 }
 
 }  // namespace cli

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "cases/model/door.hpp"
+#include "cli/commands.hpp"
+#include "cli/options/stop.hpp"
+#include "cli/prepare/outputs.hpp"
+#include "report/record/run.hpp"
+
+namespace cli {
+
+int doors_command() {
+    for (const cases::DoorRow& row : cases::all_doors()) {
+        say(fmt::format("{}\n", row.word));
+        say_wrapped(fmt::format("    {}\n", row.does));
+        say_wrapped(fmt::format("    group: {}; rule: {}; takes {}{}\n", to_string(row.group),
+                                row.rule, row.takes,
+                                row.needs.empty() ? "" : fmt::format("; needs {}", row.needs)));
+    }
+    return report::kExitOk;
+}
+
+}  // namespace cli

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "cli/commands.hpp"
+#include "cli/options/program.hpp"
+#include "cli/options/stop.hpp"
+#include "report/record/run.hpp"
+
+namespace cli {
+
+int version_command() {
+    say(fmt::format("edgecase {}\ncase format 1, results schema 1, expectation format 2\n", kVersion));
+    return report::kExitOk;
+}
+
+}  // namespace cli
