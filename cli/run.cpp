@@ -22,10 +22,11 @@
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/prepare_run.hpp"
 #include "cli/prepare/run_console.hpp"
+#include "cli/renderers/renderers.hpp"
 #include "report/files/ci.hpp"
 #include "report/journal/journal.hpp"
 #include "report/record/levels.hpp"
-#include "run/process/manifest.hpp"
+#include "run/process/library.hpp"
 #include "run/process/pool.hpp"
 
 namespace cli {
@@ -86,7 +87,7 @@ OrStop<std::monostate> set_debugger(const Program& program, const RunOptions& op
     plan.front().alone = true;
     config.command = std::move(*command);
     config.timeout = std::chrono::hours(24 * 365);
-    config.worker.renderer.longest_wait_ms = 0;
+    config.worker.device.longest_wait_ms = 0;
     config.schedule.lanes = 1;
     config.schedule.repeat = 1;
     config.schedule.retries = 0;
@@ -110,9 +111,11 @@ std::string earlier_results(const Run& header, const std::string& folder) {
     const auto count = std::ranges::count_if(header.cases, [](const CaseRecord& record) {
         return record.status != report::Status::not_run && !report::is_expected(record.status);
     });
-    return count == 0 ? ""
-                      : fmt::format("{} before the interruption: edgecase report {}\n",
-                                    cases::counted(static_cast<uint64_t>(count), "unexpected result"), folder);
+    return count == 0
+               ? ""
+               : fmt::format("{} before the interruption: edgecase report {}\n",
+                             cases::counted(static_cast<uint64_t>(count), "unexpected result"),
+                             folder);
 }
 
 // A prepared run, from its first worker to its reports.
@@ -173,11 +176,11 @@ class Conduct {
 
   private:
     Stop with_load_problem(Stop stop) const {
-        const std::string& icd = options_.device.icd;
-        const run::Manifest manifest = icd.empty() ? run::Manifest{} : run::read_manifest(icd);
-        if (const std::string why = run::load_problem(manifest); !why.empty()) {
-            stop.lines.push_back("  the driver library '" + manifest.library +
-                                 "' does not load: " + why);
+        const auto drivers = find_drivers(options_.device).drivers;
+        if (!options_.device.icd.empty() && !drivers.empty()) {
+            if (const std::string why = run::load_problem(drivers.front()); !why.empty()) {
+                stop.lines.push_back("  " + why);
+            }
         }
         return stop;
     }

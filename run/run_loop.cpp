@@ -101,7 +101,7 @@ RunLoop::End RunLoop::run(std::vector<WorkerClient> workers, const capture::Devi
 // Workers for the slots, and the cases for the schedule, but for those that are not to be drawn.
 void RunLoop::take_up(std::vector<WorkerClient> workers, const capture::DeviceInfo& device) {
     device_ = device;
-    config_.worker.renderer.pinned = device.key;
+    config_.worker.device.pinned = device.key;
     if (config_.gpu_budget) {
         schedule_.set_batch_bytes(0);  // until it is known how long they take, one case each
     }
