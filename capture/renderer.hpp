@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -165,6 +166,14 @@ struct Rendered {
         visit("stray_writes", r.stray_writes...);
     }
 };
+// What came of one case: a picture, or one sentence that says why there is none.
+struct Drawn {
+    std::optional<Capture> picture;
+    std::string why_not;
+};
+// Draws cases with a renderer, wherever that is.
+using Draw = std::function<std::vector<Drawn>(std::vector<cases::Case>)>;
+
 // The capture of a drawn case, wherever its planes lie.
 CaptureView view_of(const Rendered& rendered);
 
