@@ -28,6 +28,7 @@
 #include "report/record/levels.hpp"
 #include "run/process/library.hpp"
 #include "run/process/pool.hpp"
+#include "run/worker/derived.hpp"
 
 namespace cli {
 
@@ -194,7 +195,7 @@ class Conduct {
                                                    device.name + "' or another driver version"));
         }
         header_.device = device;
-        set_limits(config_, device);
+        config_.judging.limits = run::limits_of(device);
         config_.add_commands = [this, judged = judged_device(device)](const cases::Case& c,
                                                                       CaseRecord& record) {
             add_command_lines(program_, options_, judged, c, record);

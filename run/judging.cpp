@@ -17,7 +17,14 @@ constexpr uint64_t kMostBytes = uint64_t{128} << 20;
 
 }  // namespace
 
-Judging::Judging(JudgingOptions options) : options_(std::move(options)), pool_(cases::cores()) {}
+Judging::Judging(const JudgingOptions& options) : judge_(options.judge), pool_(cases::cores()) {
+    if (!judge_) {
+        judge_ = [limits = options.limits, profile = options.profile, pictures = options.pictures](
+                     auto& record, const auto&... drawn) {
+            judge(record, drawn..., limits, profile, pictures);
+        };
+    }
+}
 
 bool Judging::is_full() const {
     return bytes_ > kMostBytes;
@@ -33,9 +40,8 @@ void Judging::submit(std::shared_ptr<const cases::Case> c, CaseResult&& result,
     const auto keep = result.keep;
     pool_.submit(
         [c = std::move(c), result = std::make_shared<CaseResult>(std::move(result)), record,
-         options = options_] {
-            judge(*record, *c, result->view, {result->consistency, result->rendered.stray_writes},
-                  options.limits, options.profile, options.pictures);
+         judge = judge_] {
+            judge(*record, *c, result->view, {result->consistency, result->rendered.stray_writes});
             cases::give_back_memory();
         },
         [this, bytes, record, keep, finish = std::move(finish)] {

@@ -20,11 +20,12 @@ struct JudgingOptions {
     ref::Limits limits;  // of the device
     cases::Profile profile = cases::Profile::direct3d;
     KeepPictures pictures = KeepPictures::failed;
+    Judge judge = {};  // empty: run::judge with these limits, profile and pictures
 };
 
 class Judging {
   public:
-    explicit Judging(JudgingOptions options);
+    explicit Judging(const JudgingOptions& options);
     // Judges what was drawn of a case, and gives collect() the record, its verdict included. A
     // judgement may outlive this object (abandon()), so it shares the case.
     void submit(std::shared_ptr<const cases::Case> c, CaseResult&& result,
@@ -37,7 +38,7 @@ class Judging {
     void abandon() { pool_.abandon(); }
 
   private:
-    JudgingOptions options_;
+    Judge judge_;
     uint64_t bytes_ = 0;  // of the captures that wait
     Pool pool_;
 };

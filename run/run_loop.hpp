@@ -49,9 +49,6 @@ struct LoopConfig {
     bool keeps_workers = false;     // take_workers() is asked for
     // Called with each final record before it is written, to add the command lines.
     std::function<void(const cases::Case& c, report::CaseRecord& record)> add_commands = {};
-    // If set, what was drawn of case k of the plan is handed over instead of being judged, and the
-    // case passes.
-    std::function<void(size_t k, const capture::CaptureView& drawn)> take_drawn = {};
 };
 
 class RunLoop {

@@ -15,7 +15,7 @@ namespace cli {
 run::LoopConfig loop_config(const Program& program, const RunOptions& options) {
     run::LoopConfig config;
     config.command = worker_command(program);
-    config.worker = worker_options(options.device);
+    config.worker.device = options.device;
     config.timeout = std::chrono::milliseconds(static_cast<int64_t>(options.device.timeout * 1000));
     // A worker that has lost its parent ends by itself, though later than one that has not.
     config.worker.device.longest_wait_ms = static_cast<uint64_t>(config.timeout.count()) * 2;
@@ -31,10 +31,6 @@ run::LoopConfig loop_config(const Program& program, const RunOptions& options) {
     config.judging.profile = options.profile;
     config.judging.pictures = options.capture;
     return config;
-}
-
-void set_limits(run::LoopConfig& config, const capture::DeviceInfo& device) {
-    config.judging.limits = run::limits_of(device);
 }
 
 JudgedDevice judged_device(const capture::DeviceInfo& device) {
@@ -61,7 +57,7 @@ OrStop<ReadyWorker> ready_first_worker(run::LoopConfig& config, run::SignalFd& s
     }
     OrStop<ReadyWorker> first = await_first_worker(std::move(*worker), config, signals);
     if (first) {
-        set_limits(config, first->device);
+        config.judging.limits = run::limits_of(first->device);
         warn_of_limits(first->device);
     }
     return first;
