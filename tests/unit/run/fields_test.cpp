@@ -58,9 +58,9 @@ using Structures = testing::Types<
     cases::ColorOutput, cases::ColorTarget, cases::Draw, cases::Target, cases::Corners, cases::Blit,
     cases::ExpectedHits, cases::Claim, cases::Case, cases::Relation, cases::Variation,
     capture::StrayWrite, diff::Difference, diff::Consistency, diff::Finding, diff::Outcome,
-    report::Device, report::Pictures, report::Geometry, report::SampleValue, report::SampleEvidence,
-    report::PlannedCase, report::RunHeader, report::RunEnd, vk_harness::DeviceInfo,
-    vk_harness::Failure, vk_harness::Options, vk_harness::Rendered, WorkerOptions>;
+    capture::DeviceInfo, report::Pictures, report::Geometry, report::SampleValue,
+    report::SampleEvidence, report::PlannedCase, report::RunHeader, report::RunEnd,
+    capture::Failure, capture::RendererOptions, capture::Rendered, WorkerOptions>;
 TYPED_TEST_SUITE(Fields, Structures);
 
 TYPED_TEST(Fields, AreAllListed) {
