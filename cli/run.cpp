@@ -42,7 +42,7 @@ namespace {
 void check_pictures(std::vector<run::Task>& plan) {
     run::Pool pool(cases::cores());
     for (run::Task& c : plan) {
-        if (c.data.expected_hits) {
+        if (c.data.claim.expected_hits) {
             pool.submit([&c] { c.error = run::check_before_running(c.data); }, [] {});
         }
     }

@@ -94,12 +94,12 @@ void try_viewport_grid(const cases::Case& c, const ref::Limits& limits,
 report::PlannedCase planned_case(const cases::Case& c) {
     report::PlannedCase planned;
     planned.id = c.id;
-    planned.file = c.where.file;
-    planned.line = c.where.line;
-    planned.description = c.description;
-    planned.rules = c.rules;
-    planned.links = c.links;
-    planned.catches = c.catches;
+    planned.file = c.claim.where.file;
+    planned.line = c.claim.where.line;
+    planned.description = c.claim.description;
+    planned.rules = c.claim.rules;
+    planned.links = c.claim.links;
+    planned.catches = c.claim.catches;
     // What a run asks for besides makes no other case of it.
     cases::Case own;
     if (!c.doors.empty()) {
