@@ -222,30 +222,20 @@ void Attribution::explain_hits(Finding& finding, const ref::HitBounds& asked, ui
         // The last of several hits too many may rightly follow from an earlier one, as a depth test
         // does from what that one stored.
         const bool is_of_several = total > asked.total_max + 1;
-        if (const std::optional<Cause> root =
-                is_of_several ? causes.of_earlier_hit(last.draw) : std::nullopt) {
-            tell(finding, *root);
-            return;
-        }
-        if (const std::optional<Cause> hit = causes.of_last_hit(last.wrote)) {
+        const std::optional<Cause> root =
+            is_of_several ? causes.of_earlier_hit(last.draw) : std::nullopt;
+        if (const std::optional<Cause> hit = root ? root : causes.of_last_hit(last.wrote)) {
             tell(finding, *hit);
             return;
         }
     }
-    if (const std::optional<Cause> bounds = causes.of_bounds(total < asked.total_min)) {
-        tell(finding, *bounds);
-        return;
-    }
-    if (const std::optional<Cause> stencil = causes.of_stencil(total < asked.total_min)) {
-        tell(finding, *stencil);
-        return;
-    }
-    if (const std::optional<Cause> depth = causes.of_depth(total < asked.total_min)) {
-        tell(finding, *depth);
-        return;
-    }
-    tell(finding, asked.total_max == 0 ? causes.of_extra()
-                                       : causes.of_count(total, total < asked.total_min));
+    const bool is_few = total < asked.total_min;
+    std::optional<Cause> cause = causes.of_bounds(is_few);
+    cause = cause ? cause : causes.of_stencil(is_few);
+    cause = cause ? cause : causes.of_depth(is_few);
+    tell(finding, cause                  ? *cause
+                  : asked.total_max == 0 ? causes.of_extra()
+                                         : causes.of_count(total, is_few));
 }
 
 void tell(Finding& finding, const Cause& cause) {

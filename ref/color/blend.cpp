@@ -43,47 +43,31 @@ Interval sum(const Component& component, const Interval& a, const Interval& b) {
 // Table "Blend Factors". `k`: the component, 3 alpha.
 Interval factor_of(BlendFactor factor, size_t k, const Color& source, const Color& second,
                    const Color& destination, const Color& constants) {
-    switch (factor) {
-        case BlendFactor::zero:
-            return point(0);
-        case BlendFactor::one:
-            return point(1);
-        case BlendFactor::src_color:
-            return source[k];
-        case BlendFactor::one_minus_src_color:
-            return complement(source[k]);
-        case BlendFactor::dst_color:
-            return destination[k];
-        case BlendFactor::one_minus_dst_color:
-            return complement(destination[k]);
-        case BlendFactor::src_alpha:
-            return source[3];
-        case BlendFactor::one_minus_src_alpha:
-            return complement(source[3]);
-        case BlendFactor::dst_alpha:
-            return destination[3];
-        case BlendFactor::one_minus_dst_alpha:
-            return complement(destination[3]);
-        case BlendFactor::constant_color:
-            return constants[k];
-        case BlendFactor::one_minus_constant_color:
-            return complement(constants[k]);
-        case BlendFactor::constant_alpha:
-            return constants[3];
-        case BlendFactor::one_minus_constant_alpha:
-            return complement(constants[3]);
-        case BlendFactor::src1_color:
-            return second[k];
-        case BlendFactor::one_minus_src1_color:
-            return complement(second[k]);
-        case BlendFactor::src1_alpha:
-            return second[3];
-        case BlendFactor::one_minus_src1_alpha:
-            return complement(second[3]);
-        case BlendFactor::src_alpha_saturate:
-            break;
+    using enum BlendFactor;
+    struct Pair {
+        BlendFactor itself, complement;
+        const Interval& value;
+    };
+    const std::array<Pair, 8> pairs = {{{src_color, one_minus_src_color, source[k]},
+                                        {dst_color, one_minus_dst_color, destination[k]},
+                                        {src_alpha, one_minus_src_alpha, source[3]},
+                                        {dst_alpha, one_minus_dst_alpha, destination[3]},
+                                        {constant_color, one_minus_constant_color, constants[k]},
+                                        {constant_alpha, one_minus_constant_alpha, constants[3]},
+                                        {src1_color, one_minus_src1_color, second[k]},
+                                        {src1_alpha, one_minus_src1_alpha, second[3]}}};
+    for (const Pair& pair : pairs) {
+        if (factor == pair.itself) {
+            return pair.value;
+        }
+        if (factor == pair.complement) {
+            return complement(pair.value);
+        }
     }
-    return k == 3 ? point(1) : smaller(source[3], complement(destination[3]));
+    if (factor == src_alpha_saturate) {
+        return k == 3 ? point(1) : smaller(source[3], complement(destination[3]));
+    }
+    return point(factor == one ? 1 : 0);
 }
 
 // What a device may read of a component of the target; what it may hold is codes.

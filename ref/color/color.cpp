@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ref/color/color.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -11,6 +13,8 @@
 
 #include "cases/model/rule_ids.hpp"
 #include "cases/model/sample.hpp"
+#include "ref/color/color_steps.hpp"
+#include "ref/color/component_filter.hpp"
 #include "ref/color/logic.hpp"
 #include "ref/color/neighbour.hpp"
 
@@ -184,8 +188,8 @@ std::optional<bool> ColorReference::may_write(uint32_t triangle, cases::SampleId
             continue;
         }
         const std::optional<bool> may =
-            component.may_store(is_one && k == 3 ? 1 : source.low[k],
-                                is_one && k == 3 ? 1 : source.high[k], codes[k], unit_.profile);
+            color::may_store(component, is_one && k == 3 ? 1 : source.low[k],
+                             is_one && k == 3 ? 1 : source.high[k], codes[k], unit_.profile);
         if (may && !*may) {
             return false;
         }
@@ -456,6 +460,20 @@ bool ColorReference::explains_depth(size_t index, cases::SampleId id, float dept
     return sets.empty() || std::any_of(sets.begin(), sets.end(), [&](const Sequence& sequence) {
                return sequence.empty() ? is_clear : is_left_by(sequence.back());
            });
+}
+
+std::vector<ColorStep> ColorReference::steps(size_t index, cases::SampleId id) {
+    std::vector<ColorStep> out = {
+        {std::nullopt, fmt::format("the target is cleared to {}", unit_.text_of(cleared_))}};
+    color::Color before = cleared_;
+    for (const uint32_t triangle : drawn(index)) {
+        const cases::ColorOutput& output = output_of(triangle);
+        const color::Source& source = source_of(triangle, id);
+        const color::Color left = unit_.write(output, color::color_of(source), before);
+        out.push_back({triangle, color::step_text(unit_, output, source, before, left)});
+        before = left;
+    }
+    return out;
 }
 
 }  // namespace ref

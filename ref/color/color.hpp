@@ -81,7 +81,7 @@ class ColorReference {
     bool may_have_left(size_t index, uint32_t hits, uint32_t writer) const;
     // The triangles of the first allowed set of fragments, in drawing order; none if there is none.
     std::vector<uint32_t> drawn(size_t index) const;
-    // How the colour of that set comes about (color_steps.cpp).
+    // How the colour of that set comes about.
     std::vector<ColorStep> steps(size_t index, cases::SampleId id);
     // Codes that the fragments of these triangles leave, whether or not they are allowed there.
     std::array<uint32_t, 4> codes_after(std::span<const uint32_t> triangles, cases::SampleId id);

@@ -206,6 +206,24 @@ Interval Component::stored(const Interval& v, cases::Profile profile, bool is_bl
     return either(in);
 }
 
+double Component::number(uint32_t code) const {
+    switch (format_.kind) {
+        case ComponentKind::unorm:
+            return code / (std::ldexp(1.0, static_cast<int>(format_.bits)) - 1);
+        case ComponentKind::half:
+            return static_cast<double>(glm::unpackHalf1x16(static_cast<uint16_t>(code)));
+        case ComponentKind::binary32:
+            return static_cast<double>(std::bit_cast<float>(code));
+        case ComponentKind::uint:
+            return code;
+        case ComponentKind::srgb:
+            break;
+    }
+    mpq_class value;  // its table
+    value_of(code, value);
+    return value.get_d();
+}
+
 bool Component::value_of(uint32_t code, mpq_class& value) const {
     bool is_number = true;
     switch (format_.kind) {
