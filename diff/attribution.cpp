@@ -75,30 +75,19 @@ size_t Attribution::index_of(const Finding& finding) const {
 
 void Attribution::level_hits(Finding& finding, uint32_t front, uint32_t back) {
     const size_t index = index_of(finding);
-    finding.level = expectation_.profile;
-    for (const cases::Profile profile : cases::kProfiles) {
-        if (profile <= expectation_.profile &&
-            !at(profile, index).samples[index].hits.allows(front, back)) {
-            finding.level = profile;
-            break;
-        }
-    }
+    finding.level = loosest_wrong(expectation_.profile, [&](cases::Profile profile) {
+        return !at(profile, index).samples[index].hits.allows(front, back);
+    });
 }
 
 void Attribution::attribute_writer(Finding& finding,
                                    const std::function<bool(const cases::Triangle&)>& wrote) {
     const size_t index = index_of(finding);
-    finding.level = expectation_.profile;
-    for (const cases::Profile profile : cases::kProfiles) {
-        const ref::Expectation& e = at(std::min(profile, expectation_.profile), index);
-        const ref::SampleExpectation& s = e.samples[index];
-        const auto begin = e.writers.begin() + s.writers_begin;
-        if (std::none_of(begin, begin + s.writers_count,
-                         [&](uint32_t t) { return wrote(e.triangles[t]); })) {
-            finding.level = std::min(profile, expectation_.profile);
-            break;
-        }
-    }
+    finding.level = loosest_wrong(expectation_.profile, [&](cases::Profile profile) {
+        const ref::Expectation& e = at(profile, index);
+        return std::ranges::none_of(e.writers_of(e.samples[index]),
+                                    [&](uint32_t t) { return wrote(e.triangles[t]); });
+    });
     const auto earlier = like_writer_.find(finding.level);
     if (explained_ >= explains_ && earlier != like_writer_.end()) {
         finding.rule = earlier->second.rule;

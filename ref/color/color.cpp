@@ -105,9 +105,7 @@ const color::Source& ColorReference::source_of(uint32_t triangle, cases::SampleI
     const auto [found, is_new] = (takes_outer_ ? outer_sources_ : sources_).try_emplace(triangle);
     if (is_new) {
         const auto which = static_cast<size_t>(attribute);
-        const std::array<ValueRange, 4> ranges = takes_outer_
-                                                     ? values_.outer_ranges(triangle, id, which)
-                                                     : values_.ranges(triangle, id, which);
+        const std::array<ValueRange, 4> ranges = values_.ranges(triangle, id, which, takes_outer_);
         for (size_t k = 0; k < 4; ++k) {
             // Of what nothing is promised: where the value is divided by zero, it is no number.
             found->second.low[k] = ranges[k].is_promised ? ranges[k].low : -HUGE_VAL;
@@ -305,6 +303,48 @@ bool ColorReference::is_as_before(const Accepted& accepted, size_t index,
            std::equal(hits.begin(), hits.end(), accepted.hits.begin(), accepted.hits.end());
 }
 
+void ColorReference::tell_coverage(const Sequence& most, cases::SampleId id,
+                                   const std::array<uint32_t, 4>& codes, ColorVerdict& verdict) {
+    using Kind = ColorVerdict::Kind;
+    // What leaves anything, as infinity that is blended, tells nothing.
+    const auto tells = [&](const Sequence& sequence) {
+        return leaves(sequence, id, nullptr, codes) &&
+               std::ranges::none_of(color_of(sequence, id, nullptr),
+                                    &color::Component::is_anything);
+    };
+    // Whether one fragment less, or one of them twice, tells.
+    const auto tells_of_one = [&](Kind kind) {
+        for (size_t k = 0; k < most.size(); ++k) {
+            Sequence other = most;
+            const auto at = other.begin() + static_cast<std::ptrdiff_t>(k);
+            if (kind == Kind::missing) {
+                other.erase(at);
+            } else {
+                other.insert(at, most[k]);
+            }
+            if (tells(other)) {
+                verdict.kind = kind;
+                verdict.hits = static_cast<uint32_t>(other.size());
+                verdict.triangle = most[k];
+                return true;
+            }
+        }
+        return false;
+    };
+    const bool is_turned = most.size() > 1 && tells({most.rbegin(), most.rend()});
+    if (tells_of_one(Kind::missing)) {
+        return;
+    }
+    if (!most.empty() && tells({})) {
+        verdict.kind = Kind::missing;
+    } else if (is_turned) {
+        verdict.kind = Kind::order;
+    } else if (!tells_of_one(Kind::twice) && most.empty()) {
+        verdict.kind = Kind::extra;
+        verdict.hits = 1;
+    }
+}
+
 ColorVerdict ColorReference::judge(size_t index, cases::SampleId id,
                                    const std::array<uint32_t, 4>& codes,
                                    const std::optional<ColorWitness>& witness) {
@@ -343,12 +383,6 @@ ColorVerdict ColorReference::judge(size_t index, cases::SampleId id,
     verdict.rule = is_of_neighbour(most, id, codes)
                        ? cases::rule::color_location
                        : rule_of(most, unit_.allows(color_of(most, id, last, false), codes));
-    // What leaves anything, as infinity that is blended, tells nothing.
-    const auto tells = [&](const Sequence& sequence) {
-        return leaves(sequence, id, nullptr, codes) &&
-               std::ranges::none_of(color_of(sequence, id, nullptr),
-                                    &color::Component::is_anything);
-    };
     if (witness) {
         // Who wrote last is known: only those before it may have come in another order.
         Sequence turned = most;
@@ -358,40 +392,7 @@ ColorVerdict ColorReference::judge(size_t index, cases::SampleId id,
                            : ColorVerdict::Kind::value;
         return verdict;
     }
-    const bool is_turned = most.size() > 1 && tells({most.rbegin(), most.rend()});
-    // Without instruments the colour tells what is wrong with the coverage, if anything does.
-    for (size_t k = 0; k < most.size(); ++k) {
-        Sequence less = most;
-        less.erase(less.begin() + static_cast<std::ptrdiff_t>(k));
-        if (tells(less)) {
-            verdict.kind = ColorVerdict::Kind::missing;
-            verdict.hits = static_cast<uint32_t>(less.size());
-            verdict.triangle = most[k];
-            return verdict;
-        }
-    }
-    if (!most.empty() && tells({})) {
-        verdict.kind = ColorVerdict::Kind::missing;
-        return verdict;
-    }
-    if (is_turned) {
-        verdict.kind = ColorVerdict::Kind::order;
-        return verdict;
-    }
-    for (size_t k = 0; k < most.size(); ++k) {
-        Sequence more = most;
-        more.insert(more.begin() + static_cast<std::ptrdiff_t>(k), most[k]);
-        if (tells(more)) {
-            verdict.kind = ColorVerdict::Kind::twice;
-            verdict.hits = static_cast<uint32_t>(more.size());
-            verdict.triangle = most[k];
-            return verdict;
-        }
-    }
-    if (most.empty()) {
-        verdict.kind = ColorVerdict::Kind::extra;
-        verdict.hits = 1;
-    }
+    tell_coverage(most, id, codes, verdict);
     return verdict;
 }
 

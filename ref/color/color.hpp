@@ -127,6 +127,10 @@ class ColorReference {
     // rationals tell.
     std::optional<bool> may_write(uint32_t triangle, cases::SampleId id, const glm::vec4* written,
                                   const std::array<uint32_t, 4>& codes);
+    // Without instruments the colour tells what is wrong with the coverage, if anything does;
+    // `most`: the allowed set with the most fragments.
+    void tell_coverage(const Sequence& most, cases::SampleId id,
+                       const std::array<uint32_t, 4>& codes, ColorVerdict& verdict);
     // Which rule is broken by a wrong colour; `is_as_unmasked`: it is right but for a write mask.
     std::string rule_of(const Sequence& sequence, bool is_as_unmasked) const;
     bool is_constant_depth(uint32_t triangle, float depth) const;

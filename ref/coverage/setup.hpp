@@ -204,15 +204,11 @@ void for_each_candidate(const Outline& o, int64_t step, const Body& body) {
         body(std::span<const FixedPoint>(polygon));
         return;
     }
-    const std::array points{grid_points(o.boxes[0], step), grid_points(o.boxes[1], step),
-                            grid_points(o.boxes[2], step)};
-    for (const FixedPoint& a : points[0]) {
-        for (const FixedPoint& b : points[1]) {
-            for (const FixedPoint& c : points[2]) {
-                body(std::span<const FixedPoint>(std::array{a, b, c}));
-            }
-        }
-    }
+    for_each_choice(grid_points(o.boxes[0], step), grid_points(o.boxes[1], step),
+                    grid_points(o.boxes[2], step),
+                    [&](const auto& a, const auto& b, const auto& c) {
+                        body(std::span<const FixedPoint>(std::array{a, b, c}));
+                    });
 }
 
 }  // namespace ref

@@ -184,6 +184,36 @@ bool Narrowing::is_anywhere(std::span<const Hit> hits) const {
     return depth_ == nullptr && open < least && !stores_discarded_;
 }
 
+uint32_t Narrowing::add_hits(std::span<const Hit> hits, const std::vector<FixedHits>& sets,
+                             std::vector<Coverage>& coverage, HitBounds& out) {
+    std::vector<bool> is_counted(hits.size(), false);
+    uint32_t first = 0;
+    for (const FixedHits& set : sets) {
+        uint32_t front = 0;
+        uint32_t back = 0;
+        for (const uint32_t m : set.members) {
+            is_counted[m] = true;
+            front += setups_[hits[m].triangle].can_be_front ? 1U : 0U;
+            back += setups_[hits[m].triangle].can_be_back ? 1U : 0U;
+            if (set.count == 0) {
+                coverage[m] = Coverage::must_not;
+            }
+        }
+        add_set(out, front, back, set.least, set.count);
+        if (set.least > 0) {
+            first = std::max(first, set.members[set.least - 1]);
+        }
+    }
+    for (uint32_t m = 0; m < hits.size(); ++m) {
+        if (!is_counted[m] && coverage[m] != Coverage::must_not) {
+            add_single(out, setups_[hits[m].triangle].faces(is_further(hits, m)),
+                       coverage[m] == Coverage::must);
+            first = coverage[m] == Coverage::must ? std::max(first, m) : first;
+        }
+    }
+    return first;
+}
+
 SampleExpectation Narrowing::judge(const FixedPoint& p, uint32_t s, std::span<const Hit> hits,
                                    const JudgedLists& lists, JudgeReasons* reasons) {
     SampleExpectation out;
@@ -221,31 +251,7 @@ SampleExpectation Narrowing::judge(const FixedPoint& p, uint32_t s, std::span<co
     if (depth_ != nullptr && !hits.empty()) {
         apply_depth(p, hits, sets, coverage, lists.depth_writers, out, reasons);
     }
-    std::vector<bool> is_counted(hits.size(), false);
-    uint32_t first = 0;  // nothing before it can have written last
-    for (const FixedHits& set : sets) {
-        uint32_t front = 0;
-        uint32_t back = 0;
-        for (const uint32_t m : set.members) {
-            is_counted[m] = true;
-            front += setups_[hits[m].triangle].can_be_front ? 1U : 0U;
-            back += setups_[hits[m].triangle].can_be_back ? 1U : 0U;
-            if (set.count == 0) {
-                coverage[m] = Coverage::must_not;
-            }
-        }
-        add_set(out.hits, front, back, set.least, set.count);
-        if (set.least > 0) {
-            first = std::max(first, set.members[set.least - 1]);
-        }
-    }
-    for (uint32_t m = 0; m < hits.size(); ++m) {
-        if (!is_counted[m] && coverage[m] != Coverage::must_not) {
-            add_single(out.hits, setups_[hits[m].triangle].faces(is_further(hits, m)),
-                       coverage[m] == Coverage::must);
-            first = coverage[m] == Coverage::must ? std::max(first, m) : first;
-        }
-    }
+    const uint32_t first = add_hits(hits, sets, coverage, out.hits);
     for (uint32_t m = first; m < hits.size(); ++m) {
         if (coverage[m] != Coverage::must_not) {
             writers.push_back(hits[m].triangle);

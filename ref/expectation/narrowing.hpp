@@ -99,6 +99,9 @@ class Narrowing {
     void apply_depth(const FixedPoint& p, std::span<const Hit> hits, std::vector<FixedHits>& sets,
                      std::vector<Coverage>& coverage, std::vector<uint32_t>& depth_writers,
                      SampleExpectation& out, JudgeReasons* reasons);
+    // Adds what the hits come to; returns the first of them that may have written last.
+    uint32_t add_hits(std::span<const Hit> hits, const std::vector<FixedHits>& sets,
+                      std::vector<Coverage>& coverage, HitBounds& out);
     // Does so by stencil and depth test together, where the case follows courses.
     stencil::Question stencil_question(const FixedPoint& p, std::span<const Hit> hits,
                                        const std::vector<FixedHits>& sets,

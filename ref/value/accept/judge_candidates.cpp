@@ -81,7 +81,8 @@ class Best {
     // How candidate `c` of a set fits at an evaluation.
     template <class T>
     void take(const CandidateSet<T>& set, size_t c, const Evaluation<T>& where,
-              std::span<const Fit> fits, const CandidateVerdict& probes) {
+              const Round<T>& round) {
+        const auto& [reaches, fits, probes] = round;
         const Score score = score_of(asked_.quantities, fits, judged_, probes);
         if (best_ && score.failing > 0 && !is_better(score, *best_)) {
             return;
@@ -126,13 +127,54 @@ class Best {
 
 }  // namespace
 
+namespace {
+
+bool has_probes(const Asked& asked) {
+    return std::ranges::any_of(asked.quantities,
+                               [](const Quantity& q) { return q.kind == Kind::probe; });
+}
+
+// How candidate c fits at an evaluation, or all together where each value stands alone; what is not
+// fresh stays as it is in the round. False if T cannot tell.
+template <class T>
+bool judge_round(const CandidateSet<T>& set, size_t c, const Evaluation<T>& where,
+                 const Shared<T>& shared, const Asked& asked, CandidateScratch<T>& scratch,
+                 Round<T>& round) {
+    const std::span<const Quantity> quantities = asked.quantities;
+    auto& [reaches, fits, probes] = round;
+    reaches.resize(quantities.size());
+    fits.resize(quantities.size());
+    for (const size_t i : shared.fresh) {
+        reaches[i] = {};
+    }
+    const size_t first = set.any_of_all ? 0 : c;
+    const size_t last = set.any_of_all ? set.candidates.size() : c + 1;
+    for (size_t k = first; k < last && !shared.fresh.empty(); ++k) {
+        add_candidate(set, set.candidates[k], where, asked.of(shared.fresh), scratch, reaches);
+    }
+    for (const size_t i : shared.fresh) {
+        fits[i] = fit(reaches[i], asked.got(i), store_of(set, quantities[i]));
+        if (fits[i].answer == Answer::unknown) {
+            return false;
+        }
+    }
+    if (has_probes(asked) && shared.has_fresh_probes) {
+        probes = {};
+        judge_probes(set, std::span(set.candidates).subspan(first, last - first), where, asked,
+                     probes);
+        if (!probes.is_known) {
+            return false;
+        }
+    }
+    return true;
+}
+
+}  // namespace
+
 template <class T>
 CandidateVerdict judge_candidates(const CandidateSet<T>& set,
                                   const std::vector<Evaluation<T>>& evaluations, const Asked& asked,
                                   std::span<GroupVerdict> groups) {
-    const std::span<const Quantity> quantities = asked.quantities;
-    const bool has_probes = std::any_of(quantities.begin(), quantities.end(),
-                                        [](const Quantity& q) { return q.kind == Kind::probe; });
     const CandidateVerdict unknown{false, false, ref::BasisKind::unsnapped, {}, {}, {}};
     Best all(asked);
     std::vector<Best> parts;
@@ -155,45 +197,23 @@ CandidateVerdict judge_candidates(const CandidateSet<T>& set,
             if (near == Answer::no) {
                 continue;
             }
-            auto& [reaches, fits, probes] = kept[kept.size() > 1 ? c : 0];
-            reaches.resize(quantities.size());
-            fits.resize(quantities.size());
-            for (const size_t i : shared.fresh) {
-                reaches[i] = {};
+            Round<T>& round = kept[kept.size() > 1 ? c : 0];
+            if (!judge_round(set, c, where, shared, asked, scratch, round)) {
+                return unknown;
             }
-            const size_t first = set.any_of_all ? 0 : c;
-            const size_t last = set.any_of_all ? set.candidates.size() : c + 1;
-            for (size_t k = first; k < last && !shared.fresh.empty(); ++k) {
-                add_candidate(set, set.candidates[k], where, asked.of(shared.fresh), scratch,
-                              reaches);
-            }
-            for (const size_t i : shared.fresh) {
-                fits[i] = fit(reaches[i], asked.got(i), store_of(set, quantities[i]));
-                if (fits[i].answer == Answer::unknown) {
-                    return unknown;
-                }
-            }
-            if (has_probes && shared.has_fresh_probes) {
-                probes = {};
-                judge_probes(set, std::span(set.candidates).subspan(first, last - first), where,
-                             asked, probes);
-                if (!probes.is_known) {
-                    return unknown;
-                }
-            }
-            all.take(set, c, where, fits, probes);
+            all.take(set, c, where, round);
             if (all.is_settled()) {
                 return all.verdict();
             }
             for (Best& part : parts) {
                 if (!part.is_settled()) {
-                    part.take(set, c, where, fits, probes);
+                    part.take(set, c, where, round);
                 }
             }
         }
     }
     for (size_t k = 0; k < parts.size(); ++k) {
-        groups[k].verdict = has_probes ? unknown : parts[k].verdict();
+        groups[k].verdict = has_probes(asked) ? unknown : parts[k].verdict();
     }
     return all.verdict();
 }

@@ -47,6 +47,34 @@ struct Difference {
 // The differences that a derivative of one axis (0: x, 1: y) may be.
 std::vector<Difference> differences_of(const Quad& quad, int axis, bool is_coarse);
 
+// What a probe may be: one alternative for each place where it may look, or for each difference
+// that a derivative may be. `at` has the value anywhere in the hull of spots, `along` the
+// differences of an axis, and `width` the sum of two magnitudes.
+template <class Value, class At, class Along, class Width>
+std::vector<Value> alternatives_of(const Quantity& q, const Quad& quad, const ProbePlace& place,
+                                   const At& at, const Along& along, const Width& width) {
+    std::vector<Value> out;
+    const std::optional<Derivative> derivative = derivative_of(q.probe);
+    if (!derivative) {
+        for (const Spots& spots : probe_spots(q, place)) {
+            at(spots, out);
+        }
+        return out;
+    }
+    const bool is_coarse = derivative->fineness == Fineness::coarse ||
+                           (derivative->fineness == Fineness::plain && quad.is_coarse);
+    if (!derivative->has_x || !derivative->has_y) {
+        return along(derivative->has_x ? 0 : 1, is_coarse);
+    }
+    const std::vector<Value> ys = along(1, is_coarse);
+    for (const Value& x : along(0, is_coarse)) {
+        for (const Value& y : ys) {
+            out.push_back(width(x, y));
+        }
+    }
+    return out;
+}
+
 // The bounds of a level of detail from those of the magnitudes m = |derivative| * texels (Vulkan
 // specification, "Scale Factor, Level of Detail and Image Level(s) Selection Operation"):
 //   max(all m) <= rho <= sqrt 2 max(m_ux + m_vx, m_uy + m_vy),  lambda = log2 rho.
