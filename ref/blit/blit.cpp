@@ -35,9 +35,7 @@ Interval point_of_lacking(uint32_t k) {
 }
 
 mpq_class rational(const BlitCoordinate& u) {
-    mpq_class v(u.numerator, static_cast<unsigned long>(u.denominator));
-    v.canonicalize();
-    return v;
+    return fraction(mpz_class(u.numerator), mpz_class(u.denominator));
 }
 
 Interval widen(const Interval& v, const mpq_class& by) {

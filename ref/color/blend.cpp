@@ -4,9 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <optional>
-
 #include "cases/base/number_text.hpp"
 #include "ref/color/blend_order.hpp"
 #include "ref/color/interval.hpp"

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ref/coverage/facing.hpp"
 
-#include <algorithm>
-
 #include "ref/coverage/setup.hpp"
 #include "ref/number/edge_function.hpp"
 

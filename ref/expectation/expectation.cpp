@@ -3,7 +3,6 @@
 #include "ref/expectation/expectation.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <memory>
 #include <numeric>
 #include <optional>

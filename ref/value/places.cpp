@@ -3,7 +3,6 @@
 #include "ref/value/places.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
 #include "ref/number/fixed_point.hpp"

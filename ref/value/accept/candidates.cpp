@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
-#include <limits>
 
 #include "cases/model/sample.hpp"
 #include "ref/position/clip.hpp"

@@ -10,6 +10,7 @@
 #include "ref/number/fixed_point.hpp"
 #include "ref/number/rational.hpp"
 #include "ref/position/clip.hpp"
+#include "ref/position/position_detail.hpp"
 #include "ref/value/fragment/shading_rate.hpp"
 
 namespace ref::value {
@@ -304,12 +305,10 @@ T coordinate_error(float c, float w, float origin, float extent) {
     if (is_transform_exact(c, w, origin, extent)) {
         return T(0.0);
     }
-    const T u(kUnitRoundoff);
     const T half(static_cast<double>(extent) / 2);
     const T offset = T(static_cast<double>(origin)) + half;
     const T t = from_float<T>(c) / from_float<T>(w) * half;
-    const T sum = T(4.0) * magnitude(t) + magnitude(offset) + T(2.0) * magnitude(T(t + offset));
-    T error = u * T(sum + T(1.0)) * T(T(1.0) + T(8.0) * u);
+    T error = rounding_bound(t, offset, T(t + offset), T(kUnitRoundoff));
     error =
         error + T(0x1p-120) * T(T(1.0) + magnitude(half)) * T(T(1.0) + magnitude(from_float<T>(c)));
     return std::abs(w) > 0x1p125F ? T(error + magnitude(t)) : error;
