@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The catalogue of faults: what a device may do wrong, a row each. Bodies stand elsewhere and name
-// their row: arithmetic in rasterizers/software, which varies its code path and never the picture;
-// calls in tests/breaking_layer. docs/mutants.md is made of the rows.
+// The catalogue of faults: what a device may do wrong, a row each. Bodies name their row, and a row
+// may have one of each kind: a change of the case (change.hpp), code of the software device, which
+// varies its arithmetic and never the picture, calls (tests/breaking_layer). docs/mutants.md is
+// made of the rows.
 #pragma once
 
 #include <algorithm>
@@ -14,6 +15,7 @@
 
 #include "cases/fault/geometry_rows.hpp"
 #include "cases/fault/row.hpp"
+#include "cases/fault/state_rows.hpp"
 #include "cases/fault/stencil_rows.hpp"
 #include "cases/fault/target_rows.hpp"
 #include "cases/fault/value_rows.hpp"
@@ -21,19 +23,25 @@
 namespace cases {
 
 inline constexpr auto kFaults = [] {
+    constexpr std::span<const FaultRow> kCode[] = {kGeometryFaults, kValueFaults, kTargetFaults,
+                                                   kStencilFaults};
     std::array<FaultRow, std::size(kGeometryFaults) + std::size(kValueFaults) +
-                             std::size(kTargetFaults) + std::size(kStencilFaults)>
+                             std::size(kTargetFaults) + std::size(kStencilFaults) +
+                             std::size(kStateFaults)>
         rows;
     size_t count = 0;
-    for (const std::span<const FaultRow> part :
-         {std::span<const FaultRow>(kGeometryFaults), std::span<const FaultRow>(kValueFaults),
-          std::span<const FaultRow>(kTargetFaults), std::span<const FaultRow>(kStencilFaults)}) {
+    const auto add = [&](std::span<const FaultRow> part, bool is_code) {
         for (const FaultRow& row : part) {
             rows[count] = row;
             rows[count].fault = static_cast<Fault>(count + 1);
+            rows[count].is_code = is_code;
             ++count;
         }
+    };
+    for (const std::span<const FaultRow> part : kCode) {
+        add(part, true);
     }
+    add(kStateFaults, false);
     return rows;
 }();
 

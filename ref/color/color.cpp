@@ -9,10 +9,10 @@
 #include <glm/vector_relational.hpp>
 #include <utility>
 
+#include "cases/fault/neighbour.hpp"
 #include "cases/model/rule_ids.hpp"
 #include "cases/model/sample.hpp"
 #include "ref/color/logic.hpp"
-#include "ref/color/neighbour.hpp"
 
 namespace ref {
 
@@ -244,7 +244,7 @@ ColorReference::~ColorReference() = default;
 
 bool ColorReference::is_of_neighbour(const Sequence& sequence, cases::SampleId id,
                                      const std::array<uint32_t, 4>& codes) {
-    using color::Taken;
+    using cases::Taken;
     // Asked without the value that was written, as below, it may be right: then nothing is mixed
     // up.
     if (leaves(sequence, id, nullptr, codes)) {
@@ -254,7 +254,7 @@ bool ColorReference::is_of_neighbour(const Sequence& sequence, cases::SampleId i
     for (uint32_t k = 0; k < count; ++k) {
         for (const Taken taken : {Taken::state, Taken::color, Taken::clear, Taken::all}) {
             cases::Case other = case_;
-            if (k != case_.target.judged_color && color::take_from(other, k, taken)) {
+            if (k != case_.target.judged_color && cases::take_from(other, k, taken)) {
                 mistakes_.push_back(std::make_unique<Mistake>(std::move(other), expectation_));
             }
         }
