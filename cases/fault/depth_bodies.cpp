@@ -32,7 +32,7 @@ bool keep_all(StencilFace& face) {
     return operate(face, [](StencilOp& op) { return set(op, StencilOp::keep); });
 }
 
-const Body kBodies[] = {
+const Body kDepthBodies[] = {
     // depth
     {"less-or-equal-as-less"_fault, compared_as<CompareOp::less_or_equal, CompareOp::less>},
     {"greater-as-greater-or-equal"_fault,
@@ -140,7 +140,7 @@ const Body kBodies[] = {
 }  // namespace
 
 std::span<const Body> depth_bodies() {
-    return kBodies;
+    return kDepthBodies;
 }
 
 }  // namespace cases::fault

@@ -130,7 +130,7 @@ bool unhide_queried(Draw& d) {
     return true;
 }
 
-const Body kBodies[] = {
+const Body kGeometryBodies[] = {
     // viewport and scissor
     {"viewport-mirrored-y"_fault,
      [](Draw& d) {
@@ -245,7 +245,7 @@ const Body kBodies[] = {
 }  // namespace
 
 std::span<const Body> geometry_bodies() {
-    return kBodies;
+    return kGeometryBodies;
 }
 
 }  // namespace cases::fault

@@ -124,7 +124,7 @@ bool zero_distances_outside(Draw& d) {
     });
 }
 
-const Body kBodies[] = {
+const Body kInputBodies[] = {
     // inputs
     {"attribute-w-one"_fault,
      [](Attribute& a) {
@@ -236,7 +236,7 @@ const Body kBodies[] = {
 }  // namespace
 
 std::span<const Body> input_bodies() {
-    return kBodies;
+    return kInputBodies;
 }
 
 }  // namespace cases::fault

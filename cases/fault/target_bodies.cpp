@@ -83,7 +83,7 @@ void shorten(int32_t& begin, int32_t& end) {
     --(end > begin ? end : begin);
 }
 
-const Body kBodies[] = {
+const Body kTargetBodies[] = {
     // colour
     {"blend-ignored"_fault, [](Draw& d) { return set(d.color.blend, std::optional<Blend>()); }},
     {"blend-twice"_fault, blend_twice},
@@ -155,7 +155,7 @@ const Body kBodies[] = {
 }  // namespace
 
 std::span<const Body> target_bodies() {
-    return kBodies;
+    return kTargetBodies;
 }
 
 }  // namespace cases::fault

@@ -24,26 +24,26 @@ void renumber(Capture& picture, uint32_t (*number)(uint32_t)) {
 }
 
 // Rounds depths that were drawn to multiples of 1/65535.
-float rounded(float depth) {
+float in_sixteen_bits(float depth) {
     return std::isfinite(depth) ? std::round(depth * 65535.0F) / 65535.0F : depth;
 }
 void round_stored(Capture& picture) {
     for (float& depth : picture.depth) {
         const bool is_clear = std::equal_to<>()(depth, picture.target.depth_clear);
-        depth = is_clear ? depth : rounded(depth);
+        depth = is_clear ? depth : in_sixteen_bits(depth);
     }
 }
 void round_all(Capture& picture) {
     round_stored(picture);
     for (size_t k = 0; k < picture.frag_coord.size(); ++k) {
         if (k < picture.writers.size() && picture.writers[k].draw != capture::kClearId) {
-            picture.frag_coord[k].z = rounded(picture.frag_coord[k].z);
+            picture.frag_coord[k].z = in_sixteen_bits(picture.frag_coord[k].z);
         }
     }
 }
 
 // Moves entries of a picture: entry (x, y) is taken from (x + dx, y + dy) where there is one.
-void take_from(Capture& picture, int64_t dx, int64_t dy) {
+void shift(Capture& picture, int64_t dx, int64_t dy) {
     const int64_t width = picture.target.width;
     const int64_t height = picture.target.rows();
     capture::for_each_plane(
@@ -68,11 +68,11 @@ void take_from(Capture& picture, int64_t dx, int64_t dy) {
         picture, picture);
 }
 
-struct Body {
+struct PictureBody {
     cases::Fault fault;
     void (*change)(Capture&);
 };
-constexpr Body kBodies[] = {
+constexpr PictureBody kPictureBodies[] = {
     {"draw-each-twice"_fault,
      [](Capture& p) { renumber(p, [](uint32_t draw) { return draw / 2; }); }},
     {"draw-second-twice"_fault,
@@ -81,23 +81,23 @@ constexpr Body kBodies[] = {
      [](Capture& p) { renumber(p, [](uint32_t draw) { return draw < 2 ? 1 - draw : draw; }); }},
     {"depth-16-bits"_fault, round_all},
     {"depth-16-bits-stored"_fault, round_stored},
-    {"read-back-right"_fault, [](Capture& p) { take_from(p, 1, 0); }},
-    {"read-back-below"_fault, [](Capture& p) { take_from(p, 0, 1); }},
+    {"read-back-right"_fault, [](Capture& p) { shift(p, 1, 0); }},
+    {"read-back-below"_fault, [](Capture& p) { shift(p, 0, 1); }},
 };
 
-const Body* body_of(cases::Fault fault) {
-    const auto* body = std::ranges::find(kBodies, fault, &Body::fault);
-    return body == std::end(kBodies) ? nullptr : body;
+const PictureBody* picture_body_of(cases::Fault fault) {
+    const auto* body = std::ranges::find(kPictureBodies, fault, &PictureBody::fault);
+    return body == std::end(kPictureBodies) ? nullptr : body;
 }
 
 }  // namespace
 
 bool has_picture(cases::Fault fault) {
-    return body_of(fault) != nullptr;
+    return picture_body_of(fault) != nullptr;
 }
 
 void spoil(cases::Fault fault, Capture& picture) {
-    if (const Body* body = body_of(fault)) {
+    if (const PictureBody* body = picture_body_of(fault)) {
         body->change(picture);
     }
 }

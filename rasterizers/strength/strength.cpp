@@ -29,7 +29,7 @@ bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
 }
 
 // Rows of the catalogue, one behind the other, whose code is run for some cases alone.
-struct Run {
+struct CodeRun {
     Fault first, last;
     bool (*has)(const cases::Case& c);
 };
@@ -41,7 +41,7 @@ bool has_probe(const cases::Draw& d) {
     return std::ranges::any_of(d.attributes,
                                [](const auto& a) { return a.probe != cases::Probe::value; });
 }
-constexpr Run kRuns[] = {
+constexpr CodeRun kCodeRuns[] = {
     {"blit-mirror-ignored"_fault, "blit-missing-alpha-zero"_fault,
      [](const cases::Case& c) { return c.blit.has_value(); }},
     // Resolved numbers are converted, too; all of them come from a colour.
@@ -79,8 +79,8 @@ bool can_matter(Fault fault, const cases::Case& c) {
         return cases::take_with(fault, taken) || !cases::has_change(fault);
     }
     const auto* run = std::ranges::find_if(
-        kRuns, [&](const Run& r) { return fault >= r.first && fault <= r.last; });
-    return run == std::end(kRuns) || run->has(c);
+        kCodeRuns, [&](const CodeRun& r) { return fault >= r.first && fault <= r.last; });
+    return run == std::end(kCodeRuns) || run->has(c);
 }
 
 capture::Capture captured(const cases::Case& c, const Device& device) {

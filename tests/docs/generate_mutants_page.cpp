@@ -34,21 +34,17 @@ std::string contents(const std::filesystem::path& path) {
     return text.str();
 }
 
-// The sources of the device that name a fault: "`tiles.cpp` `planes.cpp`".
+// The sources that have the body by which the device draws a fault: "`tiles.cpp` `planes.cpp`".
 class Sources {
   public:
-    explicit Sources(const std::filesystem::path& folder) {
-        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-            const std::string name = entry.path().filename().string();
-            const std::filesystem::path extension = entry.path().extension();
-            if (extension == ".cpp" || extension == ".hpp") {
-                texts_[name] = contents(entry.path());
-            }
-        }
+    explicit Sources(const std::filesystem::path& root) {
+        read(root / "rasterizers/software", code_);
+        read(root / "cases/fault", changes_);
+        read(root / "rasterizers/strength", changes_);
     }
     std::string of(const FaultRow& info) const {
         std::string out;
-        for (const auto& [name, text] : texts_) {
+        for (const auto& [name, text] : info.is_code ? code_ : changes_) {
             if (text.find(fmt::format("\"{}\"_fault", info.name)) != std::string::npos) {
                 out += fmt::format("{}`{}`", out.empty() ? "" : " ", name);
             }
@@ -57,7 +53,16 @@ class Sources {
     }
 
   private:
-    std::map<std::string, std::string> texts_;
+    using Texts = std::map<std::string, std::string>;
+    static void read(const std::filesystem::path& folder, Texts& texts) {
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+            const std::filesystem::path extension = entry.path().extension();
+            if (extension == ".cpp" || extension == ".hpp") {
+                texts[entry.path().filename().string()] = contents(entry.path());
+            }
+        }
+    }
+    Texts code_, changes_;
 };
 
 // The cheapest leaves of two families, those that catch it at the loosest profile first.
@@ -215,13 +220,14 @@ int main(int argc, char** argv) try {
     const Matrix matrix = software::read_matrix(rasterizers / "strength");
     fmt::print(
         "# What the suite catches of a broken rasterizer\n\n"
-        "Generated from `rasterizers/` by `scripts/generate-docs`; do not edit.\n\n{}\n",
+        "Generated from `cases/fault/` and `rasterizers/` by `scripts/generate-docs`; do not "
+        "edit.\n\n{}\n",
         wrapped(fmt::format(
             "`rasterizers/software/` is a rasterizer of its own, written as drivers are, that "
-            "shares no "
-            "arithmetic with the reference. It can be given one fault "
-            "at a time that an author could make, and it can be given each choice that the "
-            "specifications leave open. Below is what a run of {} cases from {} case files found; "
+            "shares no arithmetic with the reference. It can be given one fault at a time that an "
+            "author could make, in its code or by taking a case for another one, and it can be "
+            "given each choice that the specifications leave open. Below is what a run of {} cases "
+            "from {} case files found; "
             "`cmake --build --preset release --target record_mutants` runs the whole suite and "
             "rewrites what this page is made of ([tests/mutants](../tests/mutants/README.md)); "
             "`edgecase lint --strength` asks the same of your own case. The tests run each fault "
@@ -229,7 +235,7 @@ int main(int argc, char** argv) try {
             "cases, and each legal device on a share of the suite. "
             "[breaking-layer.md](breaking-layer.md) has the same of a real driver with faults.",
             matrix.leaves, matrix.files)));
-    const bool all_caught = print_faults(matrix, Sources(rasterizers / "software"));
+    const bool all_caught = print_faults(matrix, Sources(argv[1]));
     const bool all_legal = print_legal(matrix);
     print_families(matrix);
     return all_caught && all_legal ? 0 : 3;

@@ -353,12 +353,11 @@ TEST_P(Mutant, IsCaughtByItsCases) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Faults, Mutant, testing::ValuesIn(cases::kFaults),
-                         [](const auto& fault) {
-                             std::string name(fault.param.name);
-                             std::ranges::replace(name, '-', '_');
-                             return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Faults, Mutant, testing::ValuesIn(cases::kFaults), [](const auto& fault) {
+    std::string name(fault.param.name);
+    std::ranges::replace(name, '-', '_');
+    return name;
+});
 
 }  // namespace
 }  // namespace mutants
