@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <span>
 #include <utility>
 
 #include "cases/fault/fault.hpp"
@@ -63,10 +63,10 @@ std::vector<Hypothesis> choices(int subpixel_bits) {
 
 std::vector<Hypothesis> known_hypotheses(int subpixel_bits) {
     std::vector<Hypothesis> out;
-    const auto add_faults = [&](bool is_code) {
-        for (const cases::FaultRow& row : cases::kFaults) {
-            if (row.is_code != is_code || row.fault == "coarse-snapping"_fault) {
-                continue;  // that one is a choice of subpixel bits
+    const auto add_faults = [&](std::span<const cases::FaultRow> rows) {
+        for (const cases::FaultRow& row : rows) {
+            if (row.fault == "coarse-snapping"_fault) {
+                continue;  // a choice of subpixel bits
             }
             Hypothesis h{std::string(row.name), without_stop(row.sentence)};
             h.device.subpixel_bits = subpixel_bits;
@@ -74,11 +74,11 @@ std::vector<Hypothesis> known_hypotheses(int subpixel_bits) {
             out.push_back(std::move(h));
         }
     };
-    add_faults(false);
+    add_faults(cases::kStateFaultRows);
     for (Hypothesis& h : choices(subpixel_bits)) {
         out.push_back(std::move(h));
     }
-    add_faults(true);
+    add_faults(cases::kCodeFaults);
     return out;
 }
 

@@ -22,28 +22,33 @@
 
 namespace cases {
 
+// All rows: those that the software device has code for, and behind them those that it draws by a
+// change of the case or the picture.
+inline constexpr size_t kCodeFaultCount = std::size(kGeometryFaults) + std::size(kValueFaults) +
+                                          std::size(kTargetFaults) + std::size(kStencilFaults);
 inline constexpr auto kFaults = [] {
-    constexpr std::span<const FaultRow> kCode[] = {kGeometryFaults, kValueFaults, kTargetFaults,
-                                                   kStencilFaults};
-    std::array<FaultRow, std::size(kGeometryFaults) + std::size(kValueFaults) +
-                             std::size(kTargetFaults) + std::size(kStencilFaults) +
-                             std::size(kStateFaults)>
-        rows;
+    std::array<FaultRow, kCodeFaultCount + std::size(kStateFaults)> rows;
     size_t count = 0;
-    const auto add = [&](std::span<const FaultRow> part, bool is_code) {
+    for (const std::span<const FaultRow> part :
+         {std::span<const FaultRow>(kGeometryFaults), std::span<const FaultRow>(kValueFaults),
+          std::span<const FaultRow>(kTargetFaults), std::span<const FaultRow>(kStencilFaults),
+          std::span<const FaultRow>(kStateFaults)}) {
         for (const FaultRow& row : part) {
             rows[count] = row;
             rows[count].fault = static_cast<Fault>(count + 1);
-            rows[count].is_code = is_code;
             ++count;
         }
-    };
-    for (const std::span<const FaultRow> part : kCode) {
-        add(part, true);
     }
-    add(kStateFaults, false);
     return rows;
 }();
+inline constexpr std::span<const FaultRow> kCodeFaults(kFaults.data(), kCodeFaultCount);
+inline constexpr std::span<const FaultRow> kStateFaultRows(kFaults.data() + kCodeFaultCount,
+                                                           std::size(kStateFaults));
+
+// Whether the software device has code for a fault; not none.
+constexpr bool has_code(Fault fault) {
+    return static_cast<size_t>(fault) <= kCodeFaultCount;
+}
 
 // The fault of that name; none if no row has it.
 constexpr Fault find_fault(std::string_view name) {

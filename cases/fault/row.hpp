@@ -17,9 +17,7 @@ struct FaultRow {
     std::string_view name;
     std::string_view sentence;  // what the device does wrong
     std::string_view rules;     // the rules that this breaks, ids separated by spaces
-    // Filled in by the catalogue.
-    Fault fault = kNoFault;
-    bool is_code = false;  // the software device has code for it; else it draws the changed case
+    Fault fault = kNoFault;     // filled in by the catalogue
 };
 
 }  // namespace cases

@@ -74,7 +74,7 @@ constexpr CodeRun kCodeRuns[] = {
 }  // namespace
 
 bool can_matter(Fault fault, const cases::Case& c) {
-    if (!cases::row_of(fault).is_code) {
+    if (!cases::has_code(fault)) {
         cases::Case taken = c;
         return cases::take_with(fault, taken) || !cases::has_change(fault);
     }
@@ -84,14 +84,14 @@ bool can_matter(Fault fault, const cases::Case& c) {
 }
 
 capture::Capture captured(const cases::Case& c, const Device& device) {
-    const bool is_code = device.fault == kNoFault || cases::row_of(device.fault).is_code;
+    const bool has_code = device.fault == kNoFault || cases::has_code(device.fault);
     cases::Case taken = c;
-    if (!is_code) {
+    if (!has_code) {
         cases::take_with(device.fault, taken);
     }
     capture::Capture out = render(taken, device);
     rasterizers::drop_unattached(out);
-    if (!is_code) {
+    if (!has_code) {
         out.target = c.target;  // as whoever judges it takes it for
         spoil(device.fault, out);
     }
