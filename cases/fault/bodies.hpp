@@ -34,9 +34,11 @@ std::span<const Body> target_bodies();    // colour, blits
 // Sets a field; true if it had another value.
 template <class T, class U = T>
 bool set(T& field, const U& value) {
-    const bool is_other = !std::equal_to<>()(field, value);
+    if (std::equal_to<>()(field, value)) {
+        return false;
+    }
     field = value;
-    return is_other;
+    return true;
 }
 // Sets a field that has the value `from`.
 template <class T>
