@@ -28,7 +28,7 @@ constexpr std::array kFaultReasons = {
     FaultReason{"bounds-ignored"_fault, ReasonKind::stencil_bounded},
     FaultReason{"stencil-faces-exchanged"_fault, ReasonKind::stencil_faced},
     FaultReason{"stencil-masks-ignored"_fault, ReasonKind::stencil_masked},
-    FaultReason{"stencil-depth-fail-passes"_fault, ReasonKind::stencil_by_depth},
+    FaultReason{"stencil-before-depth"_fault, ReasonKind::stencil_by_depth},
     FaultReason{"stencil-depth-fail-fails"_fault, ReasonKind::stencil_by_depth},
     FaultReason{"stencil-clamps-exchanged"_fault, ReasonKind::stencil_operated},
     FaultReason{"stencil-compare-turned"_fault, ReasonKind::stencil_compared},

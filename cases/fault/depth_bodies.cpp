@@ -127,7 +127,7 @@ const Body kDepthBodies[] = {
                     return !(d.stencil.front == d.stencil.back);
                 });
      }},
-    {"stencil-depth-fail-passes"_fault,
+    {"stencil-before-depth"_fault,
      [](StencilFace& face) { return set(face.depth_fail, face.pass); }},
     {"stencil-depth-fail-fails"_fault,
      [](StencilFace& face) { return set(face.depth_fail, face.fail); }},

@@ -309,7 +309,7 @@ constexpr ExerciseRow kRows[] = {
     {rule::stencil_depth_outcome,
      "that would come out otherwise if a fragment that fails the depth test did what one does that "
      "passes it, or that fails the stencil test",
-     {by("stencil-depth-fail-passes"_fault), by("stencil-depth-fail-fails"_fault)}},
+     {by("stencil-before-depth"_fault), by("stencil-depth-fail-fails"_fault)}},
     {rule::query_occlusion,
      "that the query of a draw must count, or must not count though a triangle is there",
      {at_all(is_counted_by_query), by("queried-draws-unhidden"_fault)}},
