@@ -26,8 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::pair<std::string, std::string>> device_lines(
-    const vk_harness::DeviceInfo& device) {
+std::vector<std::pair<std::string, std::string>> device_lines(const capture::DeviceInfo& device) {
     return {{"device", device.name},
             {"driver",
              device.driver_name + (device.driver_info.empty() ? "" : " ") + device.driver_info},
@@ -50,24 +49,19 @@ OrStop<probe::Datasheet> measure(const Program& program, const ProbeOptions& opt
     if (!first) {
         return tl::unexpected(first.error());
     }
-    const vk_harness::DeviceInfo device = first->device;
+    const capture::DeviceInfo device = first->device;
     run::Session session(config, std::move(first->client), device, signals);
     bool is_interrupted = false;
     std::string failure;
     Progress progress(ProgressStyle::automatic, 0);
-    const probe::Draw draw = [&](std::vector<cases::Case> cases) {
-        std::vector<probe::Drawn> out(cases.size(), {{}, "it was not drawn"});
+    const capture::Draw draw = [&](std::vector<cases::Case> cases) {
         if (is_interrupted || !failure.empty()) {
-            return out;
+            return std::vector<capture::Drawn>(cases.size(), {{}, "it was not drawn"});
         }
         run::Session::Pictures pictures = session.pictures(std::move(cases));
         is_interrupted = pictures.interrupted;
         failure = pictures.failure;
-        for (size_t k = 0; k < out.size(); ++k) {
-            out[k] = {std::move(pictures.pictures[k].capture),
-                      std::move(pictures.pictures[k].why_not)};
-        }
-        return out;
+        return std::move(pictures.pictures);
     };
     probe::Datasheet sheet =
         probe::measure(draw, {config.limits, device.max_target_size, device.has_primitive_id},

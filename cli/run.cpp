@@ -20,14 +20,16 @@
 #include "cli/prepare/loop_config.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/prepare_run.hpp"
+#include "cli/renderers/renderers.hpp"
 #include "cli/reproducer/reproducer.hpp"
 #include "report/files/ci.hpp"
 #include "report/journal/journal.hpp"
 #include "report/record/levels.hpp"
 #include "report/text/sentences.hpp"
 #include "report/text/unexpected.hpp"
-#include "run/process/manifest.hpp"
+#include "run/process/library.hpp"
 #include "run/process/pool.hpp"
+#include "run/worker/derived.hpp"
 
 namespace cli {
 
@@ -41,7 +43,7 @@ namespace {
 void check_pictures(std::vector<run::PlannedCase>& plan) {
     run::Pool pool(cases::cores());
     for (run::PlannedCase& c : plan) {
-        if (c.data.expected_hits) {
+        if (c.data.claim.expected_hits) {
             pool.submit([&c] { c.error = run::check_before_running(c.data); }, [] {});
         }
     }
@@ -52,7 +54,7 @@ void check_pictures(std::vector<run::PlannedCase>& plan) {
 }
 
 OrStop<std::monostate> check_required_device(const RunOptions& options,
-                                             const report::Device& device) {
+                                             const capture::DeviceInfo& device) {
     if (options.require_device.empty()) {
         return std::monostate{};
     }
@@ -66,7 +68,7 @@ OrStop<std::monostate> check_required_device(const RunOptions& options,
     return std::monostate{};
 }
 
-bool is_same_device(const report::Device& a, const report::Device& b) {
+bool is_same_device(const capture::DeviceInfo& a, const capture::DeviceInfo& b) {
     return a.name == b.name && a.uuid == b.uuid && a.driver_version == b.driver_version &&
            a.subpixel_bits == b.subpixel_bits && a.sample_locations == b.sample_locations &&
            a.depth_beside_stencil == b.depth_beside_stencil;
@@ -87,7 +89,7 @@ OrStop<std::monostate> set_debugger(const Program& program, const RunOptions& op
     plan.front().alone = true;
     config.command = std::move(*command);
     config.timeout = std::chrono::hours(24 * 365);
-    config.worker.vulkan.longest_wait_ms = 0;
+    config.worker.device.longest_wait_ms = 0;
     config.schedule.lanes = 1;
     config.schedule.repeat = 1;
     config.schedule.retries = 0;
@@ -114,15 +116,15 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
     OrStop<ReadyWorker> first = await_first_worker(std::move(worker), config, signals);
     if (!first) {
         Stop stop = first.error();
-        const std::string& icd = options.device.icd;
-        const run::Manifest manifest = icd.empty() ? run::Manifest{} : run::read_manifest(icd);
-        if (const std::string why = run::load_problem(manifest); !why.empty()) {
-            stop.lines.push_back("  the driver library '" + manifest.library +
-                                 "' does not load: " + why);
+        const auto drivers = find_drivers(options.device).drivers;
+        if (!options.device.icd.empty() && !drivers.empty()) {
+            if (const std::string why = run::load_problem(drivers.front()); !why.empty()) {
+                stop.lines.push_back("  " + why);
+            }
         }
         return stopped(options, stop);
     }
-    const report::Device device = to_report(first->device);
+    const capture::DeviceInfo device = first->device;
     if (resumed && !is_same_device(device, p.header.device)) {
         return stopped(options,
                        stop_with(report::kExitDevice,
@@ -130,7 +132,7 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
                                      "', this is '" + device.name + "' or another driver version"));
     }
     p.header.device = device;
-    set_limits(config, first->device);
+    config.limits = run::limits_of(first->device);
     if (auto fits = check_required_device(options, device); !fits) {
         return stopped(options, fits.error());
     }

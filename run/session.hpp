@@ -20,8 +20,7 @@ namespace run {
 class Session {
   public:
     // `first` is a worker that has answered with `device`, whose limits the config has.
-    Session(LoopConfig config, WorkerClient first, vk_harness::DeviceInfo device,
-            SignalFd& signals);
+    Session(LoopConfig config, WorkerClient first, capture::DeviceInfo device, SignalFd& signals);
 
     struct Results {
         std::vector<report::CaseRecord> records;  // of the cases, in their order
@@ -34,13 +33,9 @@ class Session {
     Results draw(std::vector<cases::Case> cases,
                  const std::function<bool(size_t done)>& on_progress = {});
 
-    // Draws cases without judging them.
+    // Draws cases whose ids differ, without judging them.
     struct Pictures {
-        struct Picture {
-            std::optional<capture::Capture> capture;
-            std::string why_not;  // one sentence, if there is none
-        };
-        std::vector<Picture> pictures;  // of the cases, in their order
+        std::vector<capture::Drawn> pictures;  // of the cases, in their order
         bool interrupted = false;
         std::string failure;
     };
@@ -49,8 +44,12 @@ class Session {
   private:
     LoopConfig config_;
     std::vector<WorkerClient> workers_;
-    vk_harness::DeviceInfo device_;
+    capture::DeviceInfo device_;
     SignalFd& signals_;
 };
+
+// As Session::draw, by whatever draws.
+using DrawAndJudge = std::function<Session::Results(
+    std::vector<cases::Case> cases, const std::function<bool(size_t done)>& on_progress)>;
 
 }  // namespace run

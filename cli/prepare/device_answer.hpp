@@ -12,11 +12,9 @@
 
 namespace cli {
 
-run::WorkerOptions worker_options(const DeviceOptions& options);
-
 struct ReadyWorker {
     run::WorkerClient client;
-    vk_harness::DeviceInfo device;
+    capture::DeviceInfo device;
 };
 // Starts the first worker, which then gets its device ready while the parent does something else.
 OrStop<run::WorkerClient> start_first_worker(const run::LoopConfig& config);
@@ -26,8 +24,10 @@ OrStop<run::WorkerClient> start_first_worker(const run::LoopConfig& config);
 OrStop<ReadyWorker> await_first_worker(run::WorkerClient client, const run::LoopConfig& config,
                                        run::SignalFd& signals);
 
+// The first lines of what a worker printed, each for itself.
+std::vector<std::string> printed_lines(const std::string& output);
 // What a failed start looks like to the user; `output` is what the worker printed.
-Stop explain_failure(const vk_harness::Failure& failure, const std::string& output);
+Stop explain_failure(const capture::Failure& failure, const std::string& output);
 Stop explain_death(const run::Death& death);
 
 }  // namespace cli

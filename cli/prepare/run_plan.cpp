@@ -19,6 +19,7 @@
 #include "cases/base/checksum.hpp"
 #include "cases/base/counted.hpp"
 #include "cases/model/device.hpp"
+#include "cli/renderers/renderers.hpp"
 #include "report/journal/journal.hpp"
 #include "run/order.hpp"
 
@@ -136,9 +137,10 @@ OrStop<Selection> select_cases(const Program& program, const RunOptions& options
     selection.known_ids = suite->ids();
     selection.suite_ids = suite->suite_ids();
     for (size_t k = suite->outside; k < suite->cases.size(); ++k) {
-        selection.own_files.insert(suite->cases[k].where.file);
+        selection.own_files.insert(suite->cases[k].claim.where.file);
     }
-    if (!options.doors.empty() && options.doors != "none" && !options.device.renderer.empty()) {
+    if (!options.doors.empty() && options.doors != "none" &&
+        renderer_of(options.device).needs == nullptr) {
         return tl::unexpected(
             stop_with(report::kExitUsage,
                       "--doors needs a Vulkan driver, and --renderer names another; "
@@ -146,7 +148,7 @@ OrStop<Selection> select_cases(const Program& program, const RunOptions& options
     }
     std::map<std::string, size_t> left_out;  // leaves by file
     for (const cases::Case& c : suite->cases) {
-        ++left_out[c.where.file];
+        ++left_out[c.claim.where.file];
     }
     std::vector<std::string> ids;
     std::set<std::string> own;
@@ -159,7 +161,7 @@ OrStop<Selection> select_cases(const Program& program, const RunOptions& options
         }
         ids.push_back(c.id);
         if (k >= suite->outside) {
-            own.insert(c.where.file);
+            own.insert(c.claim.where.file);
         }
         chosen.push_back(&c);
     }
@@ -170,7 +172,7 @@ OrStop<Selection> select_cases(const Program& program, const RunOptions& options
     selection.left_out_doors = std::move(*doors);
     for (cases::Case* c : chosen) {
         if (run::shard_of(c->id, options.shard.count) == options.shard.index) {
-            --left_out[c->where.file];
+            --left_out[c->claim.where.file];
             selection.cases.push_back(std::move(*c));
         }
     }
@@ -406,24 +408,6 @@ std::vector<std::pair<std::string, std::string>> recorded_environment() {
     recorded.emplace_back("PWD", fs::current_path(ignored).string());
     std::sort(recorded.begin(), recorded.end());
     return recorded;
-}
-
-report::Device to_report(const vk_harness::DeviceInfo& device) {
-    report::Device d;
-    cases::copy_like_fields(device, d);
-    d.type = device.device_type;
-    d.sample_locations = cases::to_text(device.sample_locations);
-    if (device.api_version == 0) {
-        return d;  // no Vulkan: an algorithm, or the reference
-    }
-    // VK_API_VERSION_*: variant 31..29, major 28..22, minor 21..12, patch 11..0
-    d.api_version = std::to_string((device.api_version >> 22) & 0x7fU) + "." +
-                    std::to_string((device.api_version >> 12) & 0x3ffU) + "." +
-                    std::to_string(device.api_version & 0xfffU);
-    if (const uint32_t variant = device.api_version >> 29; variant > 0) {  // not Vulkan itself
-        d.api_version += " (variant " + std::to_string(variant) + ")";
-    }
-    return d;
 }
 
 std::string utc_now(bool compact) {

@@ -17,7 +17,7 @@
 
 namespace run {
 
-using vk_harness::Rendered;
+using capture::Rendered;
 
 namespace {
 
@@ -30,7 +30,7 @@ struct Origin {
 // What of a picture that has other bits than the plain one is wrong by itself, at profile vulkan;
 // empty if nothing is. With `plain`, only rules count that the plain picture does not break itself.
 std::string wrong_at_vulkan(const cases::Case& filed, const Rendered& drawn,
-                            const vk_harness::DeviceInfo& device, const Rendered* plain) {
+                            const capture::DeviceInfo& device, const Rendered* plain) {
     try {
         const ref::Limits limits = limits_of(device);
         const std::optional<cases::Case> placed = ref::as_drawn(filed, limits);
@@ -75,7 +75,7 @@ std::string wrong_at_vulkan(const cases::Case& filed, const Rendered& drawn,
 // What other bits through a door amount to: what of the picture is wrong, or that nothing is to be
 // said of them.
 void judge_door(const cases::Case& c, const Rendered& plain, const Rendered& drawn,
-                const vk_harness::DeviceInfo& device, cases::DoorPromise promise,
+                const capture::DeviceInfo& device, cases::DoorPromise promise,
                 diff::Consistency& found) {
     if (promise == cases::DoorPromise::same_bits) {
         return;
@@ -97,22 +97,11 @@ struct Round {
 
 }  // namespace
 
-capture::CaptureView view_of(const Rendered& rendered) {
-    const capture::Capture& c = rendered.capture;
-    if (rendered.placed.empty()) {
-        return c;
-    }
-    capture::CaptureView view =
-        capture::view_planes(c.target, c.has_primitive, c.attribute_count, rendered.placed.data());
-    view.counted = c.counted;
-    return view;
-}
-
-ref::Limits limits_of(const vk_harness::DeviceInfo& device) {
-    ref::Limits limits;
+ref::Limits limits_of(const capture::DeviceInfo& device) {
     // Vulkan requires 4 bits of all three. What a device with more than the reference knows is not
     // judged by stands in vk_harness/draw_check.cpp.
-    limits.subpixel_bits = static_cast<int>(cases::judged_subpixel_bits(device.subpixel_bits));
+    ref::Limits limits =
+        ref::limits_of(device.subpixel_bits, device.sample_locations, device.depth_beside_stencil);
     // A device that rasterizes a sample only at the centre may have 0 bits, and asks for no offset.
     // The steps of 64 bits are below the rounding of any offset and any level.
     limits.interpolation_offset_bits =
@@ -124,22 +113,19 @@ ref::Limits limits_of(const vk_harness::DeviceInfo& device) {
     limits.overestimation = device.overestimation;
     limits.overestimation_step = device.overestimation_step;
     limits.rasterizes_degenerates = device.rasterizes_degenerates;
-    limits.sample_locations = device.sample_locations;
-    limits.beside_stencil = ref::depth_beside_stencil(device.depth_beside_stencil);
     return limits;
 }
 
 std::vector<RenderedCase> render_with_derived(
-    Backend& backend, const std::vector<cases::Case>& batch,
-    const std::function<void(std::string_view)>& step, const vk_harness::PlaneStore& store,
-    const std::function<void(size_t, Rendered&)>& damage) {
+    capture::Renderer& renderer, const std::vector<cases::Case>& batch, const capture::Step& step,
+    const capture::PlaneStore& store, const std::function<void(size_t, Rendered&)>& damage) {
     std::vector<std::vector<cases::Derivation>> derivations;
     Round beside;
     Round later;
     for (const cases::Case& c : batch) {
         // What a derivation changes follows from the case as it is drawn, as for who judges it.
         derivations.push_back(
-            cases::derivations(ref::as_drawn(c, limits_of(backend.device())).value_or(c)));
+            cases::derivations(ref::as_drawn(c, limits_of(renderer.device())).value_or(c)));
     }
     // Doors come last: not many of them are in one submission, and others are to be in that of the
     // cases themselves.
@@ -159,14 +145,14 @@ std::vector<RenderedCase> render_with_derived(
     std::vector<RenderedCase> results(batch.size());
     std::vector<Rendered> drawn;
     if (beside.cases.empty()) {
-        drawn = backend.render(batch, step, store);
+        drawn = renderer.render(batch, capture::kEveryPlane, step, store);
     } else {
         std::vector<cases::Case> all = batch;
         std::move(beside.cases.begin(), beside.cases.end(), std::back_inserter(all));
         const auto store_own = [&](size_t slot, uint64_t bytes) {
             return store && slot < batch.size() ? store(slot, bytes) : std::span<std::byte>();
         };
-        drawn = backend.render(all, step, store_own);
+        drawn = renderer.render(all, capture::kEveryPlane, step, store_own);
     }
     for (size_t k = 0; k < batch.size(); ++k) {
         results[k].rendered = std::move(drawn[k]);
@@ -200,7 +186,7 @@ std::vector<RenderedCase> render_with_derived(
         diff::Consistency& found = result.consistency[origin.derivation];
         found = diff::compare_bits(batch[origin.of], view_of(own), view_of(derived), derivation);
         if (is_door && found.different > 0) {
-            judge_door(batch[origin.of], own, derived, backend.device(),
+            judge_door(batch[origin.of], own, derived, renderer.device(),
                        cases::row_of(derivation.variation.door).promise, found);
         }
     };
@@ -209,7 +195,7 @@ std::vector<RenderedCase> render_with_derived(
     }
     drawn.clear();
     if (!later.cases.empty()) {
-        std::vector<Rendered> again = backend.render(later.cases, step, {});
+        std::vector<Rendered> again = renderer.render(later.cases, capture::kEveryPlane, step, {});
         for (size_t k = 0; k < later.origins.size(); ++k) {
             compare(later.origins[k], again[k]);
         }

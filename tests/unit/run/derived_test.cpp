@@ -10,31 +10,32 @@
 #include <cmath>
 
 #include "cases/load/loader.hpp"
+#include "rasterizers/renderer/renderers.hpp"
 
 namespace run {
 namespace {
 
-using vk_harness::Rendered;
+using capture::Rendered;
 using Alter = std::function<void(capture::Capture&)>;
 
 // A device that draws rightly, after which one picture is altered.
-class Altered : public Backend {
+class Altered : public capture::Renderer {
   public:
     Altered(Alter plain, Alter door) : plain_(std::move(plain)), door_(std::move(door)) {
-        WorkerOptions options;
+        capture::RendererOptions options;
         options.renderer = "software";
-        inner_ = std::move(*make_backend(options));
+        inner_ = std::move(*rasterizers::software_renderer(options));
     }
-    const vk_harness::DeviceInfo& device() const override { return inner_->device(); }
+    const capture::DeviceInfo& device() const override { return inner_->device(); }
     std::string lacking(const cases::Case&) const override { return ""; }
-    std::vector<Rendered> render(const std::vector<cases::Case>& batch,
-                                 const std::function<void(std::string_view)>& step,
-                                 const vk_harness::PlaneStore& /*store*/) override {
-        std::vector<cases::Case> plain = batch;
+    std::vector<Rendered> render(std::span<const cases::Case> batch, capture::PlaneSet planes,
+                                 const capture::Step& step,
+                                 const capture::PlaneStore& /*store*/) override {
+        std::vector<cases::Case> plain(batch.begin(), batch.end());
         for (cases::Case& c : plain) {
             c.variation = {};
         }
-        std::vector<Rendered> out = inner_->render(plain, step, {});
+        std::vector<Rendered> out = inner_->render(plain, planes, step, {});
         for (size_t k = 0; k < out.size(); ++k) {
             const Alter& alter = batch[k].variation.door == cases::Door::none ? plain_ : door_;
             if (alter) {
@@ -46,7 +47,7 @@ class Altered : public Backend {
 
   private:
     Alter plain_, door_;
-    std::unique_ptr<Backend> inner_;
+    std::unique_ptr<capture::Renderer> inner_;
 };
 
 constexpr size_t kSample = 8 + 1;  // pixel (1, 1) of 8 x 4, inside
@@ -78,13 +79,13 @@ diff::Consistency judged(const std::string& door, Alter plain, Alter through_doo
 }
 
 // Draws nothing, and remembers what it was asked for.
-class Asked : public Backend {
+class Asked : public capture::Renderer {
   public:
-    const vk_harness::DeviceInfo& device() const override { return device_; }
+    const capture::DeviceInfo& device() const override { return device_; }
     std::string lacking(const cases::Case&) const override { return ""; }
-    std::vector<Rendered> render(const std::vector<cases::Case>& batch,
-                                 const std::function<void(std::string_view)>& /*step*/,
-                                 const vk_harness::PlaneStore& /*store*/) override {
+    std::vector<Rendered> render(std::span<const cases::Case> batch, capture::PlaneSet /*planes*/,
+                                 const capture::Step& /*step*/,
+                                 const capture::PlaneStore& /*store*/) override {
         for (const cases::Case& c : batch) {
             doors.push_back(c.variation.door != cases::Door::none);
         }
@@ -93,7 +94,7 @@ class Asked : public Backend {
     std::vector<bool> doors;  // whether each picture is one through a door
 
   private:
-    vk_harness::DeviceInfo device_;
+    capture::DeviceInfo device_;
 };
 
 // A submission has few pictures through doors, and what is drawn twice the same is to be in one.
@@ -168,7 +169,7 @@ TEST(Derived, WhatThePlainPictureDoesWrongTooIsNoFaultOfAStage) {
 
 // Whatever a device claims, the reference gets numbers that it can judge by.
 TEST(Limits, AreKeptToWhatTheReferenceKnows) {
-    vk_harness::DeviceInfo device;
+    capture::DeviceInfo device;
     const ref::Limits few = limits_of(device);
     EXPECT_EQ(few.subpixel_bits, 4);
     EXPECT_EQ(few.interpolation_offset_bits, 4);
