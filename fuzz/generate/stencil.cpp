@@ -71,7 +71,7 @@ std::vector<std::string> face_keys(const Pose& pose, size_t number, uint32_t cle
 
 uint32_t stencil_clear_of(const Pose& pose, Dice& dice) {
     static constexpr std::array<uint32_t, 6> kClears = {1, 2, 127, 128, 254, 255};
-    return pose.is_default("stencil-clear") ? 0 : dice.of(kClears);
+    return pose.is_default("stencil_clear") ? 0 : dice.of(kClears);
 }
 
 std::string stencil_of(const Pose& pose, size_t number, uint32_t clear, Dice& turn, Dice& dice) {

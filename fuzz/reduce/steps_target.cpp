@@ -172,7 +172,7 @@ bool is_empty(const Box& box) {
 
 // What goes beyond all that is drawn: around the triangles within viewports and scissors.
 Crop around_triangles(const Document& document) {
-    const auto loaded = cases::load_text(to_text(document), "case.toml", "case");
+    const auto loaded = cases::load_tree(document, "case");
     if (!loaded || loaded->empty()) {
         return {};
     }
