@@ -148,7 +148,7 @@ constexpr auto kDraw = std::to_array<Key>({
     word("order", kDirections).shape(),
     table("clip_distance", kDistanceKeys).plain("none"),
     table("cull_distance", kDistanceKeys).plain("none"),
-    table("attribute", kAttributeKeys).plain("none"),
+    table("attribute", kAttributeKeys).as("attributes").plain("none"),
 });
 
 constexpr auto kViewport = std::to_array<Key>({other("rect"), other("depth")});
