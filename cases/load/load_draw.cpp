@@ -443,11 +443,6 @@ class DrawLoader {
         std::vector<uint32_t> indices;
         for (const TomlValue& element : value.array) {
             if (element.is(Kind::string) && element.string == "restart") {
-                if (draw_.topology == Topology::triangle_list) {
-                    context_.error(element.where,
-                                   "\"restart\" needs a strip or a fan; a list has no restart");
-                    return false;
-                }
                 draw_.primitive_restart = true;
                 indices.push_back(kRestartIndex);
                 continue;
@@ -497,10 +492,13 @@ class DrawLoader {
                            fmt::format("{} {} make no triangle; write at least 3",
                                        *std::max_element(pieces.begin(), pieces.end()),
                                        draw_.indices ? "indices" : "vertices"));
-        } else if (draw_.topology == Topology::triangle_list && pieces[0] % 3 != 0) {
-            notes.push_back(fmt::format("{}: the last {} of {} {} make no triangle", name,
-                                        pieces[0] % 3, pieces[0],
-                                        draw_.indices ? "indices" : "vertices"));
+        }
+        for (const size_t piece : pieces) {
+            if (draw_.topology == Topology::triangle_list && piece > 3 && piece % 3 != 0) {
+                notes.push_back(fmt::format("{}: the last {} of {} {} make no triangle", name,
+                                            piece % 3, piece,
+                                            draw_.indices ? "indices" : "vertices"));
+            }
         }
     }
 
