@@ -10,11 +10,12 @@ namespace {
 // The words of a key behind what stands for its absence, if no word does.
 std::vector<std::string_view> words(const cases::KeyTable& keys, std::string_view name,
                                     std::string_view absent = {}) {
+    const cases::Key* key = keys.find(name);
     std::vector<std::string_view> all;
-    if (!absent.empty()) {
+    if (!absent.empty() || key == nullptr) {
         all.push_back(absent);
     }
-    if (const cases::Key* key = keys.find(name)) {
+    if (key != nullptr) {
         all.insert(all.end(), key->words.begin(), key->words.end());
     }
     return all;

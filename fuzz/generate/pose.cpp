@@ -169,7 +169,8 @@ size_t value_of(size_t feature, size_t first, Dice& dice) {
             return static_cast<size_t>(at - row.values.begin());
         }
     }
-    return first + dice.below(row.values.size() - first);
+    // A key that has no row any more has no words: its feature has but the default.
+    return row.values.size() == first ? 0 : first + dice.below(row.values.size() - first);
 }
 
 // The sizes of fragments, but for one pixel, that have at most so many samples.
