@@ -6,8 +6,10 @@
 #pragma once
 
 #include <bitset>
+#include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,8 +18,13 @@
 
 #include "capture/capture.hpp"
 #include "cases/model/case.hpp"
+#include "cases/model/door.hpp"
 
 namespace capture {
+
+// Planes by their numbers (capture.hpp).
+using PlaneSet = std::bitset<kPlaneNumbers>;
+inline const PlaneSet kEveryPlane = PlaneSet().set();
 
 // A limit that is not as the renderer's API requires it, as texts: "maxViewports", "at least 16",
 // "8", "of a device with the feature multiViewport".
@@ -25,8 +32,8 @@ struct WrongLimit {
     std::string name, required, claimed, of;
     static void fields(auto&& visit, auto&... w) {
         visit("name", w.name...);
-        visit("required", w.required...);
         visit("claimed", w.claimed...);
+        visit("required", w.required...);
         visit("of", w.of...);
     }
 };
@@ -50,12 +57,11 @@ struct DeviceInfo {
     uint32_t index = 0;
     uint32_t max_color_attachments = 0, max_target_size = 0;
     uint32_t interpolation_offset_bits = 0, mipmap_bits = 0;  // of interpolateAtOffset, of a LOD
-    bool has_first_strip_order = false;   // a strip's order is that of a first provoking vertex
-    bool has_conservative = false;        // conservative rasterization, with
-    bool has_underestimation = false;     // underestimation,
-    bool rasterizes_degenerates = false;  // triangles without area drawn,
-    // overestimation: its size, the step and the most that is added to it, pixels.
-    float overestimation = 0, overestimation_step = 0, most_overestimation = 0;
+    bool has_first_strip_order = false;  // a strip's order is that of a first provoking vertex
+    // Of conservative rasterization: triangles without area drawn; overestimation and the step in
+    // which it grows, pixels.
+    bool rasterizes_degenerates = false;
+    float overestimation = 0, overestimation_step = 0;
     std::string sample_locations_error;  // why it could not be asked, though it promises to answer
     std::string hit_counting = "binary32";  // the numbers in which hits are added up, or binary16
     // Without the first, cases are rendered by render pass objects; without the second, pipelines
@@ -86,12 +92,9 @@ struct DeviceInfo {
         visit({"interpolation_offset_bits", cases::kNotReported}, d.interpolation_offset_bits...);
         visit({"mipmap_bits", cases::kNotReported}, d.mipmap_bits...);
         visit({"has_first_strip_order", cases::kNotReported}, d.has_first_strip_order...);
-        visit({"has_conservative", cases::kNotReported}, d.has_conservative...);
-        visit({"has_underestimation", cases::kNotReported}, d.has_underestimation...);
         visit({"rasterizes_degenerates", cases::kNotReported}, d.rasterizes_degenerates...);
         visit({"overestimation", cases::kNotReported}, d.overestimation...);
         visit({"overestimation_step", cases::kNotReported}, d.overestimation_step...);
-        visit({"most_overestimation", cases::kNotReported}, d.most_overestimation...);
         visit({"sample_locations_error", cases::kNotReported}, d.sample_locations_error...);
         visit({"hit_counting", cases::kNotReported}, d.hit_counting...);
         visit({"has_dynamic_rendering", cases::kNotReported}, d.has_dynamic_rendering...);
@@ -124,16 +127,18 @@ using Result = tl::expected<T, Failure>;
 
 // Which renderer, and which of its devices.
 struct RendererOptions {
-    std::string name;         // a row of the table, with choices behind a ':' where it has some
-    std::string device;       // "" = first usable; an index, a part of the name, or a UUID
-    std::string icd_file;     // not empty: the manifest of the driver, and no other
-    bool validation = false;  // what a layer says of the calls ends up in Rendered::messages
-    std::string pinned;       // DeviceInfo::key of the device that the run began with; empty: any
+    std::string renderer;            // a row of the table, with choices behind a ':'; "": the first
+    std::string device;              // "" = first usable; an index, a part of the name, or a UUID
+    std::string icd;                 // not empty: the manifest of the driver, and no other
+    std::string icd_from = "--icd";  // the option or the variable that chose it
+    bool validation = false;         // what a layer says of the calls ends up in Rendered::messages
+    std::string pinned;  // DeviceInfo::key of the device that the run began with; empty: any
     uint64_t longest_wait_ms = 0;  // for what was submitted; 0: without end
     static void fields(auto&& visit, auto&... o) {
-        visit("name", o.name...);
+        visit("renderer", o.renderer...);
         visit("device", o.device...);
-        visit("icd_file", o.icd_file...);
+        visit("icd", o.icd...);
+        visit("icd_from", o.icd_from...);
         visit("validation", o.validation...);
         visit("pinned", o.pinned...);
         visit("longest_wait_ms", o.longest_wait_ms...);
@@ -157,12 +162,85 @@ struct Rendered {
         visit("stray_writes", r.stray_writes...);
     }
 };
+// What came of one case: a picture, or one sentence that says why there is none.
+struct Drawn {
+    std::optional<Capture> picture;
+    std::string why_not;
+};
+// Draws cases with a renderer, wherever that is.
+using Draw = std::function<std::vector<Drawn>(std::vector<cases::Case>)>;
+
 // The capture of a drawn case, wherever its planes lie.
 CaptureView view_of(const Rendered& rendered);
 
 // Memory for the planes of case `slot` of the batch, plane_bytes() long and aligned to 16; empty if
 // they shall lie in Rendered::capture.
 using PlaneStore = std::function<std::span<std::byte>(size_t slot, uint64_t bytes)>;
+
+// Hears the name of each stage of drawing before it starts: "pipeline", "record", "submit",
+// "readback"; again for each part of a batch that is drawn in several.
+using Step = std::function<void(std::string_view)>;
+
+class Renderer {
+  public:
+    Renderer() = default;
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+    virtual ~Renderer() = default;
+
+    virtual const DeviceInfo& device() const = 0;
+
+    // Why the case, through its door, must not be drawn; one sentence, empty if it may be.
+    virtual std::string lacking(const cases::Case& c) const = 0;
+
+    // Draws the cases and reads the planes back, these at least; of no planes the pictures are
+    // drawn and nothing else. Results in the order of the cases: one may be unsupported for a
+    // reason that only drawing tells.
+    virtual std::vector<Rendered> render(std::span<const cases::Case> batch, PlaneSet planes,
+                                         const Step& step, const PlaneStore& store) = 0;
+    std::vector<Rendered> render(std::span<const cases::Case> batch) {
+        return render(batch, kEveryPlane, [](std::string_view) {}, {});
+    }
+};
+
+// A driver on this machine, by its manifest.
+struct Driver {
+    std::string file, library, problem;  // problem: "cannot be read: ..."; empty if there is none
+    std::filesystem::path path;          // of the library, as dlopen takes it
+    static void fields(auto&& visit, auto&... d) {
+        visit("file", d.file...);
+        visit("library", d.library...);
+        visit("problem", d.problem...);
+    }
+};
+// What is there before any driver is loaded.
+struct Installed {
+    std::string chosen_by;  // the option or variable that chose the drivers; empty: none did
+    std::vector<Driver> drivers;
+    std::string problem;           // one sentence if the chosen file is no manifest
+    std::string validation_layer;  // its file; empty: it is missing
+};
+
+// A row of the table of renderers.
+struct RendererKind {
+    std::string_view name;  // for --renderer
+    std::string_view help;
+    Result<std::unique_ptr<Renderer>> (*make)(const RendererOptions&);
+    // The devices of the machine; null: it is the only device of its kind.
+    Result<std::vector<DeviceInfo>> (*list)(const RendererOptions&) = nullptr;
+    // Null: it needs no driver.
+    Installed (*find_drivers)(const RendererOptions&) = nullptr;
+    // What a door needs of a device, beyond what every case needs; null: it has no doors.
+    std::string_view (*needs)(cases::Door) = nullptr;
+    // What is wrong with the choices behind the name and a ':', one sentence, or nothing; null: it
+    // takes none.
+    std::string (*wrong_choices)(std::string_view choices) = nullptr;
+};
+using RendererKinds = std::span<const RendererKind>;
+
+// The kind of that name, whatever choices stand behind it; the first one if it is empty. Nullptr:
+// there is none.
+const RendererKind* find_renderer(RendererKinds kinds, std::string_view name);
 
 }  // namespace capture
 

@@ -56,20 +56,21 @@ bool shows_like(const CaseRecord& record, const Symptom& symptom) {
 }
 
 // The records of candidates, which are drawn under their numbers.
-std::vector<CaseRecord> drawn(const std::vector<Candidate>& candidates, const Draw& draw) {
+std::vector<CaseRecord> drawn(const std::vector<Candidate>& candidates,
+                              const run::DrawAndJudge& draw) {
     std::vector<cases::Case> cases;
     for (const Candidate& candidate : candidates) {
         cases.push_back(candidate.data);
         cases.back().id = std::to_string(cases.size() - 1);
     }
-    return draw(cases);
+    return draw(std::move(cases), {}).records;
 }
 
 // The reduced case once more, now by whichever rule it fails and with what only a suite wants of it
 // left out: a clamped depth is told by another rule than one that is not, and a triangle that must
 // be covered is a second one.
-Document like_failure(const Document& document, const Symptom& symptom, const Draw& draw,
-                      const ReduceOptions& options) {
+Document like_failure(const Document& document, const Symptom& symptom,
+                      const run::DrawAndJudge& draw, const ReduceOptions& options) {
     if (symptom.status != Status::fail) {
         return document;
     }
@@ -109,7 +110,7 @@ Document described(Document document, const Symptom& symptom) {
 }
 
 // What of a document's neighbours passes, in sentences.
-std::vector<std::string> passing(const Document& document, const Draw& draw) {
+std::vector<std::string> passing(const Document& document, const run::DrawAndJudge& draw) {
     constexpr size_t kAtOnce = 64;
     std::vector<Neighbour> all = neighbours(document);
     std::vector<bool> judged(all.size(), false), passes(all.size(), false);
@@ -119,8 +120,9 @@ std::vector<std::string> passing(const Document& document, const Draw& draw) {
             cases.push_back(std::move(all[k].data));
             cases.back().id = std::to_string(k);
         }
-        const std::vector<CaseRecord> records = draw(cases);
-        for (size_t k = 0; k < cases.size(); ++k) {
+        const size_t count = cases.size();
+        const std::vector<CaseRecord> records = draw(std::move(cases), {}).records;
+        for (size_t k = 0; k < count; ++k) {
             passes[begin + k] = records[k].status == Status::pass;
             judged[begin + k] = passes[begin + k] || symptom_of(records[k]).has_value();
         }
@@ -213,8 +215,9 @@ std::string described(const std::string& text, const Symptom& symptom) {
     return document ? to_text(described(*document, symptom)) : text;
 }
 
-std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom, const Draw& draw,
-                                 size_t most_rounds, const std::function<bool()>& is_over) {
+std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom,
+                                 const run::DrawAndJudge& draw, size_t most_rounds,
+                                 const std::function<bool()>& is_over) {
     const auto document = cases::read_toml(text, "reduced");
     const std::optional<cases::Case> original = load_one(text, "original");
     if (!document || !original) {
@@ -259,7 +262,7 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
     }
     // Once more, for what it shows is told.
     const std::optional<cases::Case> smallest = load_one(to_text(reduced.document), "reduced");
-    const CaseRecord last = smallest ? draw({*smallest}).front() : CaseRecord();
+    const CaseRecord last = smallest ? draw({*smallest}, {}).records.front() : CaseRecord();
     Entry entry;
     entry.symptom = symptom;
     // What the reducer brought in, as a constant for values, is no need of the cause.

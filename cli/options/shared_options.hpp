@@ -26,37 +26,36 @@ CLI::Option* add_value(CLI::App* app, const std::string& name, T& target, const 
     return app->add_option(name, target, what)->type_name(type)->group(group);
 }
 
-// An option whose value is one of a few words.
+// An option whose value is one of a few words, or another that `takes_other` takes.
 template <class T>
 CLI::Option* add_choice(CLI::App* app, const std::string& name, T& target,
-                        const std::map<std::string, T>& names, const std::string& what) {
+                        const std::map<std::string, T>& names, const std::string& what,
+                        bool (*takes_other)(const std::string& word, T& target) = nullptr) {
     std::vector<std::string> words;
     for (const auto& [word, value] : names) {
         words.push_back(word);
     }
-    const auto parse = [&target, &names, words, name](const CLI::results_t& results) {
+    const auto parse = [&target, &names, words, name, takes_other](const CLI::results_t& results) {
         const auto found = names.find(results.back());
         if (found == names.end()) {
-            std::string all;
-            for (const std::string& word : words) {
-                all += (all.empty() ? "" : ", ") + word;
+            if (takes_other != nullptr && takes_other(results.back(), target)) {
+                return true;
             }
-            throw CLI::ValidationError(name, "'" + results.back() + "' is none of " + all +
-                                                 cases::did_you_mean(results.back(), words));
+            throw CLI::ValidationError(
+                name, fmt::format("'{}' is none of {}{}", results.back(), fmt::join(words, ", "),
+                                  cases::did_you_mean(results.back(), words)));
         }
         target = found->second;
         return true;
     };
-    std::string shown;
     std::string initial;
     for (const auto& [word, value] : names) {
-        shown += (shown.empty() ? "" : "|") + word;
         if (value == target) {
             initial = word;
         }
     }
     return app->add_option(name, parse, initial.empty() ? what : what + " [" + initial + "]")
-        ->type_name(shown);
+        ->type_name(fmt::format("{}", fmt::join(words, "|")));
 }
 
 // Refuses what is no number of the range, in our own words.
@@ -83,6 +82,8 @@ bool parse_pair(const std::string& text, char separator, uint32_t& a, uint32_t& 
 const std::map<std::string, When>& when_names();
 // What --renderer takes; the options keep a reference to it.
 const std::map<std::string, std::string>& renderer_names();
+// Whether it is one with choices: "software:ties=top-right".
+bool takes_choices(const std::string& words, std::string& renderer);
 
 void add_suite_folder(CLI::App* app, SuiteOptions& o);
 void add_suite(CLI::App* app, SuiteOptions& o);
@@ -91,8 +92,6 @@ void add_case(CLI::App* app, SuiteOptions& o);
 void add_profile(CLI::App* app, cases::Profile& profile);
 void add_fail_at(CLI::App* app, std::optional<cases::Profile>& level);
 void add_judged_device(CLI::App* app, JudgedDevice& device);
-// What add_device adds but for the renderer.
-void add_driver(CLI::App* app, DeviceOptions& o);
 void add_device(CLI::App* app, DeviceOptions& o);
 void add_terminal(CLI::App* app, bool& quiet, bool& verbose, When& color);
 void add_report_files(CLI::App* app, std::string& json, std::string& junit, std::string& html);

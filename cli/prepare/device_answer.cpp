@@ -10,22 +10,10 @@
 
 #include "cases/base/limits.hpp"
 #include "cases/base/printable.hpp"
-#include "run/process/manifest.hpp"
+#include "cli/renderers/renderers.hpp"
 
 namespace cli {
 
-run::WorkerOptions worker_options(const DeviceOptions& options) {
-    run::WorkerOptions worker;
-    worker.renderer.name = options.renderer;
-    worker.renderer.device = options.device;
-    worker.renderer.icd_file = options.icd;
-    worker.renderer.validation = options.validation;
-    return worker;
-}
-
-namespace {
-
-// The first lines of what a worker printed, each for itself.
 std::vector<std::string> printed_lines(const std::string& output) {
     constexpr size_t kMostLines = 20;
     std::vector<std::string> out;
@@ -35,8 +23,6 @@ std::vector<std::string> printed_lines(const std::string& output) {
     }
     return out;
 }
-
-}  // namespace
 
 Stop explain_failure(const capture::Failure& failure, const std::string& output) {
     Stop stop{report::kExitDevice, {cases::printable(failure.message)}};
@@ -70,11 +56,10 @@ Stop explain_death(const run::Death& death) {
 }
 
 OrStop<run::WorkerClient> start_first_worker(const run::LoopConfig& config) {
-    const std::string& icd = config.worker.renderer.icd_file;
-    if (!icd.empty() && config.worker.renderer.name.empty()) {
-        if (const std::string wrong = run::check_manifest(icd, config.icd_from); !wrong.empty()) {
-            return tl::unexpected(Stop{report::kExitDevice, {wrong}});
-        }
+    const capture::RendererOptions& device = config.worker.device;
+    if (std::string wrong = device.icd.empty() ? "" : find_drivers(device).problem;
+        !wrong.empty()) {
+        return tl::unexpected(Stop{report::kExitDevice, {std::move(wrong)}});
     }
     cases::Expected<run::WorkerClient> client =
         run::WorkerClient::start(config.command, config.worker, config.timeout);

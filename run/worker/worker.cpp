@@ -22,7 +22,6 @@
 #include "report/record/run.hpp"
 #include "run/process/frame.hpp"
 #include "run/process/shared_memory.hpp"
-#include "run/worker/backend.hpp"
 #include "run/worker/derived.hpp"
 #include "run/worker/fault.hpp"
 #include "run/worker/message.hpp"
@@ -66,23 +65,20 @@ void print_noise() {
     std::fflush(stdout);
 }
 
-// The first plane of a rendering, wherever it lies: `own` is that of its capture.
-template <class T>
-std::span<T> first_plane(const Rendered& rendered, std::vector<T>& own) {
-    return rendered.placed.empty() ? std::span<T>(own)
-                                   : std::span(reinterpret_cast<T*>(rendered.placed.data()),
-                                               rendered.capture.sample_count());
+// The planes of a rendering, wherever they lie.
+capture::PlaneSpans planes_of(Rendered& rendered) {
+    capture::Capture& own = rendered.capture;
+    return rendered.placed.empty()
+               ? capture::PlaneSpans(own)
+               : capture::planes_at(own.target, own.attribute_count, rendered.placed.data());
 }
 
 // Another colour in the middle of a target that counts no hits, or `skipped` samples after it: the
 // second highest bit of red.
-void flip_color(Rendered& rendered, uint32_t skipped) {
-    const cases::Target& target = rendered.capture.target;
-    // Colours come first where there are no instruments.
-    const std::span codes = first_plane(rendered, rendered.capture.color);
-    if (target.color && !codes.empty()) {
+void flip_color(const capture::PlaneSpans& planes, uint32_t skipped) {
+    if (const std::span codes = planes.color; !codes.empty()) {
         codes[(codes.size() / 2 + skipped) % codes.size()][0] ^=
-            1U << (cases::component_of(target.color->format, 0).bits - 2);
+            1U << (cases::component_of(planes.target.color->format, 0).bits - 2);
     }
 }
 
@@ -100,13 +96,12 @@ std::vector<size_t> drawn_from_the_middle(std::span<const glm::vec4> hits) {
 
 // One hit more at a drawn sample: a double hit.
 void flip_pixel(Rendered& rendered, uint32_t skipped = 0) {
-    if (!rendered.capture.target.has_instruments) {
-        flip_color(rendered, skipped);
-        return;
-    }
-    const std::span hits = first_plane(rendered, rendered.capture.hits);
-    if (const std::vector<size_t> drawn = drawn_from_the_middle(hits); !drawn.empty()) {
-        glm::vec4& hit = hits[drawn[skipped % drawn.size()]];
+    const capture::PlaneSpans planes = planes_of(rendered);
+    const std::vector<size_t> drawn = drawn_from_the_middle(planes.hits);
+    if (!planes.target.has_instruments) {
+        flip_color(planes, skipped);
+    } else if (!drawn.empty()) {
+        glm::vec4& hit = planes.hits[drawn[skipped % drawn.size()]];
         hit.x += 1;
         hit.w += 1;
     }
@@ -114,15 +109,7 @@ void flip_pixel(Rendered& rendered, uint32_t skipped = 0) {
 
 // One more in the first attribute of a drawn sample, or, after all of those, in its FragCoord.x.
 void shift_value(Rendered& rendered, uint32_t skipped) {
-    capture::Capture& own = rendered.capture;
-    if (!own.target.has_instruments) {
-        flip_color(rendered, skipped);
-        return;
-    }
-    const capture::PlaneSpans planes =
-        rendered.placed.empty()
-            ? capture::PlaneSpans(own)
-            : capture::planes_at(own.target, own.attribute_count, rendered.placed.data());
+    const capture::PlaneSpans planes = planes_of(rendered);
     std::vector<float*> values;
     for (const std::span plane : {planes.attributes[0], planes.frag_coord}) {
         for (const size_t at : drawn_from_the_middle(planes.hits)) {
@@ -131,7 +118,9 @@ void shift_value(Rendered& rendered, uint32_t skipped) {
             }
         }
     }
-    if (!values.empty()) {
+    if (!planes.target.has_instruments) {
+        flip_color(planes, skipped);
+    } else if (!values.empty()) {
         *values[skipped % values.size()] += 1;
     }
 }
@@ -151,8 +140,8 @@ std::string frame_of(uint32_t k, RenderedCase drawn, const SharedWriter& shared)
     return encode_frame(FrameType::result, encode_result(result));
 }
 
-void render_batch(Backend& backend, const RenderRequest& request, const std::vector<Fault>& faults,
-                  SharedWriter& shared) {
+void render_batch(capture::Renderer& renderer, const RenderRequest& request,
+                  const std::vector<Fault>& faults, SharedWriter& shared) {
     const auto step = [](std::string_view name) { send(FrameType::step, name); };
     for (const cases::Case& c : request.cases) {
         if (has_fault(faults, FaultKind::noise, c.id)) {
@@ -170,7 +159,7 @@ void render_batch(Backend& backend, const RenderRequest& request, const std::vec
     std::vector<RenderedCase> results;
     try {
         results = render_with_derived(
-            backend, request.cases, step,
+            renderer, request.cases, step,
             [&shared](size_t, uint64_t bytes) { return shared.place(bytes); },
             [&](size_t k, Rendered& derived) {
                 if (has_fault(faults, FaultKind::flip_derived, request.cases[k].id)) {
@@ -229,8 +218,8 @@ void render_batch(Backend& backend, const RenderRequest& request, const std::vec
 // What the device lacks for a case, whose relations name doors only if it is of doors alone
 // (ask_what_is_lacking): it shows nothing on a device that has none of them (lacking_doors in
 // run/judge.cpp says so of a drawn one).
-std::string lacking_of(const Backend& backend, const cases::Case& c) {
-    std::string reason = backend.lacking(c);
+std::string lacking_of(const capture::Renderer& renderer, const cases::Case& c) {
+    std::string reason = renderer.lacking(c);
     if (!reason.empty()) {
         return reason;
     }
@@ -239,7 +228,7 @@ std::string lacking_of(const Backend& backend, const cases::Case& c) {
                             std::any_of(c.relations.begin(), c.relations.end(),
                                         [&](const auto& r) { return r.door == d.variation.door; });
         if (is_own) {
-            const std::string closed = backend.lacking(cases::derive(c, d));
+            const std::string closed = renderer.lacking(cases::derive(c, d));
             if (closed.empty()) {
                 return {};
             }
@@ -249,11 +238,11 @@ std::string lacking_of(const Backend& backend, const cases::Case& c) {
     return reason;
 }
 
-void answer_what_is_lacking(const Backend& backend, const RenderRequest& request) {
+void answer_what_is_lacking(const capture::Renderer& renderer, const RenderRequest& request) {
     for (size_t k = 0; k < request.cases.size(); ++k) {
         CaseResult result;
         result.index = static_cast<uint32_t>(k);
-        result.rendered.reason = lacking_of(backend, request.cases[k]);
+        result.rendered.reason = lacking_of(renderer, request.cases[k]);
         if (!result.rendered.reason.empty()) {
             result.rendered.status = Rendered::Status::unsupported;
         }
@@ -262,19 +251,29 @@ void answer_what_is_lacking(const Backend& backend, const RenderRequest& request
     send(FrameType::batch_done, {});
 }
 
-void answer_list_devices(const WorkerOptions& options) {
-    const capture::Result<std::vector<capture::DeviceInfo>> devices =
-        vk_harness::list_devices(options.renderer);
-    if (devices) {
-        send(FrameType::devices, encode(*devices));
-    } else {
-        send(FrameType::no_device, encode(devices.error()));
+tl::unexpected<capture::Failure> no_device(const std::string& why) {
+    return tl::unexpected(capture::Failure{capture::Stage::device, why, {}, {}, false});
+}
+
+capture::Result<std::vector<capture::DeviceInfo>> list_devices(
+    capture::RendererKinds renderers, const capture::RendererOptions& options) {
+    const capture::RendererKind* const kind = capture::find_renderer(renderers, options.renderer);
+    if (kind == nullptr || kind->list == nullptr) {
+        return no_device("the renderer '" + options.renderer + "' has no list of devices");
     }
+    return kind->list(options);
+}
+
+capture::Result<std::unique_ptr<capture::Renderer>> make_renderer(
+    capture::RendererKinds renderers, const capture::RendererOptions& options) {
+    const capture::RendererKind* const kind = capture::find_renderer(renderers, options.renderer);
+    return kind == nullptr ? no_device("there is no renderer '" + options.renderer + "'")
+                           : kind->make(options);
 }
 
 }  // namespace
 
-int run_worker() {
+int run_worker(capture::RendererKinds renderers) {
     FrameReader reader;
     if (::isatty(kRequestFd) == 1 || ::fcntl(kRequestFd, F_GETFD) < 0 ||
         ::fcntl(kResultFd, F_GETFD) < 0) {
@@ -302,7 +301,7 @@ int run_worker() {
         // stays taken.
         ::dup2(null.get(), kSharedFd);
     }
-    std::unique_ptr<Backend> backend;
+    std::unique_ptr<capture::Renderer> renderer;
     while (std::optional<Frame> frame = receive(reader)) {
         if (frame->type == FrameType::configure) {
             const std::optional<WorkerOptions> decoded = decode<WorkerOptions>(frame->payload);
@@ -311,28 +310,29 @@ int run_worker() {
             }
             options = *decoded;
         } else if (frame->type == FrameType::list_devices) {
-            answer_list_devices(options);
+            const auto devices = list_devices(renderers, options.device);
+            send(devices ? FrameType::devices : FrameType::no_device,
+                 devices ? encode(*devices) : encode(devices.error()));
         } else if (frame->type == FrameType::hello) {
-            capture::Result<std::unique_ptr<Backend>> made = make_backend(options);
+            auto made = make_renderer(renderers, options.device);
             if (has_fault(*faults, FaultKind::no_device, "")) {
-                made = tl::unexpected(capture::Failure{
-                    capture::Stage::device, "no device, on purpose (EDGECASE_FAULT)", {}, {}});
+                made = no_device("no device, on purpose (EDGECASE_FAULT)");
             }
             if (!made) {
                 send(FrameType::no_device, encode(made.error()));
                 continue;
             }
-            backend = std::move(*made);
-            send(FrameType::hello, encode(backend->device()));
-        } else if (frame->type == FrameType::render && backend != nullptr) {
+            renderer = std::move(*made);
+            send(FrameType::hello, encode(renderer->device()));
+        } else if (frame->type == FrameType::render && renderer != nullptr) {
             const std::optional<RenderRequest> request = decode_request(frame->payload);
             if (!request) {
                 return report::kExitInternal;
             }
             if (options.only_asks) {
-                answer_what_is_lacking(*backend, *request);
+                answer_what_is_lacking(*renderer, *request);
             } else {
-                render_batch(*backend, *request, *faults, shared);
+                render_batch(*renderer, *request, *faults, shared);
             }
         } else {
             return report::kExitInternal;

@@ -7,7 +7,7 @@ Each row of that table names a folder, the file to read first, and the folders t
 for all inside it). Checked: every folder with sources has one row; includes follow the rows; the arrows run one way;
 the file to read first exists; libraries stay where they belong; a source is compiled into one library; nothing lists
 the planes of a capture or the fields of a structure a second time; a source has its header, the functions of a class
-have one file, and a command has a file with its name.
+have one file, and a command has a file with its name; identifiers of Vulkan stand in the rooms that draw by it alone.
 
 usage: check_rooms.py SOURCE_DIR [COMPILE_COMMANDS] | --self-test
 """
@@ -46,6 +46,7 @@ TO_MEND = set("""
     vk_harness/pipeline/input_pipeline.cpp vk_harness/pipeline/object_state.cpp vk_harness/pipeline/pipeline_ways.cpp
     vk_harness/plan.cpp vk_harness/renderer.cpp vk_harness/submission.cpp
 """.split())
+FACTORY = "cli/renderers"  # the table of renderers, which alone knows the harness
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^">]+)[">]')
 SUFFIXES = {".cpp", ".hpp", ".js"}
 
@@ -111,6 +112,8 @@ def include_problems(root, table):
                         arrows[folder].add(other)
                     if not table.allows(folder, other):
                         yield f"{relative}:{number}: error: {folder}/ must not include {name}; see docs/design.md"
+                if other.startswith("vk_harness/") and not folder.startswith(("vk_harness", FACTORY)):
+                    yield f"{relative}:{number}: error: {name} may be included in vk_harness/ and {FACTORY}/ alone"
                 for pattern, home in ONLY_IN.items():
                     if re.match(pattern, name) and not (folder + "/").startswith(home + "/"):
                         yield f"{relative}:{number}: error: {name} may be included in {home}/ alone"
@@ -281,12 +284,40 @@ def homeless(root, table):
                         yield f"{name}:{number}: error: this {what}, which is done in {', '.join(sorted(homes))} alone"
 
 
+# Vulkan's words are the harness's, the shaders' and the reproducer's C program's: in code, or as a whole literal (the
+# name of a variable, of a file). Sentences quote them; rules and statements name them as anchors of the specification.
+API_ROOMS = ("vk_harness/", "shaders/", "cli/reproducer/")
+API_ANCHORS = ("cases/model/rule.cpp", "cases/statement/")
+API_WORD = re.compile(r"\b(?:vk[A-Z]|Vk[A-Z]|VK_[A-Z]|PFN_|volk|[Ss]pirv|SPIRV|Spv[A-Z])\w*")
+CODE = re.compile(r'"((?:[^"\\\n]|\\.)*)"|//[^\n]*|/\*.*?\*/', re.S)
+
+
+def api_words(root, table):
+    """Identifiers of the API in rooms that know none."""
+    for room in sorted(table.rooms):
+        for path in sources(root, room):
+            name = str(path.relative_to(root))
+            if name.startswith(API_ROOMS):
+                continue
+
+            def without_sentences(match):
+                literal = match.group(1) or ""
+                is_word = API_WORD.fullmatch(literal) and not name.startswith(API_ANCHORS)
+                return literal if is_word else "\n" * match.group(0).count("\n")
+
+            code = CODE.sub(without_sentences, path.read_text(errors="replace"))
+            for number, line in enumerate(code.splitlines(), 1):
+                for word in API_WORD.findall(line):
+                    yield f"{name}:{number}: error: {word} is an identifier of the API, which {room}/ does not know"
+
+
 def problems(root: pathlib.Path, commands=None):
     table = Table(root)
     yield from folder_problems(root, table)
     yield from include_problems(root, table)
     yield from second_lists(root, table)
     yield from homeless(root, table)
+    yield from api_words(root, table)
     yield from home_problems(root, table)
     yield from command_problems(root)
     if commands:
@@ -318,10 +349,28 @@ def plant_unity(root):
 
 
 # What is planted -> the words of the complaint.
+def plant_harness(root: pathlib.Path):
+    """A room that takes the harness, and writes that into its row."""
+    design = root / "docs/design.md"
+    design.write_text(re.sub(r"^(\| `probe/base/` \|.*) \|$", r"\1, `vk_harness/public` |", design.read_text(), flags=re.M))
+    plant(root, "probe/base/bench.hpp", '#include "vk_harness/public/harness.hpp"\n')
+
+
 PLANTED = {
     "an arrow back inside ref/": (
         lambda root: plant(root, "ref/number/rational.hpp", '#include "ref/value/reference.hpp"\n'),
         ["ref/number/ must not include ref/value/reference.hpp", "folders include each other"],
+    ),
+    "identifiers of the API in rooms that are neutral": (
+        lambda root: plant(root, "run/judge.cpp", "// vkCmdDraw as a word of a sentence\nint f(VkFormat format);\n"
+                                                  'const char* const kVariable = "VK_DRIVER_FILES";\n'
+                                                  'const char* const kSentence = "as vkCmdDraw draws it";\n'),
+        ["VkFormat is an identifier of the API, which run/ does not know",
+         "VK_DRIVER_FILES is an identifier of the API, which run/ does not know"],
+    ),
+    "the harness outside the table of renderers, though a row allows it": (
+        plant_harness,
+        ["vk_harness/public/harness.hpp may be included in vk_harness/ and cli/renderers/ alone"],
     ),
     "Vulkan outside vk_harness/": (
         lambda root: plant(root, "diff/verdict.hpp", "#include <vulkan/vulkan.h>\n"),
