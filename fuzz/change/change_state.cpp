@@ -325,9 +325,8 @@ Words change_state(Document& document, Dice& dice, const Document* other) {
            : kind < 20 ? change_draws(document, dice, other)
            : kind < 21 ? change_bounds(document, dice)
            : kind < 22 ? change_frag_depth(document, dice)
-           : kind < 23 ? change_logic(document, dice)
-           : kind < 24 ? change_query(document, dice)
-           : kind < 25 ? change_alpha(document, dice)
+           : kind < 24 ? change_codes(document, dice)
+           : kind < 25 ? change_query(document, dice)
            : kind < 26 ? change_fragment_size(document, dice)
                        : change_stencil(document, dice);
 }

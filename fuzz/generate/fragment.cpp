@@ -84,8 +84,8 @@ std::string bias_of(const Pose& pose, Dice& turn, Dice& control) {
         parts.push_back(fmt::format("clamp = {}", turn.fraction(-8, 8, 64)));
     }
     if (has_constant && control.one_in(4)) {
-        constexpr std::array<std::string_view, 3> kOfR = {"format", "force-unorm", "float"};
-        const std::string_view representation = control.of(kOfR);
+        const std::string_view representation =
+            control.of(cases::kWords<cases::DepthBiasRepresentation>);
         if (representation != "format") {
             parts.push_back(fmt::format("representation = \"{}\"", representation));
         }

@@ -9,14 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "cases/model/words.hpp"
+
 namespace fuzz {
 
 namespace {
-
-constexpr std::array<std::string_view, 8> kOps = {
-    "keep",   "zero",           "replace",        "increment-clamp", "decrement-clamp",
-    "invert", "increment-wrap", "decrement-wrap",
-};
 
 // Values near the ends of a byte, and near what the first operations leave, come more often.
 uint32_t near_value(uint32_t clear, Dice& dice) {
@@ -56,7 +53,7 @@ std::vector<std::string> face_keys(const Pose& pose, size_t number, uint32_t cle
         key("pass", counts);
     } else {
         for (const std::string_view outcome : {"fail", "depth_fail", "pass"}) {
-            key(outcome, turn.of(kOps));
+            key(outcome, turn.of(cases::kWords<cases::StencilOp>));
         }
     }
     keys.push_back(fmt::format("reference = {}", near_value(clear, dice)));
