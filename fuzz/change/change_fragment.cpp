@@ -19,13 +19,6 @@ namespace fuzz {
 
 namespace {
 
-template <class Change>
-void for_each_draw(Document& document, Change&& change) {
-    if (Document* draws = find(document, "draw")) {
-        std::ranges::for_each(draws->array, change);
-    }
-}
-
 void add_number(const Document* value, std::vector<double>& all) {
     if (const auto number = value == nullptr ? std::nullopt : value_of(*value);
         number && *number >= 0 && *number <= 1) {

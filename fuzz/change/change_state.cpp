@@ -155,19 +155,10 @@ Words remove_key(Document& document, Dice& dice) {
     if (key == "vertices" || key == "size" || key == "values" || key == "space") {
         return {};
     }
-    erase(*in, key);
     if (key == "color") {  // of the target or of a draw: neither goes without the other
-        if (Document* target = find(document, "target")) {
-            erase(*target, "color");
-            erase(*target, "judged");
-            erase(*target, "attachments");
-            erase(*target, "resolve");
-        }
-        if (Document* draws = find(document, "draw")) {
-            for (Document& draw : draws->array) {
-                erase(draw, "color");
-            }
-        }
+        erase_color(document);
+    } else {
+        erase(*in, key);
     }
     return fmt::format("{}without {}", words, key);
 }
