@@ -167,11 +167,7 @@ bool without_attribute(Document& document, size_t draw, size_t attribute) {
 
 void add_feature(const std::string& words, std::function<bool(Document&)> apply,
                  std::vector<Step>& steps) {
-    Step step;
-    step.words = words;
-    step.need = "not " + words;
-    step.apply = std::move(apply);
-    steps.push_back(std::move(step));
+    steps.push_back({.words = words, .need = "not " + words, .apply = std::move(apply)});
 }
 
 void add_input(const Document& document, size_t draw, std::string_view of, size_t k,
