@@ -43,8 +43,8 @@ enum class Phase : uint8_t { in_place, removal, reshape, draws, target };
 struct Step {
     Stage stage = Stage::draws;
     Phase phase = Phase::in_place;
-    std::string words;  // "draw 0 without scissor"
-    std::string need;   // "not without scissor in draw 0", or nothing
+    std::string words = {};  // "draw 0 without scissor"
+    std::string need = {};   // "not without scissor in draw 0", or nothing
     // What a removal removes: elements [begin, end) of list `of` in that draw.
     size_t draw = 0, begin = 0, end = 0;
     std::string_view of = {};
