@@ -14,7 +14,7 @@
 
 namespace cases {
 
-// What they are computed from: the vertices after mirror, rotate and offset.
+// The vertices after mirror, rotate and offset, from which values are computed.
 struct AttributeSource {
     const std::vector<ExactVertex>& vertices;
     Space space;
@@ -24,7 +24,7 @@ struct AttributeSource {
     const Target& target;
 };
 
-// What one of them may be.
+// The numbers that are allowed.
 struct ValueRule {
     std::string what;     // "an attribute", in errors
     bool is_one = false;  // one finite number a vertex; else one to four, nan and inf among them

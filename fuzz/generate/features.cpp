@@ -7,7 +7,7 @@ namespace fuzz {
 
 namespace {
 
-// The words of a key behind what stands for its absence, if no word does.
+// The words of a key, behind a word for its absence if none of them is.
 std::vector<std::string_view> words(const cases::KeyTable& keys, std::string_view name,
                                     std::string_view absent = {}) {
     const cases::Key* key = keys.find(name);

@@ -45,7 +45,7 @@ std::optional<Document> applied(const Step& step, const Document& document, cons
     return after;
 }
 
-// A step and what it leads to, if that is taken. The document is made again when it is wanted:
+// A step and the case that it leads to. The document is made again when it is wanted:
 // those of large cases are many times as large as their texts.
 struct Stepped {
     const Step* step = nullptr;

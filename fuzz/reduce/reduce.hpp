@@ -28,7 +28,7 @@ struct Simpler {
 // does not load, stays the same text or is no simpler by measure.hpp is left out.
 std::vector<Simpler> simpler(const Document& document);
 
-// What may show the finding still: a case, and the text of its file.
+// A case that may show the finding still, and the text of its file.
 struct Candidate {
     std::string text;
     cases::Case data;
