@@ -121,6 +121,9 @@ class LeafContext {
     // An array of numbers, exactly `count` of them.
     std::optional<std::vector<Number>> numbers(const TomlValue& value, const std::string& what,
                                                size_t count);
+    // An array of two numbers of 0..1; `each` names one in errors.
+    std::optional<std::array<float, 2>> depths(const TomlValue& value, const std::string& what,
+                                               const char* each);
     // Rounded to the nearest binary32; too large ones are an error.
     std::optional<float> binary32(const TomlValue& value, const std::string& what);
     std::optional<float> binary32(const Number& n, const SourceLocation& where,

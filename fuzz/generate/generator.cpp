@@ -109,10 +109,12 @@ class CaseWriter {
     void line(fmt::format_string<Args...> format, Args&&... args) {
         text_ += fmt::format(format, std::forward<Args>(args)...) + '\n';
     }
-    // A key that is a feature: its word is the feature's value.
+    // A key that is a feature: its word is the feature's value, or it is true.
     void word(std::string_view key) {
+        const std::string_view value = pose_.value(key);
         if (!pose_.is_default(key)) {
-            line("{} = \"{}\"", key, pose_.value(key));
+            const std::string_view quote = value == "true" ? "" : "\"";
+            line("{} = {}{}{}", key, quote, value, quote);
         }
     }
 
@@ -141,8 +143,8 @@ class CaseWriter {
         }
         word("resolve");
         word("depth_resolve");
+        word("stencil");
         if (!pose_.is_default("stencil")) {
-            line("stencil = true");
             stencil_clear_ = stencil_clear_of(pose_, dice_);
             if (stencil_clear_ != 0) {
                 line("stencil_clear = {}", stencil_clear_);
@@ -203,9 +205,7 @@ class CaseWriter {
         if (number == 0 && !pose_.is_default("rasterizer_discard")) {
             line("rasterizer_discard = true");
         }
-        if (!pose_.is_default("early_tests")) {
-            line("early_tests = true");
-        }
+        word("early_tests");
         if (const std::string query = query_of(pose_, number, draws_, turn_); !query.empty()) {
             line("query = \"{}\"", query);
         }

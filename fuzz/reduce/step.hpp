@@ -75,6 +75,9 @@ size_t draw_count(const Document& document);
 Document* draw_at(Document& document, size_t draw);
 // The words and the need of a step in a draw; a draw that is alone is not named.
 void name_in_draw(const Document& document, size_t draw, const std::string& what, Step& step);
+// Appends a step of a draw.
+Step& add_in_draw(const Document& document, size_t draw, const std::string& what,
+                  std::function<bool(Document&)> apply, std::vector<Step>& steps);
 
 // Halves, quarters, ... and single ones of `count` things as [begin, end), the largest first; not
 // all of them at once.

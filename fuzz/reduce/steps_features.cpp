@@ -173,15 +173,11 @@ void add_feature(const std::string& words, std::function<bool(Document&)> apply,
 void add_input(const Document& document, size_t draw, std::string_view of, size_t k,
                const std::string& words, std::function<bool(Document&)> apply,
                std::vector<Step>& steps) {
-    Step step;
+    Step& step = add_in_draw(document, draw, words, std::move(apply), steps);
     step.phase = Phase::removal;
-    name_in_draw(document, draw, words, step);
-    step.draw = draw;
     step.begin = k;
     step.end = k + 1;
     step.of = of;
-    step.apply = std::move(apply);
-    steps.push_back(std::move(step));
 }
 
 }  // namespace
