@@ -55,21 +55,15 @@ bool shows_like(const CaseRecord& record, const Symptom& symptom) {
                        });
 }
 
-// The cases of the texts that are one, and their numbers among the texts.
-std::pair<std::vector<cases::Case>, std::vector<size_t>> load_all(
-    const std::vector<std::string>& texts) {
-    std::pair<std::vector<cases::Case>, std::vector<size_t>> all;
-    for (size_t k = 0; k < texts.size(); ++k) {
-        if (std::optional<cases::Case> c = load_one(texts[k], std::to_string(k))) {
-            all.first.push_back(std::move(*c));
-            all.second.push_back(k);
-        }
+// The records of candidates, which are drawn under their numbers.
+std::vector<CaseRecord> drawn(const std::vector<Candidate>& candidates,
+                              const run::DrawAndJudge& draw) {
+    std::vector<cases::Case> cases;
+    for (const Candidate& candidate : candidates) {
+        cases.push_back(candidate.data);
+        cases.back().id = std::to_string(cases.size() - 1);
     }
-    return all;
-}
-
-std::vector<CaseRecord> records_of(const run::DrawAndJudge& draw, std::vector<cases::Case> cases) {
-    return cases.empty() ? std::vector<CaseRecord>() : draw(std::move(cases), {}).records;
+    return draw(std::move(cases), {}).records;
 }
 
 // The reduced case once more, now by whichever rule it fails and with what only a suite wants of it
@@ -80,12 +74,11 @@ Document like_failure(const Document& document, const Symptom& symptom,
     if (symptom.status != Status::fail) {
         return document;
     }
-    const Shows shown = [&](const std::vector<std::string>& texts) {
-        std::vector<bool> out(texts.size(), false);
-        const auto [cases, of] = load_all(texts);
-        const std::vector<CaseRecord> records = records_of(draw, cases);
-        for (size_t k = 0; k < of.size(); ++k) {
-            out[of[k]] = shows_like(records[k], symptom);
+    const Shows shown = [&](const std::vector<Candidate>& candidates) {
+        const std::vector<CaseRecord> records = drawn(candidates, draw);
+        std::vector<bool> out;
+        for (const CaseRecord& record : records) {
+            out.push_back(shows_like(record, symptom));
         }
         return out;
     };
@@ -96,7 +89,7 @@ Document like_failure(const Document& document, const Symptom& symptom,
 // else some rule that it does exercise.
 Document described(Document document, const Symptom& symptom) {
     set(document, "description", text("A device showed here: " + to_text(symptom) + "."));
-    const std::optional<cases::Case> c = load_one(to_text(document), "described");
+    const std::optional<cases::Case> c = load_one(document, "described");
     if (!c) {
         return document;
     }
@@ -119,21 +112,19 @@ Document described(Document document, const Symptom& symptom) {
 // What of a document's neighbours passes, in sentences.
 std::vector<std::string> passing(const Document& document, const run::DrawAndJudge& draw) {
     constexpr size_t kAtOnce = 64;
-    const std::vector<Neighbour> all = neighbours(document);
+    std::vector<Neighbour> all = neighbours(document);
     std::vector<bool> judged(all.size(), false), passes(all.size(), false);
     for (size_t begin = 0; begin < all.size(); begin += kAtOnce) {
         std::vector<cases::Case> cases;
-        std::vector<size_t> of;
         for (size_t k = begin; k < std::min(begin + kAtOnce, all.size()); ++k) {
-            if (std::optional<cases::Case> c = load_one(all[k].text, std::to_string(k))) {
-                cases.push_back(std::move(*c));
-                of.push_back(k);
-            }
+            cases.push_back(std::move(all[k].data));
+            cases.back().id = std::to_string(k);
         }
-        const std::vector<CaseRecord> records = records_of(draw, cases);
-        for (size_t k = 0; k < of.size(); ++k) {
-            passes[of[k]] = records[k].status == Status::pass;
-            judged[of[k]] = passes[of[k]] || symptom_of(records[k]).has_value();
+        const size_t count = cases.size();
+        const std::vector<CaseRecord> records = draw(std::move(cases), {}).records;
+        for (size_t k = 0; k < count; ++k) {
+            passes[begin + k] = records[k].status == Status::pass;
+            judged[begin + k] = passes[begin + k] || symptom_of(records[k]).has_value();
         }
     }
     return sentences(all, judged, passes);
@@ -237,24 +228,24 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
     std::set<std::string> unsupported;  // texts that the device cannot draw
     bool has_died = false;              // the last of what was drawn, in place of the symptom
     const auto is_at_end = [&] { return is_over && is_over(); };
-    const Shows shown = [&](const std::vector<std::string>& texts) {
-        std::vector<bool> out(texts.size(), false);
-        const auto [cases, of] = load_all(texts);
-        const std::vector<CaseRecord> records = records_of(draw, cases);
-        for (size_t k = 0; k < of.size() && !is_at_end(); ++k) {
+    const Shows shown = [&](const std::vector<Candidate>& candidates) {
+        std::vector<bool> out(candidates.size(), false);
+        const std::vector<CaseRecord> records = drawn(candidates, draw);
+        for (size_t k = 0; k < out.size() && !is_at_end(); ++k) {
             if (records[k].status == Status::unsupported) {
-                unsupported.insert(texts[of[k]]);
+                unsupported.insert(candidates[k].text);
             }
             has_died = symptom.status == Status::fail && (records[k].status == Status::crash ||
                                                           records[k].status == Status::timeout ||
                                                           records[k].status == Status::device_lost);
-            out[of[k]] = shows(records[k], symptom) && (!sound_at || is_sound(cases[k], *sound_at));
+            out[k] = shows(records[k], symptom) &&
+                     (!sound_at || is_sound(candidates[k].data, *sound_at));
         }
         return out;
     };
     // A worker may die for another reason, and a death says nothing of a wrong picture.
     constexpr int kMostDeaths = 3;
-    for (int deaths = 0; !shown({to_text(*document)}).front(); ++deaths) {
+    for (int deaths = 0; !shown({{to_text(*document), *original}}).front(); ++deaths) {
         if (!has_died || deaths == kMostDeaths || is_at_end()) {
             return std::nullopt;
         }
@@ -271,7 +262,7 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
     }
     // Once more, for what it shows is told.
     const std::optional<cases::Case> smallest = load_one(to_text(reduced.document), "reduced");
-    const CaseRecord last = smallest ? records_of(draw, {*smallest}).front() : CaseRecord();
+    const CaseRecord last = smallest ? draw({*smallest}, {}).records.front() : CaseRecord();
     Entry entry;
     entry.symptom = symptom;
     // What the reducer brought in, as a constant for values, is no need of the cause.

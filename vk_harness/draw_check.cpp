@@ -206,9 +206,14 @@ std::optional<Rejection> check_draw(const Capabilities& c, const cases::Draw& dr
         return unsupported("a draw has {} vertices, the harness tells {} apart",
                            std::max(vertices, elements), kMaxId - 1);
     }
-    if (draw.primitive_restart &&
-        (!draw.indices || draw.topology == cases::Topology::triangle_list)) {
-        return invalid("primitive restart needs indices and a strip or a fan");
+    if (draw.primitive_restart && !draw.indices) {
+        return invalid("primitive restart needs indices");
+    }
+    if (draw.primitive_restart && draw.topology == cases::Topology::triangle_list &&
+        !c.list_restart) {
+        return unsupported(
+            "the device lacks the feature primitiveTopologyListRestart "
+            "(VK_EXT_primitive_topology_list_restart)");
     }
     if (draw.indices) {
         for (const uint32_t index : *draw.indices) {

@@ -162,6 +162,8 @@ void query_optional_features(Capabilities& c) {
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_ENABLE_FEATURES_EXT};
     VkPhysicalDeviceFragmentShaderBarycentricFeaturesKHR barycentric =
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADER_BARYCENTRIC_FEATURES_KHR};
+    VkPhysicalDevicePrimitiveTopologyListRestartFeaturesEXT restart =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PRIMITIVE_TOPOLOGY_LIST_RESTART_FEATURES_EXT};
     VkPhysicalDeviceFeatures2 features = Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
     if (c.api_version >= VK_API_VERSION_1_2) {
         chain(features, features12);
@@ -177,6 +179,7 @@ void query_optional_features(Capabilities& c) {
     const bool is_subset = ask(VK_KHR_PORTABILITY_SUBSET_EXTENSION_NAME, portability);
     ask(VK_KHR_FRAGMENT_SHADER_BARYCENTRIC_EXTENSION_NAME, barycentric);
     ask(VK_EXT_DEPTH_CLIP_ENABLE_EXTENSION_NAME, depth_clip);
+    ask(VK_EXT_PRIMITIVE_TOPOLOGY_LIST_RESTART_EXTENSION_NAME, restart);
     vkGetPhysicalDeviceFeatures2(c.physical, &features);
     if (is_subset) {
         c.portability = portability_support(portability);
@@ -192,6 +195,7 @@ void query_optional_features(Capabilities& c) {
     c.precise_queries = features.features.occlusionQueryPrecise == VK_TRUE;
     c.pipeline_statistics = features.features.pipelineStatisticsQuery == VK_TRUE;
     c.depth_clip_enable = depth_clip.depthClipEnable == VK_TRUE;
+    c.list_restart = restart.primitiveTopologyListRestart == VK_TRUE;
     c.depth_bias = query_depth_bias_support(c.physical, has_device_extension);
     c.has_sample_shading = features.features.sampleRateShading == VK_TRUE;
     query_sample_locations(c);

@@ -76,6 +76,7 @@ struct Capabilities {
     // D24_UNORM_S8_UINT ("Required Format Support").
     cases::DepthFormat beside_stencil = cases::DepthFormat::d32_float;
     bool depth_clamp = false, depth_bias_clamp = false, depth_clip_enable = false;
+    bool list_restart = false;  // primitiveTopologyListRestart
     bool depth_bounds = false;
     bool logic_op = false;
     bool alpha_to_one = false;

@@ -120,6 +120,9 @@ Device Device::create(const Capabilities& capabilities) {
     VkPhysicalDeviceDepthClipEnableFeaturesEXT depth_clip =
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_ENABLE_FEATURES_EXT};
     depth_clip.depthClipEnable = VK_TRUE;
+    VkPhysicalDevicePrimitiveTopologyListRestartFeaturesEXT restart =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PRIMITIVE_TOPOLOGY_LIST_RESTART_FEATURES_EXT};
+    restart.primitiveTopologyListRestart = VK_TRUE;
     VkPhysicalDeviceFeatures2 features = Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
     if (capabilities.api_version >= VK_API_VERSION_1_2) {
         features.pNext = &features12;
@@ -136,6 +139,9 @@ Device Device::create(const Capabilities& capabilities) {
     }
     if (capabilities.depth_clip_enable) {
         enable(VK_EXT_DEPTH_CLIP_ENABLE_EXTENSION_NAME, depth_clip);
+    }
+    if (capabilities.list_restart) {
+        enable(VK_EXT_PRIMITIVE_TOPOLOGY_LIST_RESTART_EXTENSION_NAME, restart);
     }
     if (capabilities.location_counts != 0) {
         extensions.push_back(VK_EXT_SAMPLE_LOCATIONS_EXTENSION_NAME);
