@@ -18,14 +18,14 @@
 #include "cli/bench/clock.hpp"
 #include "cli/commands.hpp"
 #include "cli/diagnose.hpp"
+#include "cli/prepare/command_lines.hpp"
 #include "cli/prepare/expectations.hpp"
 #include "cli/prepare/loop_config.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/prepare_run.hpp"
+#include "cli/prepare/run_console.hpp"
 #include "cli/prepare/run_plan.hpp"
 #include "report/journal/journal.hpp"
-#include "report/text/sentences.hpp"
-#include "report/text/unexpected.hpp"
 #include "run/judge.hpp"
 #include "run/process/pool.hpp"
 #include "run/process/signal_fd.hpp"
@@ -231,7 +231,7 @@ report::Run make_header(const Program& program, const DiffOptions& options,
     header.device.depth_beside_stencil = options.judged.depth_beside_stencil;
     header.device.has_primitive_id = true;
     for (const cases::Case& c : selection.cases) {
-        header.cases.push_back(run::make_record(c));
+        header.cases.push_back(run::planned_case(c));
         header.cases.back().rerun = diff_line(program, options, c.id);
     }
     header.sources = sources_of(header.cases);
@@ -253,8 +253,8 @@ void settle(CaseRecord& record, const ExpectedById& expected, bool requires_supp
 std::string skipped_text(const std::map<std::string, size_t>& skipped) {
     std::string text;
     for (const auto& [word, count] : skipped) {
-        text += (text.empty() ? "not judged: " : ", ") + word + " in " + std::to_string(count) +
-                (count == 1 ? " case" : " cases");
+        text +=
+            (text.empty() ? "not judged: " : ", ") + word + " in " + cases::counted(count, "case");
     }
     return text.empty() ? text : text + "\n";
 }
@@ -295,37 +295,22 @@ int diff_command(const Program& program, const DiffOptions& given) {
         return report_stop(journal.error());
     }
     remove_reports({folder, o.json, o.junit, o.html});
-    std::FILE* console = console_beside(o.json, o.junit, o.html);
-    report::ConsoleStyle style = console_style(console, o.color, o.verbose);
-    style.folder = shell_quote(folder.string());
-    style.quiet = o.quiet;
-    if (!o.quiet) {
-        std::fputs((report::console_header(header, style) + *left_out).c_str(), console);
-        std::fflush(console);
+    std::vector<std::string> ids;
+    for (const cases::Case& c : selection->cases) {
+        ids.push_back(c.id);
     }
-
+    RunConsole console(o, folder, ids, ids.size());
+    console.begin(header, *left_out);
     run::SignalFd::set_last_words(cases::printable(
         fmt::format("interrupted, and no reports were written within a second; have them by "
                     "'edgecase report {}'",
-                    style.folder)));
+                    console.style().folder)));
     const Clock::time_point begin = Clock::now();
     Work work{options, {}};
     work.limits = limits_of(options.judged);
     std::map<std::string, size_t> skipped;
     std::string failure;
     size_t done = 0;
-    Progress progress(o.quiet ? ProgressStyle::none : o.progress, selection->cases.size());
-    std::vector<std::string> ids;
-    for (const cases::Case& c : selection->cases) {
-        ids.push_back(c.id);
-    }
-    report::UnexpectedResults unexpected(ids, style);
-    const auto print = [&](const std::string& text) {
-        if (!text.empty()) {
-            progress.clear();
-            std::fputs(text.c_str(), console);
-        }
-    };
     std::vector<std::vector<std::string>> not_judged(selection->cases.size());
     run::Pool pool(cases::cores());
     for (size_t k = 0; k < selection->cases.size(); ++k) {
@@ -333,11 +318,7 @@ int diff_command(const Program& program, const DiffOptions& given) {
         CaseRecord& record = header.cases[k];
         const auto finish = [&, k] {
             settle(record, *expected, o.require_support);
-            if (!record.outcome.findings.empty()) {
-                record.commands.explain =
-                    explain_line(program, o, record.id, options.judged) +
-                    report::sample_options(report::leading_finding(record), c.target);
-            }
+            record.commands.explain = explain_line(program, o, options.judged, c, record);
             if (auto written = journal->write_end(record); !written && failure.empty()) {
                 failure = written.error().message;
             }
@@ -345,7 +326,7 @@ int diff_command(const Program& program, const DiffOptions& given) {
                 ++skipped[word];
             }
             ++done;
-            print(unexpected.add(record));
+            console.add(record);
             record.evidence.pictures = {};
             record.outcome.findings.clear();
         };
@@ -363,10 +344,9 @@ int diff_command(const Program& program, const DiffOptions& given) {
         ::poll(fds.data(), fds.size(), 200);
         header.interrupted = signals.has_come();
         pool.collect();
-        progress.show(done, unexpected.count());
+        console.show(done);
     }
-    progress.clear();
-    print(unexpected.rest());
+    console.end();
     header.ended = utc_now(false);
     header.seconds = seconds_since(begin);
     if (auto written = journal->write_stop(header); !written && failure.empty()) {
@@ -382,7 +362,7 @@ int diff_command(const Program& program, const DiffOptions& given) {
             keep_diagnoses(run, *journal);
         };
     }
-    return conclude(folder, o, Ci::none, console, style, ending);
+    return conclude(folder, o, Ci::none, console.file(), console.style(), ending);
 }
 
 }  // namespace cli

@@ -72,8 +72,8 @@ class FuzzCommand {
             return report_stop(started.error());
         }
         run::LoopConfig config = loop_config(program_, options_.run);
-        config.pictures = run::KeepPictures::symptoms;
-        config.profile = ledger_.profile;
+        config.judging.pictures = run::KeepPictures::symptoms;
+        config.judging.profile = ledger_.profile;
         config.schedule.retries = 0;  // a reduction begins with drawing the case again
         run::SignalFd signals;
         OrStop<ReadyWorker> first = ready_first_worker(config, signals);

@@ -63,12 +63,12 @@ OrStop<probe::Datasheet> measure(const Program& program, const ProbeOptions& opt
         failure = pictures.failure;
         return std::move(pictures.pictures);
     };
-    probe::Datasheet sheet =
-        probe::measure(draw, {config.limits, device.max_target_size, device.has_primitive_id},
-                       [&](std::string_view what) {
-                           progress.show_words(fmt::format("measuring {}", what));
-                           return !is_interrupted && failure.empty();
-                       });
+    probe::Datasheet sheet = probe::measure(
+        draw, {config.judging.limits, device.max_target_size, device.has_primitive_id},
+        [&](std::string_view what) {
+            progress.show_words(fmt::format("measuring {}", what));
+            return !is_interrupted && failure.empty();
+        });
     progress.clear();
     if (is_interrupted) {
         return tl::unexpected(

@@ -33,7 +33,7 @@ constexpr size_t kMostRounds = 2000;
 OrStop<run::Session> start_session(const Program& program, const RunOptions& options,
                                    run::SignalFd& signals) {
     run::LoopConfig config = loop_config(program, options);
-    config.pictures = run::KeepPictures::symptoms;
+    config.judging.pictures = run::KeepPictures::symptoms;
     config.schedule.retries = 0;
     OrStop<ReadyWorker> first = ready_first_worker(config, signals);
     if (!first) {

@@ -131,7 +131,7 @@ int report_command(const Program& program, const ReportOptions& options) {
     const report::Run& run = source->run;
     const ReportFiles files{source->folder, options.json, options.junit, options.html};
     Progress progress(options.quiet ? ProgressStyle::none : ProgressStyle::automatic, 0);
-    cases::Errors errors = write_reports(run, files, progress);
+    auto [errors, page] = write_reports(run, files, progress);
     progress.clear();
     std::FILE* console = console_beside(options.json, options.junit, options.html);
     report::ConsoleStyle style = console_style(console, options.color, options.verbose);
@@ -160,8 +160,7 @@ int report_command(const Program& program, const ReportOptions& options) {
         if (failed) {
             exit = report::exit_text(report::kExitInternal, "a report could not be written");
         }
-        std::fputs(report::console_summary(run, written_page(files, errors), style, exit).c_str(),
-                   console);
+        std::fputs(report::console_summary(run, page, style, exit).c_str(), console);
         std::fflush(console);
     }
     print_errors(errors);

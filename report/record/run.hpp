@@ -177,7 +177,7 @@ struct Drawn {
 };
 
 // How the worker ended that drew a case.
-struct Death {
+struct WorkerEnd {
     std::string step;    // its last one ("submit", ...)
     std::string signal;  // "SIGSEGV", ... of a crash
     // Of a death that no case repeated alone, and that is charged to this one as a flake: the cases
@@ -208,11 +208,13 @@ struct Evidence {
 
 // A case with its end.
 struct CaseRecord : PlannedCase {
+    CaseRecord() = default;
+    CaseRecord(PlannedCase planned) : PlannedCase(std::move(planned)) {}
     Status status = Status::not_run;
     std::string reason;  // why unsupported, skipped, error, lost, crashed; one sentence
     Known known;
     Drawn drawn;
-    Death death;
+    WorkerEnd death;
     diff::Outcome outcome;
     Commands commands;
     Evidence evidence;

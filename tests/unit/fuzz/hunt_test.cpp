@@ -47,7 +47,7 @@ struct Device {
         run::Session::Results results;
         bool goes_on = true;
         for (const cases::Case& c : cases) {
-            results.records.push_back(run::make_record(c));
+            results.records.push_back(run::planned_case(c));
         }
         for (size_t k = cases.size(); k-- > 0;) {
             results.interrupted = drawn.size() >= interrupted_at;
