@@ -112,7 +112,7 @@ class Hunt {
     struct Open {
         Waiting waiting;
         std::string text;
-        std::set<std::string> facts;
+        Facts facts;
         std::optional<size_t> entry;  // that explains the gravest symptom of those explained
         bool is_unrepeated = false;
     };

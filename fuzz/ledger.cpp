@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "cases/base/input_file.hpp"
@@ -42,8 +43,10 @@ Json to_json(const Entry& entry) {
             {"is_minimal", entry.is_minimal},
             {"first_case", entry.first_case},
             {"count", entry.count},
-            {"essentials", entry.essentials},
+            {"essentials", to_texts(entry.essentials)},
             {"needs", entry.needs},
+            {"needs_format", entry.needs_format},
+            {"overflows", entry.overflows},
             {"undrawn", entry.undrawn},
             {"passes", entry.passes},
             {"bug", entry.bug},
@@ -101,8 +104,14 @@ Entry entry_of(const Json& json, const fs::path& folder) {
     entry.is_minimal = json.at("is_minimal");
     entry.first_case = json.at("first_case");
     entry.count = json.at("count");
-    entry.essentials = json.at("essentials").get<std::set<std::string>>();
+    entry.essentials = parse_essentials(json.at("essentials").get<std::set<std::string>>());
     entry.needs = json.at("needs").get<std::vector<std::string>>();
+    // Older hunts say in words alone that a case needs its format.
+    entry.needs_format =
+        json.value("needs_format", std::ranges::any_of(entry.needs, [](const std::string& need) {
+                       return need.starts_with("not with the format");
+                   }));
+    entry.overflows = json.value("overflows", false);
     entry.undrawn = json.value("undrawn", std::vector<std::string>());
     entry.passes = json.value("passes", std::vector<std::string>());
     entry.bug = json.value("bug", "");
@@ -123,7 +132,7 @@ Entry entry_of(const Json& json, const fs::path& folder) {
         throw std::runtime_error("the file '" + entry.file +
                                  "' cannot be read: " + text.error().message);
     }
-    entry.text = std::move(*text);
+    entry.set_text(std::move(*text));
     return entry;
 }
 
@@ -266,9 +275,9 @@ std::string found_text(const Entry& entry, const Ledger& ledger) {
     if (!entry.seen.empty()) {
         text += fmt::format("# Seen: {}.\n", cases::printable(entry.seen));
     }
-    if (!entry.shown_first.empty()) {
-        text +=
-            fmt::format("# A run of it tells first what it shows, too: {}.\n", entry.shown_first);
+    if (entry.shown_first) {
+        text += fmt::format("# A run of it tells first what it shows, too: {}.\n",
+                            to_text(*entry.shown_first));
     }
     if (!entry.is_reduced) {
         text += "# Not reduced: the hunt ended before. 'edgecase fuzz --resume' reduces it.\n";

@@ -302,6 +302,9 @@ void RunLoop::on_result(Slot& slot, CaseResult& result) {
                                          : lost      ? Status::device_lost
                                                      : Status::error,
                                          rendered.reason);
+        record.error_kind = rendered.status == Rendered::Status::not_built
+                                ? report::ErrorKind::not_built
+                                : report::ErrorKind::other;
         record.drawn.messages = rendered.messages;
         if (!unsupported) {
             record.death.output = slot.client->output_since_batch();

@@ -142,8 +142,9 @@ Result<std::vector<DeviceInfo>> list_devices(const Options& options);
 
 // The outcome for one case.
 struct Rendered {
-    enum class Status { drawn, unsupported, device_lost, error } status = Status::error;
-    std::string reason;                 // of unsupported, device_lost, error
+    // not_built: an error of its own kind; no shader was built for the combination of features.
+    enum class Status { drawn, unsupported, device_lost, not_built, error } status = Status::error;
+    std::string reason;                 // of all but drawn
     capture::Capture capture;           // if drawn
     std::span<std::byte> placed;        // if not empty: the capture's planes, which are not in it
     std::vector<std::string> messages;  // of the validation layer
@@ -197,4 +198,4 @@ class Renderer {
 template <>
 inline constexpr size_t cases::kValueCount<vk_harness::Stage> = 8;
 template <>
-inline constexpr size_t cases::kValueCount<vk_harness::Rendered::Status> = 4;
+inline constexpr size_t cases::kValueCount<vk_harness::Rendered::Status> = 5;
