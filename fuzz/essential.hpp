@@ -31,7 +31,8 @@ enum class Trait : uint8_t {
 
 struct Essential {
     Trait trait = Trait::key;
-    std::string name = {};  // of a key and of what is far: "draw.color.blend"; of a relation its own
+    std::string name =
+        {};  // of a key and of what is far: "draw.color.blend"; of a relation its own
     std::string word = {};  // of a key: "triangle-fan", "true"; empty where it does not matter
     // Whether it is a key of the file whose name begins so.
     bool begins(std::string_view with) const;
