@@ -18,6 +18,7 @@
 #include "cli/bench/clock.hpp"
 #include "cli/commands.hpp"
 #include "cli/diagnose.hpp"
+#include "cli/options/shared_options.hpp"
 #include "cli/prepare/expectations.hpp"
 #include "cli/prepare/loop_config.hpp"
 #include "cli/prepare/outputs.hpp"
@@ -265,9 +266,7 @@ int stopped(const RunOptions& options, const Stop& stop) {
     return report_stop(stop);
 }
 
-}  // namespace
-
-int diff_command(const Program& program, const DiffOptions& given) {
+int carry_out(const Program& program, const DiffOptions& given) {
     run::SignalFd signals;
     DiffOptions options = given;
     options.run.suite.carried =
@@ -383,6 +382,45 @@ int diff_command(const Program& program, const DiffOptions& given) {
         };
     }
     return conclude(folder, o, Ci::none, console, style, ending);
+}
+
+void declare(CLI::App& app, DiffOptions& o) {
+    add_suite(&app, o.run.suite);
+    app.add_option("--captures", o.captures, "the folder with what was drawn")
+        ->type_name("DIR")
+        ->required()
+        ->group("Selection");
+    add_value(&app, "--exported", o.exported,
+              "judge all cases of this export [those that have a folder in the captures]", "DIR",
+              "Selection");
+    add_value(&app, "--name", o.name, "of the renderer, for the reports", "NAME", "Output");
+    add_profile(&app, o.run.profile);
+    add_fail_at(&app, o.run.fail_at);
+    add_judged_device(&app, o.judged);
+    add_require_support(&app, o.run, "renderer");
+    add_expectations(&app, o.run);
+    add_outputs(&app, o.run, "where the reports go [out/<time>-captures]", false);
+}
+
+Done check(const CLI::App& app, const DiffOptions& o, const Words&) {
+    return check_fail_at(app, o.run);
+}
+
+}  // namespace
+
+Command diff_command() {
+    return make_command<DiffOptions>(
+        {"diff", kElsewhere, "judge what another program drew of exported cases",
+         "  edgecase diff --captures captures                      what was drawn, whatever it is\n"
+         "  edgecase diff --captures captures --exported cases     all that was exported to cases\n"
+         "  edgecase diff 'ties/**' --captures captures -o out/me  one family, reports in out/me\n"
+         "  edgecase diff --captures captures --subpixel-bits 4    of a renderer that snaps to "
+         "1/16\n"
+         "\n"
+         "A case whose folder holds no plane is 'not run' (exit 7); with a file unsupported.txt, "
+         "whose\n"
+         "first line says why, it is 'unsupported'. Planes that are missing are not judged.\n"},
+        declare, carry_out, check);
 }
 
 }  // namespace cli

@@ -16,6 +16,7 @@
 #include "cases/base/counted.hpp"
 #include "cases/base/printable.hpp"
 #include "cli/commands.hpp"
+#include "cli/options/shared_options.hpp"
 #include "cli/prepare/device_answer.hpp"
 #include "cli/prepare/run_plan.hpp"
 #include "cli/prepare/suite.hpp"
@@ -30,6 +31,11 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 namespace {
+
+struct DoctorOptions {
+    DeviceOptions device;
+    bool json = false;
+};
 
 std::string value_of(const char* variable) {
     const char* value = std::getenv(variable);
@@ -419,9 +425,7 @@ void print(const Diagnosis& d, const DeviceOptions& options) {
                           : "not ready: no " + chosen + " can run the suite");
 }
 
-}  // namespace
-
-int doctor_command(const Program& program, const DoctorOptions& options) {
+int carry_out(const Program& program, const DoctorOptions& options) {
     Diagnosis d;
     d.parts = find_parts(program);
     d.manifests = find_manifests(options.device.icd, options.device.icd_from, d.chosen_by);
@@ -439,6 +443,20 @@ int doctor_command(const Program& program, const DoctorOptions& options) {
         print(d, options.device);
     }
     return d.usable ? report::kExitOk : report::kExitDevice;
+}
+
+void declare(CLI::App& app, DoctorOptions& o) {
+    add_device(&app, o.device);
+    app.add_flag("--json", o.json, "as JSON");
+}
+
+}  // namespace
+
+Command doctor_command() {
+    return make_command<DoctorOptions>(
+        {"doctor", kProgram, "what is installed, which devices there are, what is missing",
+         "  edgecase doctor --icd my_icd.json         is my driver found and usable\n"},
+        declare, carry_out);
 }
 
 }  // namespace cli

@@ -10,7 +10,9 @@
 
 namespace cli {
 
-int doors_command() {
+namespace {
+
+int carry_out(const Program&) {
     for (const cases::DoorRow& row : cases::all_doors()) {
         say(fmt::format("{}\n", row.word));
         say_wrapped(fmt::format("    {}\n", row.does));
@@ -19,6 +21,15 @@ int doors_command() {
                                 row.needs.empty() ? "" : fmt::format("; needs {}", row.needs)));
     }
     return report::kExitOk;
+}
+
+}  // namespace
+
+Command doors_command() {
+    return make_command(
+        {"doors", kProgram, "list the doors that a run can take: other ways of the API",
+         "  edgecase doors                            what each of them does, and takes\n"},
+        carry_out);
 }
 
 }  // namespace cli

@@ -16,6 +16,7 @@
 #include "cases/base/printable.hpp"
 #include "cases/model/device.hpp"
 #include "cli/commands.hpp"
+#include "cli/options/shared_options.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
 #include "report/journal/journal.hpp"
@@ -27,6 +28,14 @@ namespace cli {
 namespace fs = std::filesystem;
 
 namespace {
+
+struct ExpectOptions {
+    SuiteOptions suite;
+    std::string file;
+    std::string update;  // the folder of a run
+    std::string bug, reason, until;
+    bool bits = false, dry_run = false;
+};
 
 // What lines can speak of: the cases, and the device's limits.
 std::vector<std::string> known_ids(const LoadedSuite& suite) {
@@ -272,9 +281,7 @@ OrStop<std::monostate> update_pictures(const Program& program, const ExpectOptio
     return std::monostate{};
 }
 
-}  // namespace
-
-int expect_command(const Program& program, const ExpectOptions& options) {
+int carry_out(const Program& program, const ExpectOptions& options) {
     if (fs::path(options.file).extension() == run::kPicturesEnd) {
         const OrStop<std::monostate> done = options.update.empty()
                                                 ? show_pictures(program, options)
@@ -319,6 +326,43 @@ int expect_command(const Program& program, const ExpectOptions& options) {
         return report_stop(stop_with(report::kExitInternal, written.error().message));
     }
     return report::kExitOk;
+}
+
+void declare(CLI::App& app, ExpectOptions& o) {
+    app.add_option("FILE", o.file, "the expectation file")->required()->type_name("");
+    app.add_option("--update", o.update, "write what a run has seen into the file")
+        ->type_name("DIR");
+    app.add_option("--bug", o.bug, "reference to a bug, for new lines")->type_name("WORD");
+    app.add_option("--reason", o.reason, "reason of new lines [what the run says]")
+        ->type_name("TEXT");
+    app.add_option("--until", o.until,
+                   "last day of new lines and of lines that ended and are still true")
+        ->type_name("DATE");
+    app.add_flag("--bits", o.bits, "a line a case that excuses this picture only, bit for bit");
+    app.add_flag("--dry-run", o.dry_run, "show what would change, write nothing");
+    app.add_option("--suite", o.suite.suite, "the folder of the suite [that of the run]")
+        ->type_name("DIR");
+}
+
+Done check(const CLI::App& expect, const ExpectOptions& o, const Words& words) {
+    for (const char* name : {"--bits", "--bug", "--reason", "--until", "--dry-run"}) {
+        if (o.update.empty() && is_given(expect, name, words)) {
+            return tl::unexpected(usage_error(
+                std::string(name) + " says how a file is brought up to date; give --update too",
+                "expect"));
+        }
+    }
+    return Done();
+}
+
+}  // namespace
+
+Command expect_command() {
+    return make_command<ExpectOptions>(
+        {"expect", kChecking, "check an expectation file, or bring it up to date",
+         "  edgecase expect cases/expectations/llvmpipe.txt\n"
+         "  edgecase expect --update out/mine my-driver.txt --bug mesa#1234\n"},
+        declare, carry_out, check);
 }
 
 }  // namespace cli

@@ -7,6 +7,7 @@
 #include "cases/select/selector.hpp"
 #include "cli/commands.hpp"
 #include "cli/explain_text.hpp"
+#include "cli/options/shared_options.hpp"
 #include "cli/options/stop.hpp"
 #include "cli/prepare/loop_config.hpp"
 #include "cli/prepare/suite.hpp"
@@ -17,6 +18,15 @@ namespace cli {
 using cases::counted;
 
 namespace {
+
+struct ExplainOptions {
+    SuiteOptions suite;  // exactly one selector, one case
+    std::string rule;    // or a rule, and no case
+    bool has_pixel = false;
+    uint32_t x = 0, y = 0, sample = 0, layer = 0;
+    cases::Profile profile = cases::Profile::direct3d;
+    JudgedDevice judged;
+};
 
 int explain_rule(const Program& program, const ExplainOptions& options) {
     const cases::Rule* rule = cases::find_rule(options.rule);
@@ -33,9 +43,7 @@ int explain_rule(const Program& program, const ExplainOptions& options) {
     return report::kExitOk;
 }
 
-}  // namespace
-
-int explain_command(const Program& program, const ExplainOptions& options) {
+int carry_out(const Program& program, const ExplainOptions& options) {
     if (!options.rule.empty()) {
         return explain_rule(program, options);
     }
@@ -70,6 +78,45 @@ int explain_command(const Program& program, const ExplainOptions& options) {
                                           {options.x, options.y, options.sample, options.layer});
     say(text + (text.ends_with('\n') ? "" : "\n"));
     return report::kExitOk;
+}
+
+void declare(CLI::App& app, ExplainOptions& o) {
+    add_case(&app, o.suite);
+    app.add_option(
+           "--pixel",
+           [&o](const CLI::results_t& results) {
+               o.has_pixel = true;
+               return parse_pair(results.back(), ',', o.x, o.y);
+           },
+           "the pixel; without it the case as a whole is told")
+        ->type_name("X,Y");
+    app.add_option("--rule", o.rule, "explain a rule instead")->type_name("ID");
+    app.add_option("--sample", o.sample, "the sample in it [0]")->type_name("S");
+    app.add_option("--layer", o.layer, "the layer of the target [0]")->type_name("L");
+    add_profile(&app, o.profile);
+    add_judged_device(&app, o.judged);
+}
+
+Done check(const CLI::App&, const ExplainOptions& o, const Words&) {
+    if (o.rule.empty() && !o.has_pixel && (o.sample > 0 || o.layer > 0)) {
+        return tl::unexpected(
+            usage_error("--sample and --layer name a sample of a pixel; add --pixel", "explain"));
+    }
+    if (!o.rule.empty() && (o.has_pixel || !o.suite.selectors.empty())) {
+        return tl::unexpected(usage_error(
+            "--rule explains a rule, not a case; leave out the selector and --pixel", "explain"));
+    }
+    return Done();
+}
+
+}  // namespace
+
+Command explain_command() {
+    return make_command<ExplainOptions>(
+        {"explain", kCases, "why a sample must, must not or may be covered",
+         "  edgecase explain 'ties/diagonal-edge:rotation=0' --pixel 3,3\n"
+         "  edgecase explain --rule tie.top-left      what a rule demands\n"},
+        declare, carry_out, check);
 }
 
 }  // namespace cli

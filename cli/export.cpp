@@ -16,6 +16,7 @@
 #include "cases/base/output_file.hpp"
 #include "cases/base/printable.hpp"
 #include "cli/commands.hpp"
+#include "cli/options/shared_options.hpp"
 #include "cli/prepare/loop_config.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
@@ -26,6 +27,14 @@ namespace cli {
 namespace fs = std::filesystem;
 
 namespace {
+
+struct ExportOptions {
+    SuiteOptions suite;
+    std::string output;                                 // folder; of a reproducer the file
+    bool reproducer = false;                            // one case as a C program
+    cases::Profile profile = cases::Profile::direct3d;  // that a reproducer judges at
+    JudgedDevice judged;                                // that it is for
+};
 
 // Writes into a folder that is made if it is not there.
 OrStop<std::monostate> write_below(const fs::path& folder, const fs::path& name,
@@ -62,9 +71,7 @@ int export_reproducer(const Program& program, const ExportOptions& options) {
     return report::kExitOk;
 }
 
-}  // namespace
-
-int export_command(const Program& program, const ExportOptions& options) {
+int carry_out(const Program& program, const ExportOptions& options) {
     if (options.reproducer) {
         return export_reproducer(program, options);
     }
@@ -108,6 +115,37 @@ int export_command(const Program& program, const ExportOptions& options) {
     say(fmt::format("{} case{} in {}\n", suite->selected.size(),
                     suite->selected.size() == 1 ? "" : "s", folder.string()));
     return report::kExitOk;
+}
+
+void declare(CLI::App& app, ExportOptions& o) {
+    add_suite(&app, o.suite);
+    app.add_option("-o,--output", o.output, "where the files go; with --reproducer the C file")
+        ->type_name("PATH")
+        ->required();
+    app.add_flag("--reproducer", o.reproducer,
+                 "one case as a C program for a bug report, needs the Vulkan loader alone");
+    add_profile(&app, o.profile);
+    add_judged_device(&app, o.judged);
+    for (const char* judging : {"--profile", "--subpixel-bits", "--sample-locations"}) {
+        // The environment says how runs are judged, which is no reason to refuse an export.
+        app.get_option(judging)->needs("--reproducer")->envname("");
+    }
+}
+
+}  // namespace
+
+Command export_command() {
+    return make_command<ExportOptions>(
+        {"export", kElsewhere, "write cases as JSON that any program can draw",
+         "  edgecase export 'ties/**' -o cases               what a renderer elsewhere has to "
+         "draw\n"
+         "  my-renderer cases captures                       yours: draws them, writes planes\n"
+         "  edgecase diff 'ties/**' --captures captures      judges what it has drawn\n"
+         "  edgecase export --reproducer ties/apex-up -o bug.c   for a bug report: one C file\n"
+         "\n"
+         "docs/bug-reports.md tells what a reproducer draws and how it is compiled;\n"
+         "docs/other-renderers.md tells it step by step; docs/schema/case-1.json is the format.\n"},
+        declare, carry_out);
 }
 
 }  // namespace cli

@@ -20,6 +20,7 @@
 #include "cli/fuzzing/hunt_text.hpp"
 #include "cli/fuzzing/known_causes.hpp"
 #include "cli/fuzzing/start_cases.hpp"
+#include "cli/options/shared_options.hpp"
 #include "cli/prepare/loop_config.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/run_plan.hpp"
@@ -36,6 +37,14 @@ using fuzz::Hunt;
 using fuzz::Ledger;
 
 namespace {
+
+struct FuzzOptions {
+    RunOptions run;      // its device, judging, output and, to start from cases, its suite
+    uint64_t cases = 0;  // numbers from here on are not made; 0: no end
+    double seconds = 0;  // 0: no end
+    std::vector<std::string> known;   // folders of earlier hunts
+    std::optional<uint64_t> printed;  // the number of a case to print; nothing is drawn then
+};
 
 // What all parts of a hunt that goes on counted.
 fuzz::HuntCounts sum_of(fuzz::HuntCounts sum, const fuzz::HuntCounts& now) {
@@ -62,7 +71,7 @@ fuzz::HuntCounts sum_of(fuzz::HuntCounts sum, const fuzz::HuntCounts& now) {
 class FuzzCommand {
   public:
     FuzzCommand(const Program& program, const FuzzOptions& options)
-        : program_(program), options_(options), status_(options) {}
+        : program_(program), options_(options), status_(options.run) {}
 
     int run() {
         if (auto read = read_earlier(); !read) {
@@ -506,9 +515,7 @@ class FuzzCommand {
     double seconds_before_ = 0;
 };
 
-}  // namespace
-
-int fuzz_command(const Program& program, const FuzzOptions& options) {
+int carry_out(const Program& program, const FuzzOptions& options) {
     if (options.printed) {
         const OrStop<StartCases> cases = start_cases(program, options.run.suite, options.run.seed);
         if (!cases) {
@@ -526,6 +533,97 @@ int fuzz_command(const Program& program, const FuzzOptions& options) {
         return report::kExitOk;
     }
     return FuzzCommand(program, options).run();
+}
+
+// "90", "90s", "10m", "2h", "1.5h": seconds.
+bool parse_duration(const std::string& text, double& seconds) {
+    const std::map<char, double> units = {{'s', 1}, {'m', 60}, {'h', 3600}};
+    const auto unit = text.empty() ? units.end() : units.find(text.back());
+    const std::string number = unit == units.end() ? text : text.substr(0, text.size() - 1);
+    const char* const end = number.data() + number.size();
+    const auto read = std::from_chars(number.data(), end, seconds);
+    if (number.empty() || read.ec != std::errc() || read.ptr != end || !(seconds > 0) ||
+        !(seconds < 1e9)) {
+        return false;
+    }
+    seconds *= unit == units.end() ? 1 : unit->second;
+    return true;
+}
+
+void declare(CLI::App& app, FuzzOptions& o) {
+    app.add_option("SELECTOR", o.run.suite.selectors,
+                   "cases to change a few things of; a file with [fuzz] is varied as that says")
+        ->type_name("");
+    add_suite_folder(&app, o.run.suite);
+    add_value(&app, "--seed", o.run.seed, "a seed and a number make a case [1]", "N", "Selection")
+        ->check(in_range<uint64_t>(0, UINT64_MAX));
+    add_value(&app, "--cases", o.cases, "the cases with numbers below N [no end]", "N", "Selection")
+        ->check(in_range<uint64_t>(1, uint64_t{1} << 48));
+    app.add_option(
+           "--time",
+           [&o](const CLI::results_t& results) {
+               return parse_duration(results.back(), o.seconds);
+           },
+           "end after this time, from when expected failures are reduced: 90s, 10m, 2h [no end]")
+        ->type_name("TIME")
+        ->group("Selection");
+    add_value(&app, "--print", o.printed, "print the case with this number, draw nothing", "N",
+              "Selection")
+        ->check(in_range<uint64_t>(0, uint64_t{1} << 24));
+    add_shard(&app, o.run.shard,
+              "every N-th pose (or group of changed cases) from the I-th on; 1 <= I <= N");
+    add_device(&app, o.run.device);
+    add_validation(&app, o.run.device);
+    add_profile(&app, o.run.profile);
+    add_expectations(&app, o.run);
+    add_value(&app, "--known", o.known,
+              "the folder of an earlier hunt, whose causes are known; repeatable", "DIR", "Judging")
+        ->type_size(1)
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    add_jobs(&app, o.run);
+    add_value(&app, "--resume", o.run.resume, "go on with an interrupted hunt", "DIR", "Isolation");
+    add_value(&app, "-o,--output", o.run.output, "where the causes go [out/fuzz/<time>-<device>]",
+              "DIR", "Output");
+    app.add_flag("-q,--quiet", o.run.quiet, "only causes and the summary")->group("Output");
+}
+
+// A hunt that goes on has the seed, shard and profile that it began with; where it ends, which
+// device of that name draws and what else is known may be said anew.
+Done check(const CLI::App& fuzz, const FuzzOptions& o, const Words& words) {
+    const auto refused = [](const std::string& what) {
+        return tl::unexpected(usage_error(
+            "--resume goes on with the cases, seed, shard, profile and folder of the hunt, so " +
+                what + (what.starts_with("no ") ? " can" : " cannot") +
+                " be given; leave it out or start a new hunt",
+            "fuzz"));
+    };
+    for (const char* name : {"--seed", "--shard", "--profile", "--output", "--print", "--suite"}) {
+        if (!o.run.resume.empty() && is_given(fuzz, name, words)) {
+            return refused(name);
+        }
+    }
+    if (!o.run.resume.empty() && !o.run.suite.selectors.empty()) {
+        return refused("no selector");
+    }
+    if (o.run.no_expect && !o.run.expect.empty()) {
+        return tl::unexpected(usage_error("--expect and --no-expect exclude each other", "fuzz"));
+    }
+    return check_alternatives(fuzz, "--print",
+                              {"--cases", "--time", "--shard", "--known", "--resume", "--output"});
+}
+
+}  // namespace
+
+Command fuzz_command() {
+    return make_command<FuzzOptions>(
+        {"fuzz", kChecking, "draw cases that nobody wrote, and reduce what fails",
+         "  edgecase fuzz --cases 1024 -o out/hunt         what does my driver get wrong\n"
+         "  edgecase fuzz --cases 1024 --known out/hunt --seed 2\n"
+         "  edgecase fuzz 'depth-bias/**' --cases 1024 --known out/hunt   cases, changed a little\n"
+         "  edgecase fuzz my-case.toml --cases 1024 --known out/hunt      or what its [fuzz] "
+         "says\n"},
+        declare, carry_out, check);
 }
 
 }  // namespace cli

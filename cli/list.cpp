@@ -9,6 +9,7 @@
 #include "cases/load/loader.hpp"
 #include "cases/select/selector.hpp"
 #include "cli/commands.hpp"
+#include "cli/options/shared_options.hpp"
 #include "cli/options/stop.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
@@ -20,6 +21,11 @@ namespace cli {
 using cases::counted;
 
 namespace {
+
+struct ListOptions {
+    SuiteOptions suite;
+    bool long_form = false, ids = false, json = false;
+};
 
 void print_long(const cases::Case& c) {
     say(c.id + "\n");
@@ -70,9 +76,7 @@ nlohmann::ordered_json to_json(const cases::Case& c) {
             {"notes", c.notes}};
 }
 
-}  // namespace
-
-int list_command(const Program& program, const ListOptions& options) {
+int carry_out(const Program& program, const ListOptions& options) {
     // Names alone need no cases, unless something else than names is asked for: "@rule:...".
     const bool names_only = options.ids && !options.json && !options.long_form &&
                             std::none_of(options.suite.selectors.begin(),
@@ -104,6 +108,28 @@ int list_command(const Program& program, const ListOptions& options) {
         say(text + "\n");
     }
     return suite->selected.empty() ? report::kExitNothingSelected : report::kExitOk;
+}
+
+void declare(CLI::App& app, ListOptions& o) {
+    add_suite(&app, o.suite);
+    app.add_flag("--long", o.long_form, "with file, rules, description and notes");
+    app.add_flag("--ids", o.ids, "ids only, one a line");
+    app.add_flag("--json", o.json, "as JSON");
+}
+
+Done check(const CLI::App& app, const ListOptions&, const Words&) {
+    const Done checked = check_alternatives(app, "--long", {"--ids", "--json"});
+    return checked ? check_alternatives(app, "--ids", {"--json"}) : checked;
+}
+
+}  // namespace
+
+Command list_command() {
+    return make_command<ListOptions>(
+        {"list", kCases, "list case ids",
+         "  edgecase list --long 'ties/**'            one family with descriptions and rules\n"
+         "  edgecase list --ids '@rule:tie.*'         the cases of some rules\n"},
+        declare, carry_out, check);
 }
 
 }  // namespace cli

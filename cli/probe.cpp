@@ -12,19 +12,29 @@
 
 #include "cases/base/input_file.hpp"
 #include "cli/commands.hpp"
+#include "cli/options/shared_options.hpp"
 #include "cli/prepare/loop_config.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "probe/tell/compare.hpp"
 #include "probe/tell/json.hpp"
 #include "probe/tell/page.hpp"
 #include "probe/tell/text.hpp"
+#include "rasterizers/software/choice/choice.hpp"
 #include "run/session.hpp"
+#include "run/worker/backend.hpp"
 
 namespace cli {
 
 namespace {
 
 namespace fs = std::filesystem;
+
+struct ProbeOptions {
+    DeviceOptions device;               // its renderer may be "software:CHOICES", too
+    std::vector<std::string> compared;  // none, or two: files of an earlier probe, or devices
+    std::string json, html;
+    bool verbose = false;
+};
 
 std::vector<std::pair<std::string, std::string>> device_lines(const capture::DeviceInfo& device) {
     return {{"device", device.name},
@@ -132,9 +142,7 @@ int compare(const Program& program, const ProbeOptions& options, run::SignalFd& 
     return probe::differences(*a, *b).empty() ? report::kExitOk : report::kExitUnexpected;
 }
 
-}  // namespace
-
-int probe_command(const Program& program, const ProbeOptions& options) {
+int carry_out(const Program& program, const ProbeOptions& options) {
     run::SignalFd signals;
     if (options.compared.size() == 1) {
         return report_stop(
@@ -167,6 +175,64 @@ int probe_command(const Program& program, const ProbeOptions& options) {
         complain(error.message);
     }
     return errors.empty() ? report::kExitOk : report::kExitInternal;
+}
+
+// Why the renderer is none; "" if it is one: those of all commands, or the software rasterizer with
+// choices.
+std::string check_renderer(const std::string& name) {
+    if (renderer_names().contains(name)) {
+        return {};
+    }
+    std::string_view words = name;
+    if (words != run::kSoftware && !words.starts_with(std::string(run::kSoftware) + ":")) {
+        std::string all(run::kSoftware);
+        for (const auto& [other, value] : renderer_names()) {
+            all += ", " + other;
+        }
+        return "'" + name + "' is no renderer; there are " + all;
+    }
+    words.remove_prefix(std::min(words.size(), run::kSoftware.size() + 1));
+    software::Device device;
+    return software::set_choices(device, words);
+}
+
+void declare(CLI::App& app, ProbeOptions& o) {
+    add_driver(&app, o.device);
+    add_value(
+        &app, "--renderer", o.device.renderer,
+        "what draws: a driver, an algorithm of docs/algorithms.md, or software:KEY=VALUE,..., "
+        "the software rasterizer with such choices [vulkan]",
+        "NAME", "Device")
+        ->check(CLI::Validator([](const std::string& name) { return check_renderer(name); }, ""));
+    app.add_option("--compare", o.compared,
+                   "two files of 'probe --json', or names of devices: say what differs")
+        ->type_name("A B")
+        ->expected(2)
+        ->allow_extra_args(false)
+        ->group("Selection");
+    app.add_option("--json", o.json, "write the datasheet also to FILE ('-': standard output)")
+        ->type_name("FILE")
+        ->group("Output");
+    app.add_option("--html", o.html, "write it as a page with pictures to FILE")
+        ->type_name("FILE")
+        ->group("Output");
+    app.add_flag("-v,--verbose", o.verbose, "tell each experiment, too")->group("Output");
+}
+
+Done check(const CLI::App& app, const ProbeOptions&, const Words&) {
+    return check_alternatives(app, "--compare", {"--json", "--html"});
+}
+
+}  // namespace
+
+Command probe_command() {
+    return make_command<ProbeOptions>(
+        {"probe", kChecking, "measure what a rasterizer does where it may choose",
+         "  edgecase probe --json before.json               what does my driver do\n"
+         "  edgecase probe --json after.json                and the next version of it\n"
+         "  edgecase probe --compare before.json after.json\n"
+         "  edgecase probe --renderer software:ties=top-right\n"},
+        declare, carry_out, check);
 }
 
 }  // namespace cli

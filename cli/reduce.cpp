@@ -15,6 +15,7 @@
 #include "cases/write/to_toml.hpp"
 #include "cli/commands.hpp"
 #include "cli/fuzzing/captures_command.hpp"
+#include "cli/options/shared_options.hpp"
 #include "cli/prepare/loop_config.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
@@ -27,6 +28,12 @@ namespace fs = std::filesystem;
 using report::CaseRecord;
 
 namespace {
+
+struct ReduceOptions {
+    RunOptions run;                // its suite with exactly one case, device, judging and output
+    std::string captures_command;  // of a renderer that no worker drives; empty: a device draws
+    JudgedDevice judged;           // that renderer
+};
 
 constexpr size_t kMostRounds = 2000;
 
@@ -120,9 +127,7 @@ std::string size_text(const cases::Case& c) {
                        t.samples > 1 ? fmt::format(" with {} samples", t.samples) : "");
 }
 
-}  // namespace
-
-int reduce_command(const Program& program, const ReduceOptions& options) {
+int carry_out(const Program& program, const ReduceOptions& options) {
     const OrStop<cases::Case> loaded = load_one_case(program, options.run.suite);
     if (!loaded) {
         return report_stop(loaded.error());
@@ -215,6 +220,64 @@ int reduce_command(const Program& program, const ReduceOptions& options) {
                          .c_str());
     }
     return report::kExitOk;
+}
+
+void declare(CLI::App& app, ReduceOptions& o) {
+    add_case(&app, o.run.suite);
+    add_device(&app, o.run.device);
+    add_validation(&app, o.run.device);
+    add_value(&app, "--captures-command", o.captures_command,
+              "a renderer without Vulkan: words of a shell that draw the exported cases of the "
+              "folder %in into the folder %out",
+              "COMMAND", "Device");
+    add_profile(&app, o.run.profile);
+    add_judged_device(&app, o.judged);
+    add_value(&app, "-o,--output", o.run.output, "the case file to write [standard output]", "FILE",
+              "Output");
+    app.add_flag("-q,--quiet", o.run.quiet, "say nothing else")->group("Output");
+}
+
+// A command takes the place of a device.
+Done check(const CLI::App& reduce, const ReduceOptions& o, const Words& words) {
+    const auto refused = [](const std::string& sentence) {
+        return tl::unexpected(usage_error(sentence, "reduce"));
+    };
+    if (!is_given(reduce, "--captures-command", words)) {
+        for (const std::string name : {"--subpixel-bits", "--sample-locations"}) {
+            if (is_given(reduce, name.c_str(), words)) {
+                return refused(name +
+                               " is for a renderer that --captures-command starts; devices tell it "
+                               "themselves");
+            }
+        }
+        return Done();
+    }
+    for (const char* name : {"--device", "--icd", "--renderer", "--validation"}) {
+        if (is_given(reduce, name, words)) {
+            return refused(std::string(name) +
+                           " chooses a device, and --captures-command draws without one; leave one "
+                           "of them out");
+        }
+    }
+    for (const char* word : {"%in", "%out"}) {
+        if (o.captures_command.find(word) == std::string::npos) {
+            return refused(std::string("--captures-command has no ") + word +
+                           ", the folder of the " +
+                           (word[1] == 'i' ? "exported cases" : "captures") +
+                           "; write for example 'my-renderer %in %out'");
+        }
+    }
+    return Done();
+}
+
+}  // namespace
+
+Command reduce_command() {
+    return make_command<ReduceOptions>(
+        {"reduce", kChecking, "make a failing case as small as it can be, on the device",
+         "  edgecase reduce multisample/scissor-tiled:samples=4 -o smaller.toml\n"
+         "  edgecase reduce ties/apex-up --captures-command 'my-renderer %in %out'\n"},
+        declare, carry_out, check);
 }
 
 }  // namespace cli

@@ -17,6 +17,7 @@
 #include "cases/base/parallel.hpp"
 #include "cases/model/words.hpp"
 #include "cli/commands.hpp"
+#include "cli/options/shared_options.hpp"
 #include "cli/prepare/drawing.hpp"
 #include "cli/prepare/loop_config.hpp"
 #include "cli/prepare/outputs.hpp"
@@ -30,6 +31,15 @@
 namespace cli {
 
 namespace {
+
+struct RenderOptions {
+    SuiteOptions suite;  // exactly one selector, one case
+    std::string output;
+    std::string renderer;  // "": what the reference allows; else what this one draws
+    uint32_t scale = 0;    // side of a pixel in a *.png; 0: chosen by the target's size
+    cases::Profile profile = cases::Profile::direct3d;
+    JudgedDevice judged;
+};
 
 using Json = nlohmann::ordered_json;
 
@@ -261,9 +271,7 @@ OrStop<Drawing> picture_of(const cases::Case& c, const RenderOptions& options) {
     return blit_picture(c, options.profile);
 }
 
-}  // namespace
-
-int render_command(const Program& program, const RenderOptions& options) {
+int carry_out(const Program& program, const RenderOptions& options) {
     OrStop<cases::Case> c = load_one_case(program, options.suite, options.judged);
     if (!c) {
         return report_stop(c.error());
@@ -298,6 +306,46 @@ int render_command(const Program& program, const RenderOptions& options) {
         return report_stop({report::kExitInternal, {cases::to_string(written.error())}});
     }
     return report::kExitOk;
+}
+
+// What 'render' takes: no driver.
+const std::map<std::string, std::string>& drawing_names() {
+    static const std::map<std::string, std::string> kNames = [] {
+        std::map<std::string, std::string> names = renderer_names();
+        names.erase("vulkan");
+        names.emplace("allowed", "");
+        return names;
+    }();
+    return kNames;
+}
+
+void declare(CLI::App& app, RenderOptions& o) {
+    add_case(&app, o.suite);
+    app.add_option("-o,--output", o.output, "*.exr (values), *.png (to look at) or *.json")
+        ->type_name("FILE")
+        ->required();
+    add_value(&app, "--scale", o.scale,
+              "*.png: pixels on each side of a pixel, 1 to 512 [the longer side near 512]", "N",
+              "Output")
+        ->check(in_range(1U, 512U));
+    add_profile(&app, o.profile);
+    add_judged_device(&app, o.judged);
+    add_choice(&app, "--renderer", o.renderer, drawing_names(),
+               "what draws: an algorithm of docs/algorithms.md or the reference; allowed: no "
+               "drawing, but what the reference allows");
+}
+
+}  // namespace
+
+Command render_command() {
+    return make_command<RenderOptions>(
+        {"render", kCases, "write the reference picture of a case; needs no Vulkan",
+         "  edgecase render ties/apex-up -o picture.png                    what is allowed\n"
+         "  edgecase render ties/apex-up -o picture.png --renderer tiles   what an algorithm "
+         "draws\n"
+         "  edgecase render blit/mirrored:sx=1,sy=0,dx=0,dy=0 -o blit.png  what a blit must "
+         "leave\n"},
+        declare, carry_out);
 }
 
 }  // namespace cli

@@ -6,6 +6,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/diagnose.hpp"
+#include "cli/options/shared_options.hpp"
 #include "cli/prepare/ci.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
@@ -19,6 +20,16 @@ namespace cli {
 namespace fs = std::filesystem;
 
 namespace {
+
+struct ReportOptions {
+    std::vector<std::string> directories;  // one, several with --merge
+    bool merge = false;
+    std::string output;
+    Ci ci = Ci::automatic;
+    std::string json, junit, html;
+    bool quiet = false, verbose = false;
+    When color = When::automatic;
+};
 
 // The merged run as a folder of its own, so that every command that takes a run takes it.
 cases::Expected<void> write_merged(const report::Run& run, const fs::path& folder) {
@@ -118,9 +129,7 @@ void forsake_merged(const ReportOptions& options) {
     }
 }
 
-}  // namespace
-
-int report_command(const Program& program, const ReportOptions& options) {
+int carry_out(const Program& program, const ReportOptions& options) {
     const OrStop<Source> source = options.merge ? load_merged(program, options) : load_one(options);
     if (!source) {
         if (options.merge && source.error().exit_code == report::kExitInvalidFile) {
@@ -171,6 +180,26 @@ int report_command(const Program& program, const ReportOptions& options) {
     return failed          ? report::kExitInternal
            : options.merge ? report::exit_code(run)
                            : report::kExitOk;
+}
+
+void declare(CLI::App& app, ReportOptions& o) {
+    app.add_option("DIR", o.directories, "the folder of the run")->required()->type_name("");
+    app.add_flag("--merge", o.merge, "several folders, the shards of one run, become one");
+    add_value(&app, "-o,--output", o.output, "where the reports go [DIR, with --merge out/merged]",
+              "DIR", "Output");
+    add_ci(&app, o.ci);
+    add_report_files(&app, o.json, o.junit, o.html);
+    add_terminal(&app, o.quiet, o.verbose, o.color);
+}
+
+}  // namespace
+
+Command report_command() {
+    return make_command<ReportOptions>(
+        {"report", kChecking, "rebuild the reports of a run from its journal",
+         "  edgecase report out/mine                  write the reports of a run again\n"
+         "  edgecase report --merge out/shard-* -o out/all\n"},
+        declare, carry_out);
 }
 
 }  // namespace cli

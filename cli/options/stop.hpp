@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 #include <tl/expected.hpp>
+#include <variant>
 #include <vector>
 
 #include "cases/base/error.hpp"
@@ -18,6 +19,7 @@ struct Stop {
 };
 template <class T>
 using OrStop = tl::expected<T, Stop>;
+using Done = OrStop<std::monostate>;
 
 inline Stop stop_with(int exit_code, const std::string& line) {
     return {exit_code, {line}};

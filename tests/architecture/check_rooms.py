@@ -23,7 +23,7 @@ import tempfile
 ONLY_IN = {
     r"(vulkan/|volk\.|vk_(?!harness/))": "vk_harness",
     r"OpenImageIO/": "capture/image/image_io",
-    r"CLI/": "cli/options",
+    r"CLI/": "cli",
     r"toml(\+\+/|\.hpp)": "cases/toml",
 }
 # Sources that still stand without a header, or with functions of a class that lives elsewhere: none may be added.
@@ -158,7 +158,7 @@ def library_problems(commands: pathlib.Path, root: pathlib.Path):
 DEFINED = re.compile(r"^(?![ #/}])(?:[^()\n=;]*[ &*>])?(\w+)\(", re.M)  # free functions
 MEMBER = re.compile(r"^(?![ #/}])(?:[^()\n=;]*[ &*>])?(\w+)(?:::\w+)*::~?(?:\w+|operator\S+)\(", re.M)
 DECLARED = re.compile(r"^(?:class|struct) (\w+)(?: final)?(?: :|\s*\{)", re.M)
-COMMAND = re.compile(r"^(?:int|Command) ((\w+)_command)\(", re.M)
+COMMAND = re.compile(r"^Command ((\w+)_command)\(", re.M)
 
 
 def has_header(path, text):
@@ -369,8 +369,8 @@ PLANTED = {
     ),
     "a command in another one's file": (
         lambda root: (
-            plant(root, "cli/commands.hpp", "int echo_command();\n"),
-            plant(root, "cli/list.cpp", "int echo_command() {}\n"),
+            plant(root, "cli/commands.hpp", "Command echo_command();\n"),
+            plant(root, "cli/list.cpp", "Command echo_command() {}\n"),
         ),
         ["the command 'echo' is not in cli/echo.cpp"],
     ),
