@@ -19,9 +19,7 @@
 #include "probe/tell/json.hpp"
 #include "probe/tell/page.hpp"
 #include "probe/tell/text.hpp"
-#include "rasterizers/software/choice/choice.hpp"
 #include "run/session.hpp"
-#include "run/worker/backend.hpp"
 
 namespace cli {
 
@@ -30,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ProbeOptions {
-    DeviceOptions device;               // its renderer may be "software:CHOICES", too
+    DeviceOptions device;
     std::vector<std::string> compared;  // none, or two: files of an earlier probe, or devices
     std::string json, html;
     bool verbose = false;
@@ -177,33 +175,8 @@ int carry_out(const Program& program, const ProbeOptions& options) {
     return errors.empty() ? report::kExitOk : report::kExitInternal;
 }
 
-// Why the renderer is none; "" if it is one: those of all commands, or the software rasterizer with
-// choices.
-std::string check_renderer(const std::string& name) {
-    if (renderer_names().contains(name)) {
-        return {};
-    }
-    std::string_view words = name;
-    if (words != run::kSoftware && !words.starts_with(std::string(run::kSoftware) + ":")) {
-        std::string all(run::kSoftware);
-        for (const auto& [other, value] : renderer_names()) {
-            all += ", " + other;
-        }
-        return "'" + name + "' is no renderer; there are " + all;
-    }
-    words.remove_prefix(std::min(words.size(), run::kSoftware.size() + 1));
-    software::Device device;
-    return software::set_choices(device, words);
-}
-
 void declare(CLI::App& app, ProbeOptions& o) {
-    add_driver(&app, o.device);
-    add_value(
-        &app, "--renderer", o.device.renderer,
-        "what draws: a driver, an algorithm of docs/algorithms.md, or software:KEY=VALUE,..., "
-        "the software rasterizer with such choices [vulkan]",
-        "NAME", "Device")
-        ->check(CLI::Validator([](const std::string& name) { return check_renderer(name); }, ""));
+    add_device(&app, o.device);
     app.add_option("--compare", o.compared,
                    "two files of 'probe --json', or names of devices: say what differs")
         ->type_name("A B")

@@ -77,7 +77,7 @@ RunLoop::RunLoop(LoopConfig config, Plan plan, report::Journal* journal, SignalF
 
 RunLoop::End RunLoop::run(std::vector<WorkerClient> workers, const capture::DeviceInfo& device) {
     device_ = device;
-    config_.worker.renderer.pinned = device.key;
+    config_.worker.device.pinned = device.key;
     if (config_.gpu_budget) {
         schedule_.set_batch_bytes(0);  // until it is known how long they take, one case each
     }

@@ -44,7 +44,6 @@ struct PlannedCase {
 struct LoopConfig {
     Command command;  // starts a worker
     WorkerOptions worker;
-    std::string icd_from = "--icd";  // what chose worker.vulkan.icd_file
     std::chrono::milliseconds timeout{30000};
     Schedule::Options schedule;  // its lanes: workers
     // How long the device may work on one submission; what the batches before took decides how

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "capture/renderer.hpp"
 #include "cases/base/parallel.hpp"
 #include "cases/model/profile.hpp"
 #include "run/judge.hpp"
@@ -32,13 +33,8 @@ struct SuiteOptions {
     std::string carried = {};
 };
 
-struct DeviceOptions {
-    std::string device;
-    std::string icd;
-    std::string icd_from = "--icd";  // or the variable that holds it
-    bool validation = false;
-    std::string renderer;  // "": a driver; "reference"; a device of rasterizers/algorithms
-    double timeout = 30;   // seconds without a sign of life
+struct DeviceOptions : capture::RendererOptions {
+    double timeout = 30;  // seconds without a sign of life
 };
 
 struct Shard {

@@ -132,9 +132,6 @@ constexpr const char* kFooter =
 
 // An algorithm has no driver, so these would be ignored.
 Done check_device(const CLI::App& command, DeviceOptions& o, const Words& words) {
-    if (o.renderer == "vulkan") {
-        o.renderer.clear();  // a driver
-    }
     for (const char* name : {"--device", "--icd"}) {
         if (!o.renderer.empty() && is_given(command, name, words)) {
             return tl::unexpected(usage_error(std::string(name) + " chooses a driver, and '" +

@@ -90,8 +90,7 @@ void declare_run(CLI::App& app, RunOptions& o) {
     add_outputs(run, o, "where the reports go [out/<time>-<device>]", true);
 }
 
-Done check_run(const CLI::App& run, const RunOptions& o,
-                                 const Words& words) {
+Done check_run(const CLI::App& run, const RunOptions& o, const Words& words) {
     if (!o.resume.empty()) {
         if (auto checked = check_resume(run, words); !checked) {
             return checked;

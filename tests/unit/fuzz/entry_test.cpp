@@ -11,6 +11,7 @@
 
 #include "cases/load/loader.hpp"
 #include "diff/color.hpp"
+#include "fuzz/ledger.hpp"
 #include "ref/expectation/expectation.hpp"
 
 namespace fuzz {

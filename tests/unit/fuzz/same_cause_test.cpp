@@ -4,6 +4,7 @@
 // Which failures are told as one cause (fuzz/same_cause.cpp).
 #include "fuzz/same_cause.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <set>
