@@ -37,11 +37,14 @@ int edgecase_main(int argc, const char* const* argv) {
     if (program.arguments.size() == 2 && program.arguments[1] == "worker") {
         return run::run_worker(all_renderers());
     }
-    const OrStop<CarryOut> carry_out = parse(all_commands(), program.arguments);
-    if (!carry_out) {
-        return report_stop(carry_out.error());
-    }
-    const int code = finish_output((*carry_out)(program));
+    const auto carry_out = [&] {
+        try {
+            return parse(all_commands(), program.arguments)(program);
+        } catch (const Stop& stop) {
+            return report_stop(stop);
+        }
+    };
+    const int code = finish_output(carry_out());
     if (run::Pool::has_abandoned()) {
         // Threads that still judge use what the end of main() would destroy.
         std::fflush(nullptr);

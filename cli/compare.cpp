@@ -55,15 +55,12 @@ int carry_out(const Program&, const CompareOptions& options) {
     for (const std::string& folder : options.directories) {
         cases::Expected<report::Run> run = report::load_journal(folder);
         if (!run) {
-            return report_stop({report::kExitInvalidFile, {cases::to_string(run.error())}});
+            throw Stop{report::kExitInvalidFile, {cases::to_string(run.error())}};
         }
         runs.push_back({folder, std::move(*run)});
     }
-    const cases::Expected<report::Comparison> comparison =
-        report::compare_runs(runs, {options.common, options.strict});
-    if (!comparison) {
-        return report_stop({report::kExitUsage, {comparison.error().message}});
-    }
+    const report::Comparison comparison =
+        must(report::compare_runs(runs, {options.common, options.strict}), report::kExitUsage);
     std::FILE* console = console_beside(options.json, {}, options.html);
     const report::ConsoleStyle style = console_style(console, options.color, options.verbose);
     cases::Errors errors;
@@ -72,13 +69,13 @@ int carry_out(const Program&, const CompareOptions& options) {
         for (const std::string& folder : options.directories) {
             reports.push_back(report_address(options.html, folder));
         }
-        const std::string page = report::comparison_html(runs, *comparison, reports);
+        const std::string page = report::comparison_html(runs, comparison, reports);
         if (const auto written = write_text(options.html, page); !written) {
             errors.push_back(written.error());
         }
     }
     if (!options.json.empty()) {
-        const std::string json = report::comparison_json(runs, *comparison);
+        const std::string json = report::comparison_json(runs, comparison);
         if (const auto written = write_text(options.json, json); !written) {
             errors.push_back(written.error());
         }
@@ -86,12 +83,12 @@ int carry_out(const Program&, const CompareOptions& options) {
     const std::string exit =
         errors.empty() ? std::string()
                        : report::exit_text(report::kExitInternal, "a file could not be written");
-    std::fputs(report::comparison_text(runs, *comparison, style, exit).c_str(), console);
+    std::fputs(report::comparison_text(runs, comparison, style, exit).c_str(), console);
     std::fflush(console);
     for (const cases::Error& error : errors) {
         complain(error.message);
     }
-    return errors.empty() ? report::exit_code(*comparison) : report::kExitInternal;
+    return errors.empty() ? report::exit_code(comparison) : report::kExitInternal;
 }
 
 void declare(CLI::App& app, CompareOptions& o) {

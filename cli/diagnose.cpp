@@ -110,13 +110,10 @@ namespace {
 int carry_out(const Program& program, const DiagnoseOptions& options) {
     cases::Expected<report::Run> run = report::load_journal(options.directory);
     if (!run) {
-        return report_stop(Stop{report::kExitInvalidFile, {cases::to_string(run.error())}});
+        throw Stop{report::kExitInvalidFile, {cases::to_string(run.error())}};
     }
-    const OrStop<LoadedSuite> loaded = cases_of(program, *run, options.suite.suite);
-    if (!loaded) {
-        return report_stop(loaded.error());
-    }
-    if (!run->suite_hash.empty() && run->suite_hash != cases::hex(suite_hash(loaded->root))) {
+    const LoadedSuite loaded = must(cases_of(program, *run, options.suite.suite));
+    if (!run->suite_hash.empty() && run->suite_hash != cases::hex(suite_hash(loaded.root))) {
         complain("the suite has changed since that run; what is told of changed cases is wrong");
     }
     size_t failed = 0;
@@ -139,7 +136,7 @@ int carry_out(const Program& program, const DiagnoseOptions& options) {
         }
         progress->show(done - 1, std::nullopt);
     };
-    run->diagnoses = diagnoses_of(*run, each_of(*loaded), bound);
+    run->diagnoses = diagnoses_of(*run, each_of(loaded), bound);
     if (progress) {
         progress->clear();
     }

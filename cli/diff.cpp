@@ -402,8 +402,8 @@ void declare(CLI::App& app, DiffOptions& o) {
     add_outputs(&app, o.run, "where the reports go [out/<time>-captures]", false);
 }
 
-Done check(const CLI::App& app, const DiffOptions& o, const Words&) {
-    return check_fail_at(app, o.run);
+void check(const CLI::App& app, const DiffOptions& o, const Words&) {
+    check_fail_at(app, o.run);
 }
 
 }  // namespace

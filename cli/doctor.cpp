@@ -359,9 +359,7 @@ int carry_out(const Program& program, const DoctorOptions& options) {
     Diagnosis d;
     d.installed = all_renderers().front().find_drivers(options.device);
     d.parts = find_parts(program, d.installed);
-    if (const auto asked = ask(program, options.device, d); !asked) {
-        return report_stop({report::kExitInternal, {asked.error().message}});
-    }
+    must(ask(program, options.device, d), report::kExitInternal);
     ask_shares(program, options.device, d);
     if (!d.devices.empty() && std::none_of(d.devices.begin(), d.devices.end(), is_usable)) {
         d.advice.emplace_back("sudo apt install mesa-vulkan-drivers");

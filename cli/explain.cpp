@@ -31,15 +31,12 @@ struct ExplainOptions {
 int explain_rule(const Program& program, const ExplainOptions& options) {
     const cases::Rule* rule = cases::find_rule(options.rule);
     if (rule == nullptr) {
-        return report_stop(
-            {report::kExitNothingSelected,
-             {"there is no rule '" + options.rule + "'; " + cases::rule_hint(options.rule, '\'')}});
+        throw Stop{
+            report::kExitNothingSelected,
+            {"there is no rule '" + options.rule + "'; " + cases::rule_hint(options.rule, '\'')}};
     }
-    const OrStop<LoadedSuite> suite = load_and_select(program, options.suite);
-    if (!suite) {
-        return report_stop(suite.error());
-    }
-    say(rule_text(*rule, suite->cases));
+    const LoadedSuite suite = must(load_and_select(program, options.suite));
+    say(rule_text(*rule, suite.cases));
     return report::kExitOk;
 }
 
@@ -47,34 +44,31 @@ int carry_out(const Program& program, const ExplainOptions& options) {
     if (!options.rule.empty()) {
         return explain_rule(program, options);
     }
-    OrStop<cases::Case> c = load_one_case(program, options.suite, options.judged);
-    if (!c) {
-        return report_stop(c.error());
-    }
-    const cases::Target& target = c->target;
+    cases::Case c = must(load_one_case(program, options.suite, options.judged));
+    const cases::Target& target = c.target;
     if (options.x >= target.width || options.y >= target.height ||
         options.sample >= target.samples || options.layer >= target.layers) {
         const bool layered = target.layers > 1 || options.layer > 0;
-        return report_stop(
-            {report::kExitUsage,
-             {"pixel " + std::to_string(options.x) + "," + std::to_string(options.y) + " sample " +
-              std::to_string(options.sample) +
-              (layered ? " layer " + std::to_string(options.layer) : "") +
-              " is outside the target of " + std::to_string(target.width) + " x " +
-              std::to_string(target.height) + " pixels with " + counted(target.samples, "sample") +
-              (layered ? " and " + counted(target.layers, "layer") : "")}});
+        throw Stop{
+            report::kExitUsage,
+            {"pixel " + std::to_string(options.x) + "," + std::to_string(options.y) + " sample " +
+             std::to_string(options.sample) +
+             (layered ? " layer " + std::to_string(options.layer) : "") +
+             " is outside the target of " + std::to_string(target.width) + " x " +
+             std::to_string(target.height) + " pixels with " + counted(target.samples, "sample") +
+             (layered ? " and " + counted(target.layers, "layer") : "")}};
     }
-    if (!options.has_pixel && c->blit) {
-        return report_stop(
-            {report::kExitUsage, {"'" + c->id + "' is a blit: name one of its texels by --pixel"}});
+    if (!options.has_pixel && c.blit) {
+        throw Stop{report::kExitUsage,
+                   {"'" + c.id + "' is a blit: name one of its texels by --pixel"}};
     }
     const ref::Limits limits = limits_of(options.judged);
-    if (auto placed = ref::as_drawn(*c, limits)) {
-        *c = std::move(*placed);
+    if (auto placed = ref::as_drawn(c, limits)) {
+        c = std::move(*placed);
     }
     const std::string text =
-        !options.has_pixel ? explain_text(*c, limits, options.profile)
-                           : explain_text(*c, limits, options.profile,
+        !options.has_pixel ? explain_text(c, limits, options.profile)
+                           : explain_text(c, limits, options.profile,
                                           {options.x, options.y, options.sample, options.layer});
     say(text + (text.ends_with('\n') ? "" : "\n"));
     return report::kExitOk;
@@ -97,16 +91,14 @@ void declare(CLI::App& app, ExplainOptions& o) {
     add_judged_device(&app, o.judged);
 }
 
-Done check(const CLI::App&, const ExplainOptions& o, const Words&) {
+void check(const CLI::App&, const ExplainOptions& o, const Words&) {
     if (o.rule.empty() && !o.has_pixel && (o.sample > 0 || o.layer > 0)) {
-        return tl::unexpected(
-            usage_error("--sample and --layer name a sample of a pixel; add --pixel", "explain"));
+        throw usage_error("--sample and --layer name a sample of a pixel; add --pixel", "explain");
     }
     if (!o.rule.empty() && (o.has_pixel || !o.suite.selectors.empty())) {
-        return tl::unexpected(usage_error(
-            "--rule explains a rule, not a case; leave out the selector and --pixel", "explain"));
+        throw usage_error("--rule explains a rule, not a case; leave out the selector and --pixel",
+                          "explain");
     }
-    return Done();
 }
 
 }  // namespace

@@ -74,33 +74,21 @@ class FuzzCommand {
         : program_(program), options_(options), status_(options.run) {}
 
     int run() {
-        if (auto read = read_earlier(); !read) {
-            return report_stop(read.error());
-        }
-        if (auto started = find_cases(); !started) {
-            return report_stop(started.error());
-        }
+        read_earlier();
+        find_cases();
         run::LoopConfig config = loop_config(program_, options_.run);
         config.pictures = run::KeepPictures::symptoms;
         config.profile = ledger_.profile;
         config.schedule.retries = 0;  // a reduction begins with drawing the case again
         run::SignalFd signals;
-        OrStop<ReadyWorker> first = ready_first_worker(config, signals);
-        if (!first) {
-            return report_stop(first.error());
-        }
-        if (auto named = name_device(first->device); !named) {
-            return report_stop(named.error());
-        }
+        ReadyWorker first = must(ready_first_worker(config, signals));
+        name_device(first.device);
         RunOptions judging = options_.run;
         judging.profile = ledger_.profile;
         judging.suite.suite = ledger_.suite.empty() ? judging.suite.suite : ledger_.suite;
         judging.no_expect = ledger_.no_expect;
         judging.expect = ledger_.expect;
-        OrStop<ExpectedFailures> expected = expected_failures(program_, judging, first->device);
-        if (!expected) {
-            return report_stop(expected.error());
-        }
+        ExpectedFailures expected = must(expected_failures(program_, judging, first.device));
         const auto folder = open_hunt_folder(folder_);
         if (!folder) {
             return report_stop(folder.error());
@@ -117,29 +105,24 @@ class FuzzCommand {
                     : fmt::format(", from case {} on", ledger_.counts.next_case),
                 is_endless ? "; end it with ctrl-c" : ""));
         }
-        run::Session session(config, std::move(first->client), first->device, signals);
+        run::Session session(config, std::move(first.client), first.device, signals);
         // From here on the hunt can go on, whatever ends it.
         run::SignalFd::set_last_words(cases::printable(
             "interrupted; go on with 'edgecase fuzz --resume " + folder_.string() + "'"));
-        if (auto kept = keep_earlier(); !kept) {
-            return report_stop(stop_with(report::kExitInternal, kept.error().message));
-        }
-        if (const std::optional<int> ended = know(*expected, session)) {
+        must(keep_earlier(), report::kExitInternal);
+        if (const std::optional<int> ended = know(expected, session)) {
             return *ended;
         }
-        return hunt(session, std::move(expected->broken_doors));
+        return hunt(session, std::move(expected.broken_doors));
     }
 
   private:
     // What earlier hunts found, and how far the one came that goes on.
-    OrStop<std::monostate> read_earlier() {
+    void read_earlier() {
         if (!options_.run.resume.empty()) {
-            auto loaded = fuzz::load_ledger(options_.run.resume);
-            if (!loaded) {
-                return tl::unexpected(
-                    stop_with(report::kExitInvalidFile, "--resume: " + loaded.error().message));
-            }
-            ledger_ = std::move(*loaded);
+            auto loaded = must(fuzz::load_ledger(options_.run.resume), report::kExitInvalidFile,
+                               "--resume: ");
+            ledger_ = std::move(loaded);
             folder_ = options_.run.resume;
             device_of_earlier_ = ledger_.device + ledger_.driver;
             seconds_before_ = ledger_.seconds;
@@ -161,16 +144,12 @@ class FuzzCommand {
             }
         }
         for (const std::string& known : options_.known) {
-            auto loaded = fuzz::load_ledger(known);
-            if (!loaded) {
-                return tl::unexpected(
-                    stop_with(report::kExitInvalidFile, "--known: " + loaded.error().message));
-            }
+            auto loaded = must(fuzz::load_ledger(known), report::kExitInvalidFile, "--known: ");
             if (ledger_.expectations.empty()) {
-                known_expectations_ = loaded->expectations;
-                known_device_ = loaded->device + loaded->driver;
+                known_expectations_ = loaded.expectations;
+                known_device_ = loaded.device + loaded.driver;
             }
-            for (Entry& entry : loaded->entries) {
+            for (Entry& entry : loaded.entries) {
                 entry.is_known = true;
                 entry.count = 0;
                 entry.file.clear();  // keep_earlier() copies it
@@ -183,39 +162,33 @@ class FuzzCommand {
                 }
             }
         }
-        return std::monostate{};
     }
 
     // The cases that the hunt starts from, which must be those of before if it goes on.
-    OrStop<std::monostate> find_cases() {
+    void find_cases() {
         SuiteOptions suite = options_.run.suite;
         suite.selectors = ledger_.selectors;
         suite.suite = ledger_.suite.empty() ? suite.suite : ledger_.suite;
-        OrStop<StartCases> found = start_cases(program_, suite, ledger_.seed);
-        if (!found) {
-            return tl::unexpected(found.error());
-        }
-        if (!options_.run.resume.empty() && found->checksum != ledger_.cases_checksum) {
-            return tl::unexpected(stop_with(
+        StartCases found = must(start_cases(program_, suite, ledger_.seed));
+        if (!options_.run.resume.empty() && found.checksum != ledger_.cases_checksum) {
+            throw stop_with(
                 report::kExitInvalidFile,
                 "the hunt cannot go on: the cases that it starts from have changed, so its numbers "
-                "mean other ones; start a new hunt"));
+                "mean other ones; start a new hunt");
         }
-        ledger_.suite = found->suite;
-        ledger_.cases_checksum = found->checksum;
-        starts_ = found->count;
-        source_ = std::move(found->source);
-        return std::monostate{};
+        ledger_.suite = found.suite;
+        ledger_.cases_checksum = found.checksum;
+        starts_ = found.count;
+        source_ = std::move(found.source);
     }
 
-    OrStop<std::monostate> name_device(const capture::DeviceInfo& device) {
+    void name_device(const capture::DeviceInfo& device) {
         ledger_.device = device.name;
         ledger_.driver = device.driver_name + " " + device.driver_info;
         if (!device_of_earlier_.empty() && device_of_earlier_ != ledger_.device + ledger_.driver) {
-            return tl::unexpected(
-                stop_with(report::kExitDevice,
-                          "the hunt cannot go on: it was on another device or driver than '" +
-                              ledger_.device + ", " + ledger_.driver + "'"));
+            throw stop_with(report::kExitDevice,
+                            "the hunt cannot go on: it was on another device or driver than '" +
+                                ledger_.device + ", " + ledger_.driver + "'");
         }
         if (folder_.empty()) {
             folder_ = options_.run.output.empty()
@@ -223,13 +196,12 @@ class FuzzCommand {
                           : fs::path(options_.run.output);
             std::error_code none;
             if (fs::exists(folder_ / fuzz::kLedgerFile, none)) {
-                return tl::unexpected(stop_with(
-                    report::kExitUsage, "'" + folder_.string() +
-                                            "' holds a hunt already; go on with it by --resume, or "
-                                            "name another folder with -o"));
+                throw stop_with(report::kExitUsage,
+                                "'" + folder_.string() +
+                                    "' holds a hunt already; go on with it by --resume, or "
+                                    "name another folder with -o");
             }
         }
-        return std::monostate{};
     }
 
     // Reduces one case for each cause that expectation files explain, unless an earlier hunt has.
@@ -260,7 +232,7 @@ class FuzzCommand {
             [this](const Entry& entry) { return keep_known(entry); });
         status_.clear();
         if (!known.failure.empty()) {
-            return report_stop(stop_with(report::kExitInternal, known.failure));
+            throw stop_with(report::kExitInternal, known.failure);
         }
         if (known.is_interrupted) {
             say("interrupted while known causes were reduced; go on with 'edgecase fuzz --resume " +
@@ -268,9 +240,7 @@ class FuzzCommand {
             return report::kExitInterrupted;
         }
         ledger_.expectations = expected.checksum;
-        if (auto written = write_ledger(); !written) {
-            return report_stop(stop_with(report::kExitInternal, written.error().message));
-        }
+        must(write_ledger(), report::kExitInternal);
         const auto causes = static_cast<size_t>(
             std::count_if(ledger_.entries.begin(), ledger_.entries.end(),
                           [](const Entry& entry) { return entry.file.starts_with(fuzz::kKnown); }));
@@ -362,7 +332,7 @@ class FuzzCommand {
             }
             if (auto kept = keep(hunter, before, state == Hunt::State::done); !kept) {
                 status_.clear();
-                return report_stop(stop_with(report::kExitInternal, kept.error().message));
+                throw stop_with(report::kExitInternal, kept.error().message);
             }
         }
         status_.clear();
@@ -452,9 +422,7 @@ class FuzzCommand {
         size_t number = 0;
         for (const std::string& text : hunter.unrepeated()) {
             const fs::path file = folder_ / fmt::format("unrepeated-{}.toml", ++number);
-            if (const auto written = replace_text(file, text); !written) {
-                return report_stop(stop_with(report::kExitInternal, written.error().message));
-            }
+            must(replace_text(file, text), report::kExitInternal);
         }
         if (c.unrepeated > 0) {
             say(fmt::format("did not come again when drawn alone: {}; see {}\n",
@@ -484,7 +452,7 @@ class FuzzCommand {
             return report::kExitInterrupted;
         }
         if (state == Hunt::State::failed) {
-            return report_stop(stop_with(report::kExitInternal, hunter.failure()));
+            throw stop_with(report::kExitInternal, hunter.failure());
         }
         if (c.unjudged > 0) {
             return report::kExitInternal;
@@ -517,17 +485,14 @@ class FuzzCommand {
 
 int carry_out(const Program& program, const FuzzOptions& options) {
     if (options.printed) {
-        const OrStop<StartCases> cases = start_cases(program, options.run.suite, options.run.seed);
-        if (!cases) {
-            return report_stop(cases.error());
-        }
-        const std::string text = fuzz::text_of_case(*cases->source(), *options.printed);
+        const StartCases cases = must(start_cases(program, options.run.suite, options.run.seed));
+        const std::string text = fuzz::text_of_case(*cases.source(), *options.printed);
         if (text.empty()) {
-            return report_stop(stop_with(
+            throw stop_with(
                 report::kExitNothingSelected,
                 fmt::format("number {} of seed {} has no case: no change of those that were tried "
                             "made one; print another number",
-                            *options.printed, options.run.seed)));
+                            *options.printed, options.run.seed));
         }
         say(text);
         return report::kExitOk;
@@ -590,27 +555,27 @@ void declare(CLI::App& app, FuzzOptions& o) {
 
 // A hunt that goes on has the seed, shard and profile that it began with; where it ends, which
 // device of that name draws and what else is known may be said anew.
-Done check(const CLI::App& fuzz, const FuzzOptions& o, const Words& words) {
+void check(const CLI::App& fuzz, const FuzzOptions& o, const Words& words) {
     const auto refused = [](const std::string& what) {
-        return tl::unexpected(usage_error(
+        throw usage_error(
             "--resume goes on with the cases, seed, shard, profile and folder of the hunt, so " +
                 what + (what.starts_with("no ") ? " can" : " cannot") +
                 " be given; leave it out or start a new hunt",
-            "fuzz"));
+            "fuzz");
     };
     for (const char* name : {"--seed", "--shard", "--profile", "--output", "--print", "--suite"}) {
         if (!o.run.resume.empty() && is_given(fuzz, name, words)) {
-            return refused(name);
+            refused(name);
         }
     }
     if (!o.run.resume.empty() && !o.run.suite.selectors.empty()) {
-        return refused("no selector");
+        refused("no selector");
     }
     if (o.run.no_expect && !o.run.expect.empty()) {
-        return tl::unexpected(usage_error("--expect and --no-expect exclude each other", "fuzz"));
+        throw usage_error("--expect and --no-expect exclude each other", "fuzz");
     }
-    return check_alternatives(fuzz, "--print",
-                              {"--cases", "--time", "--shard", "--known", "--resume", "--output"});
+    check_alternatives(fuzz, "--print",
+                       {"--cases", "--time", "--shard", "--known", "--resume", "--output"});
 }
 
 }  // namespace

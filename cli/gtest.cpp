@@ -118,14 +118,11 @@ class Filter {
 };
 
 int list_tests(const Program& program, const GtestOptions& options, const Filter& filter) {
-    const OrStop<LoadedSuite> suite = load_and_select(program, options.run.suite);
-    if (!suite) {
-        return report_stop(suite.error());
-    }
+    const LoadedSuite suite = must(load_and_select(program, options.run.suite));
     say(std::string(kGroup) + "\n");
-    for (const size_t k : suite->selected) {
-        if (filter.takes(suite->cases[k].id)) {
-            say("  " + test_of(suite->cases[k].id) + "\n");
+    for (const size_t k : suite.selected) {
+        if (filter.takes(suite.cases[k].id)) {
+            say("  " + test_of(suite.cases[k].id) + "\n");
         }
     }
     return report::kExitOk;
@@ -216,9 +213,8 @@ int carry_out(const Program& program, const GtestOptions& options) {
     fs::create_directories(parent, error);
     std::string folder = (parent / "edgecase-gtest-XXXXXX").string();
     if (::mkdtemp(folder.data()) == nullptr) {
-        return report_stop(
-            stop_with(report::kExitUsage, "no folder can be made in '" + parent.string() +
-                                              "'; choose another with -o or TMPDIR"));
+        throw stop_with(report::kExitUsage, "no folder can be made in '" + parent.string() +
+                                                "'; choose another with -o or TMPDIR");
     }
     run.output = folder;
     run.capture = keeps ? run.capture : run::KeepPictures::none;
@@ -263,8 +259,8 @@ void declare(CLI::App& app, GtestOptions& o) {
               "Output");
 }
 
-Done check(const CLI::App& app, const GtestOptions& o, const Words&) {
-    return check_fail_at(app, o.run);
+void check(const CLI::App& app, const GtestOptions& o, const Words&) {
+    check_fail_at(app, o.run);
 }
 
 }  // namespace

@@ -302,9 +302,9 @@ void tell_in_short(const LoadedSuite& suite, const std::map<std::string, Claimed
 
 int carry_out(const Program& program, const LintOptions& options) {
     if (options.strength && options.suite.selectors.empty()) {
-        return report_stop({report::kExitUsage,
-                            {"--strength draws each case with each fault, which takes long for a "
-                             "whole suite; name the cases"}});
+        throw Stop{report::kExitUsage,
+                   {"--strength draws each case with each fault, which takes long for a "
+                    "whole suite; name the cases"}};
     }
     if (const auto root = find_suite_root(program, options.suite.suite); !root) {
         return report_stop(root.error());  // nothing is wrong with what is selected

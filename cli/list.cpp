@@ -83,15 +83,12 @@ int carry_out(const Program& program, const ListOptions& options) {
                                          options.suite.selectors.end(), [](const std::string& s) {
                                              return s.find('@') != std::string::npos || s == "-";
                                          });
-    const OrStop<LoadedSuite> suite =
-        names_only ? load_and_select(program, options.suite, cases::Contents::ids)
-                   : load_selected(program, options.suite);
-    if (!suite) {
-        return report_stop(suite.error());
-    }
+    const LoadedSuite suite =
+        must(names_only ? load_and_select(program, options.suite, cases::Contents::ids)
+                        : load_selected(program, options.suite));
     nlohmann::ordered_json all = nlohmann::ordered_json::array();
-    for (const size_t k : suite->selected) {
-        const cases::Case& c = suite->cases[k];
+    for (const size_t k : suite.selected) {
+        const cases::Case& c = suite.cases[k];
         if (options.json) {
             all.push_back(to_json(c));
         } else if (options.long_form) {
@@ -107,7 +104,7 @@ int carry_out(const Program& program, const ListOptions& options) {
             all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
         say(text + "\n");
     }
-    return suite->selected.empty() ? report::kExitNothingSelected : report::kExitOk;
+    return suite.selected.empty() ? report::kExitNothingSelected : report::kExitOk;
 }
 
 void declare(CLI::App& app, ListOptions& o) {
@@ -117,9 +114,9 @@ void declare(CLI::App& app, ListOptions& o) {
     app.add_flag("--json", o.json, "as JSON");
 }
 
-Done check(const CLI::App& app, const ListOptions&, const Words&) {
-    const Done checked = check_alternatives(app, "--long", {"--ids", "--json"});
-    return checked ? check_alternatives(app, "--ids", {"--json"}) : checked;
+void check(const CLI::App& app, const ListOptions&, const Words&) {
+    check_alternatives(app, "--long", {"--ids", "--json"});
+    check_alternatives(app, "--ids", {"--json"});
 }
 
 }  // namespace

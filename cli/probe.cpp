@@ -46,19 +46,16 @@ std::vector<std::pair<std::string, std::string>> device_lines(const capture::Dev
             {"edgecase", kVersion}};
 }
 
-OrStop<probe::Datasheet> measure(const Program& program, const ProbeOptions& options,
-                                 run::SignalFd& signals) {
+probe::Datasheet measure(const Program& program, const ProbeOptions& options,
+                         run::SignalFd& signals) {
     RunOptions how;
     how.device = options.device;
     how.jobs = 1;
     how.retries = 0;
     run::LoopConfig config = loop_config(program, how);
-    OrStop<ReadyWorker> first = ready_first_worker(config, signals);
-    if (!first) {
-        return tl::unexpected(first.error());
-    }
-    const capture::DeviceInfo device = first->device;
-    run::Session session(config, std::move(first->client), device, signals);
+    ReadyWorker first = must(ready_first_worker(config, signals));
+    const capture::DeviceInfo device = first.device;
+    run::Session session(config, std::move(first.client), device, signals);
     bool is_interrupted = false;
     std::string failure;
     Progress progress(ProgressStyle::automatic, 0);
@@ -84,11 +81,10 @@ OrStop<probe::Datasheet> measure(const Program& program, const ProbeOptions& opt
                        });
     progress.clear();
     if (is_interrupted) {
-        return tl::unexpected(
-            stop_with(report::kExitInterrupted, "interrupted; nothing was written"));
+        throw stop_with(report::kExitInterrupted, "interrupted; nothing was written");
     }
     if (!failure.empty()) {
-        return tl::unexpected(stop_with(report::kExitInternal, failure));
+        throw stop_with(report::kExitInternal, failure);
     }
     sheet.device = device_lines(device);
     if (!options.device.renderer.empty()) {
@@ -98,8 +94,8 @@ OrStop<probe::Datasheet> measure(const Program& program, const ProbeOptions& opt
 }
 
 // A file of 'probe --json', or else the name of a device.
-OrStop<probe::Datasheet> sheet_of(const Program& program, const ProbeOptions& options,
-                                  const std::string& name, run::SignalFd& signals) {
+probe::Datasheet sheet_of(const Program& program, const ProbeOptions& options,
+                          const std::string& name, run::SignalFd& signals) {
     std::error_code none;
     if (fs::exists(name, none)) {
         const cases::Expected<std::string> text = cases::read_file(name, cases::Pipes::read);
@@ -107,20 +103,19 @@ OrStop<probe::Datasheet> sheet_of(const Program& program, const ProbeOptions& op
             text ? probe::from_json(*text)
                  : cases::Expected<probe::Datasheet>(tl::unexpected(text.error()));
         if (!sheet) {
-            return tl::unexpected(
-                stop_with(report::kExitInvalidFile,
-                          fmt::format("'{}' cannot be compared: {}; write one with 'edgecase probe "
-                                      "--json FILE'",
-                                      name, sheet.error().message)));
+            throw stop_with(
+                report::kExitInvalidFile,
+                fmt::format("'{}' cannot be compared: {}; write one with 'edgecase probe "
+                            "--json FILE'",
+                            name, sheet.error().message));
         }
         return *sheet;
     }
     if (name.ends_with(".json")) {
-        return tl::unexpected(
-            stop_with(report::kExitInvalidFile,
-                      fmt::format("there is no file '{}'; --compare takes two files of 'edgecase "
-                                  "probe --json', or names of devices",
-                                  name)));
+        throw stop_with(report::kExitInvalidFile,
+                        fmt::format("there is no file '{}'; --compare takes two files of 'edgecase "
+                                    "probe --json', or names of devices",
+                                    name));
     }
     ProbeOptions one = options;
     one.device.device = name;
@@ -128,46 +123,36 @@ OrStop<probe::Datasheet> sheet_of(const Program& program, const ProbeOptions& op
 }
 
 int compare(const Program& program, const ProbeOptions& options, run::SignalFd& signals) {
-    const OrStop<probe::Datasheet> a = sheet_of(program, options, options.compared[0], signals);
-    if (!a) {
-        return report_stop(a.error());
-    }
-    const OrStop<probe::Datasheet> b = sheet_of(program, options, options.compared[1], signals);
-    if (!b) {
-        return report_stop(b.error());
-    }
-    say(probe::comparison_text(*a, *b, options.compared[0], options.compared[1]));
-    return probe::differences(*a, *b).empty() ? report::kExitOk : report::kExitUnexpected;
+    const probe::Datasheet a = sheet_of(program, options, options.compared[0], signals);
+    const probe::Datasheet b = sheet_of(program, options, options.compared[1], signals);
+    say(probe::comparison_text(a, b, options.compared[0], options.compared[1]));
+    return probe::differences(a, b).empty() ? report::kExitOk : report::kExitUnexpected;
 }
 
 int carry_out(const Program& program, const ProbeOptions& options) {
     run::SignalFd signals;
     if (options.compared.size() == 1) {
-        return report_stop(
-            stop_with(report::kExitUsage, "--compare takes two files or devices, and '" +
-                                              options.compared.front() +
-                                              "' is one; see 'edgecase probe --help'"));
+        throw stop_with(report::kExitUsage, "--compare takes two files or devices, and '" +
+                                                options.compared.front() +
+                                                "' is one; see 'edgecase probe --help'");
     }
     if (!options.compared.empty()) {
         return compare(program, options, signals);
     }
-    const OrStop<probe::Datasheet> sheet = measure(program, options, signals);
-    if (!sheet) {
-        return report_stop(sheet.error());
-    }
+    const probe::Datasheet sheet = measure(program, options, signals);
     cases::Errors errors;
     if (!options.json.empty()) {
-        if (const auto written = write_text(options.json, probe::to_json(*sheet)); !written) {
+        if (const auto written = write_text(options.json, probe::to_json(sheet)); !written) {
             errors.push_back(written.error());
         }
     }
     if (!options.html.empty()) {
-        if (const auto written = write_text(options.html, probe::to_html(*sheet)); !written) {
+        if (const auto written = write_text(options.html, probe::to_html(sheet)); !written) {
             errors.push_back(written.error());
         }
     }
     std::FILE* console = console_beside(options.json, {}, options.html);
-    std::fputs(probe::to_text(*sheet, options.verbose).c_str(), console);
+    std::fputs(probe::to_text(sheet, options.verbose).c_str(), console);
     std::fflush(console);
     for (const cases::Error& error : errors) {
         complain(error.message);
@@ -192,8 +177,8 @@ void declare(CLI::App& app, ProbeOptions& o) {
     app.add_flag("-v,--verbose", o.verbose, "tell each experiment, too")->group("Output");
 }
 
-Done check(const CLI::App& app, const ProbeOptions&, const Words&) {
-    return check_alternatives(app, "--compare", {"--json", "--html"});
+void check(const CLI::App& app, const ProbeOptions&, const Words&) {
+    check_alternatives(app, "--compare", {"--json", "--html"});
 }
 
 }  // namespace

@@ -37,29 +37,23 @@ struct ReduceOptions {
 
 constexpr size_t kMostRounds = 2000;
 
-OrStop<run::Session> start_session(const Program& program, const RunOptions& options,
-                                   run::SignalFd& signals) {
+run::Session start_session(const Program& program, const RunOptions& options,
+                           run::SignalFd& signals) {
     run::LoopConfig config = loop_config(program, options);
     config.pictures = run::KeepPictures::symptoms;
     config.schedule.retries = 0;
-    OrStop<ReadyWorker> first = ready_first_worker(config, signals);
-    if (!first) {
-        return tl::unexpected(first.error());
-    }
-    return run::Session(config, std::move(first->client), first->device, signals);
+    ReadyWorker first = must(ready_first_worker(config, signals));
+    return run::Session(config, std::move(first.client), first.device, signals);
 }
 
 // What draws cases: workers on a device, or a command.
 using Drawer = std::function<run::Session::Results(const std::vector<cases::Case>&)>;
 
-OrStop<Drawer> make_drawer(const Program& program, const ReduceOptions& options,
-                           run::SignalFd& signals, const std::function<void()>& on_wait) {
+Drawer make_drawer(const Program& program, const ReduceOptions& options, run::SignalFd& signals,
+                   const std::function<void()>& on_wait) {
     if (options.captures_command.empty()) {
-        OrStop<run::Session> session = start_session(program, options.run, signals);
-        if (!session) {
-            return tl::unexpected(session.error());
-        }
-        return [all = std::make_shared<run::Session>(std::move(*session)),
+        run::Session session = start_session(program, options.run, signals);
+        return [all = std::make_shared<run::Session>(std::move(session)),
                 on_wait](const std::vector<cases::Case>& cases) {
             return all->draw(cases, [&on_wait](size_t) {
                 on_wait();
@@ -67,14 +61,11 @@ OrStop<Drawer> make_drawer(const Program& program, const ReduceOptions& options,
             });
         };
     }
-    OrStop<CapturesCommand> command =
-        CapturesCommand::open({options.captures_command, options.run.device.timeout,
-                               limits_of(options.judged), options.run.profile, on_wait},
-                              signals);
-    if (!command) {
-        return tl::unexpected(command.error());
-    }
-    return [all = std::make_shared<CapturesCommand>(std::move(*command))](
+    CapturesCommand command =
+        must(CapturesCommand::open({options.captures_command, options.run.device.timeout,
+                                    limits_of(options.judged), options.run.profile, on_wait},
+                                   signals));
+    return [all = std::make_shared<CapturesCommand>(std::move(command))](
                const std::vector<cases::Case>& cases) {
         run::Session::Results results;
         results.records = all->draw(cases);
@@ -128,29 +119,20 @@ std::string size_text(const cases::Case& c) {
 }
 
 int carry_out(const Program& program, const ReduceOptions& options) {
-    const OrStop<cases::Case> loaded = load_one_case(program, options.run.suite);
-    if (!loaded) {
-        return report_stop(loaded.error());
-    }
+    const cases::Case loaded = must(load_one_case(program, options.run.suite));
     if (std::error_code none; !options.run.output.empty() && fs::exists(options.run.output, none)) {
-        return report_stop(stop_with(
+        throw stop_with(
             report::kExitUsage,
-            "'" + options.run.output + "' exists; name another file with -o, or remove it"));
+            "'" + options.run.output + "' exists; name another file with -o, or remove it");
     }
-    const cases::Expected<std::string> text = cases::to_toml(*loaded);
-    if (!text) {
-        return report_stop(
-            stop_with(report::kExitUsage, "the case cannot be reduced: " + text.error().message));
-    }
+    const std::string text =
+        must(cases::to_toml(loaded), report::kExitUsage, "the case cannot be reduced: ");
     run::SignalFd signals;
     size_t drawn = 0;
     Progress progress(options.run.quiet ? ProgressStyle::none : ProgressStyle::automatic, 0);
-    OrStop<Drawer> drawer = make_drawer(program, options, signals, [&] {
+    const Drawer drawer = make_drawer(program, options, signals, [&] {
         progress.show_words(fmt::format("reducing: {} drawn", cases::counted(drawn, "case")));
     });
-    if (!drawer) {
-        return report_stop(drawer.error());
-    }
     size_t unsure = 0;
     std::string failure;
     bool is_interrupted = false;
@@ -163,25 +145,25 @@ int carry_out(const Program& program, const ReduceOptions& options) {
             return std::vector<CaseRecord>(cases.size());
         }
         drawn += cases.size();
-        run::Session::Results results = (*drawer)(cases);
+        run::Session::Results results = drawer(cases);
         is_interrupted = results.interrupted;
         failure = results.failure;
         unsure += static_cast<size_t>(
             std::count_if(results.records.begin(), results.records.end(), is_unsure));
         return std::move(results.records);
     };
-    cases::Case one = *loaded;
+    cases::Case one = loaded;
     const CaseRecord record = draw({one}).front();
     const std::optional<fuzz::Symptom> symptom = fuzz::symptom_of(record);
     if (!failure.empty()) {
-        return report_stop(stop_with(report::kExitInternal, failure));
+        throw stop_with(report::kExitInternal, failure);
     }
     if (!is_interrupted && !symptom) {
-        return report_stop(why_nothing(*loaded, record, !options.captures_command.empty()));
+        throw why_nothing(loaded, record, !options.captures_command.empty());
     }
     std::optional<fuzz::Entry> entry;
     if (symptom) {
-        entry = fuzz::reduce_case(*text, *symptom, draw, kMostRounds, is_over);
+        entry = fuzz::reduce_case(text, *symptom, draw, kMostRounds, is_over);
     }
     progress.clear();
     if (is_interrupted && !entry) {
@@ -189,22 +171,22 @@ int carry_out(const Program& program, const ReduceOptions& options) {
         return report::kExitInterrupted;
     }
     if (!failure.empty()) {
-        return report_stop(stop_with(report::kExitInternal, failure));
+        throw stop_with(report::kExitInternal, failure);
     }
     if (!entry) {
-        return report_stop(stop_with(
+        throw stop_with(
             report::kExitUnexpected,
-            loaded->id + " did not fail the same way again, and cannot be reduced: " +
+            loaded.id + " did not fail the same way again, and cannot be reduced: " +
                 (unsure > 0 ? cases::counted(unsure, "drawing") + " of it had no sure result"
-                            : "it is a flake of the driver")));
+                            : "it is a flake of the driver"));
     }
-    std::string note = fmt::format("# {}, reduced from {}.\n", to_text(*symptom), loaded->id);
+    std::string note = fmt::format("# {}, reduced from {}.\n", to_text(*symptom), loaded.id);
     note += fuzz::need_text(*entry);
     const std::string out = note + entry->text;
     if (options.run.output.empty()) {
         say(out);
-    } else if (auto written = write_text(options.run.output, out); !written) {
-        return report_stop(stop_with(report::kExitInternal, written.error().message));
+    } else {
+        must(write_text(options.run.output, out), report::kExitInternal);
     }
     if (is_interrupted) {
         complain(
@@ -214,7 +196,7 @@ int carry_out(const Program& program, const ReduceOptions& options) {
     const auto reduced = cases::load_text(entry->text, "reduced", "reduced");
     if (!options.run.quiet && reduced) {
         std::fprintf(stderr, "%s\n",
-                     fmt::format("from {} to {}, after drawing {}{}", size_text(*loaded),
+                     fmt::format("from {} to {}, after drawing {}{}", size_text(loaded),
                                  size_text(reduced->front()), cases::counted(drawn, "case"),
                                  size_doubt(record, entry->is_minimal, unsure))
                          .c_str());
@@ -238,36 +220,32 @@ void declare(CLI::App& app, ReduceOptions& o) {
 }
 
 // A command takes the place of a device.
-Done check(const CLI::App& reduce, const ReduceOptions& o, const Words& words) {
-    const auto refused = [](const std::string& sentence) {
-        return tl::unexpected(usage_error(sentence, "reduce"));
-    };
+void check(const CLI::App& reduce, const ReduceOptions& o, const Words& words) {
+    const auto refused = [](const std::string& sentence) { throw usage_error(sentence, "reduce"); };
     if (!is_given(reduce, "--captures-command", words)) {
         for (const std::string name : {"--subpixel-bits", "--sample-locations"}) {
             if (is_given(reduce, name.c_str(), words)) {
-                return refused(name +
-                               " is for a renderer that --captures-command starts; devices tell it "
-                               "themselves");
+                refused(name +
+                        " is for a renderer that --captures-command starts; devices tell it "
+                        "themselves");
             }
         }
-        return Done();
+        return;
     }
     for (const char* name : {"--device", "--icd", "--renderer", "--validation"}) {
         if (is_given(reduce, name, words)) {
-            return refused(std::string(name) +
-                           " chooses a device, and --captures-command draws without one; leave one "
-                           "of them out");
+            refused(std::string(name) +
+                    " chooses a device, and --captures-command draws without one; leave one "
+                    "of them out");
         }
     }
     for (const char* word : {"%in", "%out"}) {
         if (o.captures_command.find(word) == std::string::npos) {
-            return refused(std::string("--captures-command has no ") + word +
-                           ", the folder of the " +
-                           (word[1] == 'i' ? "exported cases" : "captures") +
-                           "; write for example 'my-renderer %in %out'");
+            refused(std::string("--captures-command has no ") + word + ", the folder of the " +
+                    (word[1] == 'i' ? "exported cases" : "captures") +
+                    "; write for example 'my-renderer %in %out'");
         }
     }
-    return Done();
 }
 
 }  // namespace

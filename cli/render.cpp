@@ -257,53 +257,46 @@ Drawing allowed_picture(const cases::Case& c, const RenderOptions& options) {
             [r] { return coverage_image(*r); }};
 }
 
-OrStop<Drawing> picture_of(const cases::Case& c, const RenderOptions& options) {
+Drawing picture_of(const cases::Case& c, const RenderOptions& options) {
     if (!c.blit) {
-        return options.renderer.empty() ? OrStop<Drawing>(allowed_picture(c, options))
-                                        : draw_picture(c, options.renderer);
+        return options.renderer.empty() ? allowed_picture(c, options)
+                                        : must(draw_picture(c, options.renderer));
     }
     if (!options.renderer.empty() && options.renderer != "reference") {
-        return tl::unexpected(Stop{report::kExitUsage,
-                                   {"'" + options.renderer +
-                                    "' draws triangles, and the case is a blit; leave "
-                                    "--renderer out"}});
+        throw Stop{report::kExitUsage,
+                   {"'" + options.renderer +
+                    "' draws triangles, and the case is a blit; leave "
+                    "--renderer out"}};
     }
     return blit_picture(c, options.profile);
 }
 
 int carry_out(const Program& program, const RenderOptions& options) {
-    OrStop<cases::Case> c = load_one_case(program, options.suite, options.judged);
-    if (!c) {
-        return report_stop(c.error());
-    }
-    if (auto placed = ref::as_drawn(*c, limits_of(options.judged))) {
-        *c = std::move(*placed);
+    cases::Case c = must(load_one_case(program, options.suite, options.judged));
+    if (auto placed = ref::as_drawn(c, limits_of(options.judged))) {
+        c = std::move(*placed);
     }
     const std::string extension = std::filesystem::path(options.output).extension().string();
     if (extension != ".json" && extension != ".png" && extension != ".exr" && extension != ".tif") {
-        return report_stop(
-            {report::kExitUsage,
-             {"'" + options.output + "' has no known extension; use .exr, .png or .json"}});
+        throw Stop{report::kExitUsage,
+                   {"'" + options.output + "' has no known extension; use .exr, .png or .json"}};
     }
     const bool is_picture = extension == ".png";
     if (!is_picture && options.scale > 0) {
-        return report_stop({report::kExitUsage,
-                            {"--scale is for pictures to look at (*.png); values keep the "
-                             "target's size, so leave it out"}});
+        throw Stop{report::kExitUsage,
+                   {"--scale is for pictures to look at (*.png); values keep the "
+                    "target's size, so leave it out"}};
     }
-    const OrStop<Drawing> drawing = picture_of(*c, options);
-    if (!drawing) {
-        return report_stop(drawing.error());
-    }
+    const Drawing drawing = picture_of(c, options);
     const cases::Expected<void> written =
         extension == ".json"
-            ? write_pieces(options.output, drawing->json)
+            ? write_pieces(options.output, drawing.json)
             : capture::write_image(
-                  options.output,
-                  is_picture ? enlarged(drawing->picture(), c->target.samples, options.scale)
-                             : drawing->values());
+                  options.output, is_picture
+                                      ? enlarged(drawing.picture(), c.target.samples, options.scale)
+                                      : drawing.values());
     if (!written) {
-        return report_stop({report::kExitInternal, {cases::to_string(written.error())}});
+        throw Stop{report::kExitInternal, {cases::to_string(written.error())}};
     }
     return report::kExitOk;
 }

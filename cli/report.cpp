@@ -62,15 +62,14 @@ struct Source {
     fs::path folder;
 };
 
-OrStop<Source> load_one(const ReportOptions& options) {
+Source load_one(const ReportOptions& options) {
     if (options.directories.size() != 1) {
-        return tl::unexpected(
-            Stop{report::kExitUsage,
-                 {"several folders need --merge; 'edgecase compare' sets runs side by side"}});
+        throw Stop{report::kExitUsage,
+                   {"several folders need --merge; 'edgecase compare' sets runs side by side"}};
     }
     cases::Expected<report::Run> run = report::load_for_reports(options.directories.front());
     if (!run) {
-        return tl::unexpected(Stop{report::kExitInvalidFile, {cases::to_string(run.error())}});
+        throw Stop{report::kExitInvalidFile, {cases::to_string(run.error())}};
     }
     const fs::path folder = options.output.empty() ? options.directories.front() : options.output;
     std::error_code error;
@@ -82,7 +81,7 @@ fs::path merged_folder(const ReportOptions& options) {
     return options.output.empty() ? "out/merged" : options.output;
 }
 
-OrStop<Source> load_merged(const Program& program, const ReportOptions& options) {
+Source load_merged(const Program& program, const ReportOptions& options) {
     Source source;
     source.folder = merged_folder(options);
     std::vector<report::Part> parts;
@@ -90,29 +89,23 @@ OrStop<Source> load_merged(const Program& program, const ReportOptions& options)
     for (const std::string& directory : options.directories) {
         std::error_code none;
         if (fs::equivalent(directory, source.folder, none)) {
-            return tl::unexpected(
-                Stop{report::kExitUsage,
-                     {"the merged run would overwrite '" + directory +
-                      "', which is one of its parts; choose another folder with -o"}});
+            throw Stop{report::kExitUsage,
+                       {"the merged run would overwrite '" + directory +
+                        "', which is one of its parts; choose another folder with -o"}};
         }
         cases::Expected<report::Run> run = report::load_journal(directory);
         if (!run) {
-            return tl::unexpected(Stop{report::kExitInvalidFile, {cases::to_string(run.error())}});
+            throw Stop{report::kExitInvalidFile, {cases::to_string(run.error())}};
         }
         is_diagnosed = is_diagnosed || !run->diagnoses.empty();
         parts.push_back({directory, std::move(*run)});
     }
-    cases::Expected<report::Run> merged = report::merge_runs(std::move(parts));
-    if (!merged) {
-        return tl::unexpected(Stop{report::kExitInvalidFile, {merged.error().message}});
-    }
-    source.run = std::move(*merged);
+    report::Run merged = must(report::merge_runs(std::move(parts)), report::kExitInvalidFile);
+    source.run = std::move(merged);
     if (is_diagnosed) {
         diagnose_again(program, source.run);
     }
-    if (const auto written = write_merged(source.run, source.folder); !written) {
-        return tl::unexpected(Stop{report::kExitInternal, {written.error().message}});
-    }
+    must(write_merged(source.run, source.folder), report::kExitInternal);
     return source;
 }
 
@@ -129,23 +122,28 @@ void forsake_merged(const ReportOptions& options) {
     }
 }
 
-int carry_out(const Program& program, const ReportOptions& options) {
-    const OrStop<Source> source = options.merge ? load_merged(program, options) : load_one(options);
-    if (!source) {
-        if (options.merge && source.error().exit_code == report::kExitInvalidFile) {
+Source load(const Program& program, const ReportOptions& options) {
+    try {
+        return options.merge ? load_merged(program, options) : load_one(options);
+    } catch (const Stop& stop) {
+        if (options.merge && stop.exit_code == report::kExitInvalidFile) {
             forsake_merged(options);
         }
-        return report_stop(source.error());
+        throw;
     }
-    const report::Run& run = source->run;
-    const ReportFiles files{source->folder, options.json, options.junit, options.html};
+}
+
+int carry_out(const Program& program, const ReportOptions& options) {
+    const Source source = load(program, options);
+    const report::Run& run = source.run;
+    const ReportFiles files{source.folder, options.json, options.junit, options.html};
     Progress progress(options.quiet ? ProgressStyle::none : ProgressStyle::automatic, 0);
     cases::Errors errors = write_reports(run, files, progress);
     progress.clear();
     std::FILE* console = console_beside(options.json, options.junit, options.html);
     report::ConsoleStyle style = console_style(console, options.color, options.verbose);
     style.folder =
-        shell_quote(options.merge ? source->folder.string() : options.directories.front());
+        shell_quote(options.merge ? source.folder.string() : options.directories.front());
     if (!options.quiet) {
         std::fputs(report::console_header(run, style).c_str(), console);
     }

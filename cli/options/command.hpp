@@ -31,9 +31,10 @@ struct Help {
     const char* examples;  // what its help ends with; nullptr: what the program's ends with
 };
 
-// What is left to be done once the words are parsed.
+// What is left to be done once the words are parsed. Both throw the Stop of a command that cannot
+// go on.
 struct Action {
-    std::function<Done(const CLI::App&, const Words&)> check;
+    std::function<void(const CLI::App&, const Words&)> check;
     std::function<int(const Program&)> carry_out;  // an exit code of report/record/run.hpp
 };
 
@@ -43,25 +44,26 @@ struct Command {
 };
 
 // Checks what options mean beside each other that several commands have.
-Done check_device(const CLI::App& command, DeviceOptions& o, const Words& words);
-Done check_fail_at(const CLI::App& command, const RunOptions& o);
+void check_device(const CLI::App& command, DeviceOptions& o, const Words& words);
+void check_fail_at(const CLI::App& command, const RunOptions& o);
 
 // A command with such options. `check` may be left out.
 template <class Options>
 Command make_command(Help help, void (*declare)(CLI::App&, Options&),
                      int (*carry_out)(const Program&, const Options&),
-                     Done (*check)(const CLI::App&, const Options&, const Words&) = nullptr) {
+                     void (*check)(const CLI::App&, const Options&, const Words&) = nullptr) {
     return {help, [=](CLI::App& app) {
                 const auto o = std::make_shared<Options>();
                 declare(app, *o);
                 const auto check_all = [=](const CLI::App& command, const Words& words) {
-                    Done checked;
                     if constexpr (requires { o->device; }) {
-                        checked = check_device(command, o->device, words);
+                        check_device(command, o->device, words);
                     } else if constexpr (requires { o->run.device; }) {
-                        checked = check_device(command, o->run.device, words);
+                        check_device(command, o->run.device, words);
                     }
-                    return checked && check != nullptr ? check(command, *o, words) : checked;
+                    if (check != nullptr) {
+                        check(command, *o, words);
+                    }
                 };
                 return Action{check_all,
                               [=](const Program& program) { return carry_out(program, *o); }};
@@ -70,9 +72,7 @@ Command make_command(Help help, void (*declare)(CLI::App&, Options&),
 
 // A command without options.
 inline Command make_command(Help help, int (*carry_out)(const Program&)) {
-    return {help, [=](CLI::App&) {
-                return Action{[](const auto&, const auto&) { return Done(); }, carry_out};
-            }};
+    return {help, [=](CLI::App&) { return Action{[](const auto&, const auto&) {}, carry_out}; }};
 }
 
 }  // namespace cli

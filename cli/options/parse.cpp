@@ -91,15 +91,14 @@ Stop parse_error(const CLI::ParseError& error, const CLI::App& app, const std::s
     return usage_error(text, command);
 }
 
-Done check_loudness(const CLI::App& command) {
+void check_loudness(const CLI::App& command) {
     for (const char* name : {"--quiet", "--verbose"}) {
         const CLI::Option* option = command.get_option_no_throw(name);
         if (option == nullptr || option->count() == 0) {
-            return Done();
+            return;
         }
     }
-    return tl::unexpected(
-        Stop{report::kExitUsage, {"-q and -v contradict each other; leave one out"}});
+    throw Stop{report::kExitUsage, {"-q and -v contradict each other; leave one out"}};
 }
 
 constexpr const char* kSummary =
@@ -131,30 +130,27 @@ constexpr const char* kFooter =
 }  // namespace
 
 // An algorithm has no driver, so these would be ignored.
-Done check_device(const CLI::App& command, DeviceOptions& o, const Words& words) {
+void check_device(const CLI::App& command, DeviceOptions& o, const Words& words) {
     for (const char* name : {"--device", "--icd"}) {
         if (!o.renderer.empty() && is_given(command, name, words)) {
-            return tl::unexpected(usage_error(std::string(name) + " chooses a driver, and '" +
-                                                  o.renderer +
-                                                  "' draws without one; leave out one of the two",
-                                              command.get_name()));
+            throw usage_error(std::string(name) + " chooses a driver, and '" + o.renderer +
+                                  "' draws without one; leave out one of the two",
+                              command.get_name());
         }
     }
     o.icd_from = is_given(command, "--icd", words) ? "--icd" : "EDGECASE_ICD";
-    return Done();
 }
 
 // Of a level that is stricter than the profile nothing is known, so that no run would fail at it.
-Done check_fail_at(const CLI::App& command, const RunOptions& o) {
+void check_fail_at(const CLI::App& command, const RunOptions& o) {
     if (!o.fail_at || *o.fail_at <= o.profile) {
-        return Done();
+        return;
     }
     const std::string level(cases::to_string(*o.fail_at)), profile(cases::to_string(o.profile));
-    return tl::unexpected(
-        usage_error("--fail-at " + level + " is stricter than the profile " + profile +
-                        ", at which nothing of that level is judged; write --fail-at " + profile +
-                        " or --profile " + level,
-                    command.get_name()));
+    throw usage_error("--fail-at " + level + " is stricter than the profile " + profile +
+                          ", at which nothing of that level is judged; write --fail-at " + profile +
+                          " or --profile " + level,
+                      command.get_name());
 }
 
 std::vector<Action> declare(CLI::App& app, std::span<const Command> commands) {
@@ -179,7 +175,7 @@ std::vector<Action> declare(CLI::App& app, std::span<const Command> commands) {
     return actions;
 }
 
-OrStop<CarryOut> parse(std::span<const Command> commands, const Words& words) {
+CarryOut parse(std::span<const Command> commands, const Words& words) {
     CLI::App app(kSummary, "edgecase");
     const std::vector<Action> actions = declare(app, commands);
     const std::vector<std::string> names = names_of_commands(app);
@@ -187,18 +183,18 @@ OrStop<CarryOut> parse(std::span<const Command> commands, const Words& words) {
     const auto named = std::find(names.begin(), names.end(), first);
     const bool is_command = named != names.end();
     if (first.empty()) {
-        return tl::unexpected(usage_error("a command is missing, for example 'edgecase run'", ""));
+        throw usage_error("a command is missing, for example 'edgecase run'", "");
     }
     if (!is_command && first.front() != '-') {
         const std::string hint = first == "help"    ? "; did you mean '--help'?"
                                  : first == "merge" ? "; did you mean 'report --merge'?"
                                                     : cases::did_you_mean(first, names);
-        return tl::unexpected(usage_error("unknown command '" + first + "'" + hint, ""));
+        throw usage_error("unknown command '" + first + "'" + hint, "");
     }
     if (!is_command && first != "-h" && first != "--help" && first != "--version") {
-        return tl::unexpected(usage_error(
+        throw usage_error(
             "unknown option '" + first + "'" + cases::did_you_mean(first, {"--help", "--version"}),
-            ""));
+            "");
     }
     std::vector<std::string> reversed(words.rbegin(), words.rend() - 1);  // as CLI11 wants them
     try {
@@ -209,11 +205,9 @@ OrStop<CarryOut> parse(std::span<const Command> commands, const Words& words) {
         return [](const Program&) { return int{report::kExitOk}; };
     } catch (const CLI::ParseError& error) {
         if (is_command) {
-            if (auto checked = check_empty_values(*app.get_subcommand(first), words); !checked) {
-                return tl::unexpected(checked.error());
-            }
+            check_empty_values(*app.get_subcommand(first), words);
         }
-        return tl::unexpected(parse_error(error, app, is_command ? first : "", words));
+        throw parse_error(error, app, is_command ? first : "", words);
     }
     const auto chosen = is_command ? named : std::find(names.begin(), names.end(), "version");
     const Action& action = actions.at(static_cast<size_t>(chosen - names.begin()));
@@ -221,22 +215,17 @@ OrStop<CarryOut> parse(std::span<const Command> commands, const Words& words) {
         return action.carry_out;
     }
     CLI::App* command = app.get_subcommand(first);
-    if (const auto checked = check_empty_values(*command, words); !checked) {
-        return tl::unexpected(checked.error());
-    }
+    check_empty_values(*command, words);
     std::vector<std::string> unknown = command->remaining();
     if (const auto end = std::find(unknown.begin(), unknown.end(), "--"); end != unknown.end()) {
         unknown.erase(end);  // it ends the options, and CLI11 keeps it
     }
     if (!unknown.empty()) {
-        return tl::unexpected(unknown_words(*command, unknown));
+        throw unknown_words(*command, unknown);
     }
-    for (const Done& checked :
-         {check_files(*command), check_loudness(*command), action.check(*command, words)}) {
-        if (!checked) {
-            return tl::unexpected(checked.error());
-        }
-    }
+    check_files(*command);
+    check_loudness(*command);
+    action.check(*command, words);
     return action.carry_out;
 }
 

@@ -18,7 +18,7 @@ namespace cli {
 std::vector<Action> declare(CLI::App& app, std::span<const Command> commands);
 
 using CarryOut = std::function<int(const Program&)>;
-// What the words ask for, or why that cannot be done. Help is printed here.
-OrStop<CarryOut> parse(std::span<const Command> commands, const Words& words);
+// What the words ask for. Throws the Stop of what cannot be done. Help is printed here.
+CarryOut parse(std::span<const Command> commands, const Words& words);
 
 }  // namespace cli

@@ -14,7 +14,7 @@ namespace cli {
 namespace {
 
 // A resumed run has the options of the interrupted one, so others would be ignored.
-Done check_resume(const CLI::App& run, const Words& words) {
+void check_resume(const CLI::App& run, const Words& words) {
     // The last four only repeat what the run began with (prepare_resume).
     const std::vector<std::string> may = {"--resume",   "--jobs", "--quiet", "--verbose", "--color",
                                           "--progress", "--icd",  "--json",  "--junit",   "--html"};
@@ -24,14 +24,13 @@ Done check_resume(const CLI::App& run, const Words& words) {
         if (option->count() > 0 && !is_variable &&
             std::find(may.begin(), may.end(), name) == may.end()) {
             const bool is_option = !name.empty() && name.front() == '-';
-            return tl::unexpected(usage_error(
+            throw usage_error(
                 "--resume goes on with the cases and options of the interrupted run, so " +
                     (is_option ? name + " cannot be given" : "no selector can be given") +
                     "; leave it out or start a new run",
-                "run"));
+                "run");
         }
     }
-    return Done();
 }
 
 }  // namespace
@@ -90,44 +89,43 @@ void declare_run(CLI::App& app, RunOptions& o) {
     add_outputs(run, o, "where the reports go [out/<time>-<device>]", true);
 }
 
-Done check_run(const CLI::App& run, const RunOptions& o, const Words& words) {
+void check_run(const CLI::App& run, const RunOptions& o, const Words& words) {
     if (!o.resume.empty()) {
-        if (auto checked = check_resume(run, words); !checked) {
-            return checked;
-        }
+        check_resume(run, words);
     }
     if (o.no_expect && !o.expect.empty()) {
-        return tl::unexpected(usage_error("--expect and --no-expect exclude each other", "run"));
+        throw usage_error("--expect and --no-expect exclude each other", "run");
     }
     if (o.no_expect && o.strict) {
-        return tl::unexpected(usage_error(
+        throw usage_error(
             "--strict asks how known failures look, and with --no-expect none is known; leave out "
             "one of the two",
-            "run"));
+            "run");
     }
     if (auto checked = cases::check_regex(o.require_device); !checked) {
-        return tl::unexpected(usage_error("--require-device: " + checked.error().message, "run"));
+        throw usage_error("--require-device: " + checked.error().message, "run");
     }
-    return check_fail_at(run, o);
+    check_fail_at(run, o);
 }
 
 OrStop<RunOptions> parse_run_arguments(const Words& arguments) {
-    if (arguments.size() < 2 || arguments[1] != "run") {
-        return tl::unexpected(
-            Stop{report::kExitInvalidFile, {"the journal's command line is not one of 'run'"}});
-    }
     RunOptions options;
     const Command run{{"run", kChecking, "", nullptr}, [&](CLI::App& app) {
                           declare_run(app, options);
                           const auto check = [&](const CLI::App& command, const Words& words) {
-                              const Done checked = check_device(command, options.device, words);
-                              return checked ? check_run(command, options, words) : checked;
+                              check_device(command, options.device, words);
+                              check_run(command, options, words);
                           };
                           return Action{check, {}};
                       }};
-    const auto parsed = parse({&run, 1}, arguments);
-    if (!parsed) {
-        return tl::unexpected(parsed.error());
+    try {
+        if (arguments.size() < 2 || arguments[1] != "run") {
+            throw Stop{report::kExitInvalidFile,
+                       {"the journal's command line is not one of 'run'"}};
+        }
+        parse({&run, 1}, arguments);
+    } catch (Stop& stop) {
+        return tl::unexpected(std::move(stop));
     }
     return options;
 }

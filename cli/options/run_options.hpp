@@ -9,7 +9,7 @@
 namespace cli {
 
 void declare_run(CLI::App& app, RunOptions& o);
-Done check_run(const CLI::App& run, const RunOptions& o, const Words& words);
+void check_run(const CLI::App& run, const RunOptions& o, const Words& words);
 
 // The options of `edgecase run` from the words of a command line (program and "run" included), as a
 // journal keeps them.

@@ -143,10 +143,9 @@ bool is_given(const CLI::App& command, const std::string& name, const Words& wor
     return option != nullptr && is_given(*option, words);
 }
 
-Done check_empty_values(const CLI::App& command, const Words& words) {
+void check_empty_values(const CLI::App& command, const Words& words) {
     const auto refuse = [&](const std::string& name, const std::string& how) {
-        return tl::unexpected(
-            usage_error(name + ": the value is empty; " + how, command.get_name()));
+        throw usage_error(name + ": the value is empty; " + how, command.get_name());
     };
     // CLI11 takes the next word for the value of "--icd=".
     for (auto word = words.begin(); word != words.end() && *word != "--"; ++word) {
@@ -174,22 +173,20 @@ Done check_empty_values(const CLI::App& command, const Words& words) {
             return refuse(option->get_name(), "write a name");
         }
     }
-    return Done();
 }
 
-Done check_alternatives(const CLI::App& command, const char* one,
+void check_alternatives(const CLI::App& command, const char* one,
                         std::initializer_list<const char*> others) {
     for (const char* other : others) {
         if (has_value(command, one) && has_value(command, other)) {
-            return tl::unexpected(usage_error(std::string(one) + " and " + other +
-                                                  " exclude each other; leave out one of the two",
-                                              command.get_name()));
+            throw usage_error(std::string(one) + " and " + other +
+                                  " exclude each other; leave out one of the two",
+                              command.get_name());
         }
     }
-    return Done();
 }
 
-Done check_files(const CLI::App& command) {
+void check_files(const CLI::App& command) {
     std::string taken;
     std::vector<std::pair<fs::path, std::string>> places;  // of the files, and their options
     for (const char* name : {"--json", "--junit", "--html"}) {
@@ -211,21 +208,19 @@ Done check_files(const CLI::App& command) {
                 }
             }
             if (!why.empty()) {
-                return tl::unexpected(
-                    usage_error(std::string(name) + ": " + why, command.get_name()));
+                throw usage_error(std::string(name) + ": " + why, command.get_name());
             }
             places.emplace_back(place, name);
             continue;
         }
         if (!taken.empty()) {
-            return tl::unexpected(usage_error(taken + " and " + name +
-                                                  " cannot both go to standard output; give one a "
-                                                  "file",
-                                              command.get_name()));
+            throw usage_error(taken + " and " + name +
+                                  " cannot both go to standard output; give one a "
+                                  "file",
+                              command.get_name());
         }
         taken = name;
     }
-    return Done();
 }
 
 }  // namespace cli

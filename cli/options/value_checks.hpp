@@ -26,14 +26,14 @@ bool is_given(const CLI::App& command, const std::string& name, const Words& wor
 // nothing that an option asks for, and least of all "not given": another driver than the named one
 // would be judged. Holds for every option and every named file or folder; selectors have their own
 // error.
-Done check_empty_values(const CLI::App& command, const Words& words);
+void check_empty_values(const CLI::App& command, const Words& words);
 
 // Options of which one would be ignored beside each of the others.
-Done check_alternatives(const CLI::App& command, const char* one,
+void check_alternatives(const CLI::App& command, const char* one,
                         std::initializer_list<const char*> others);
 
 // One report only can go to standard output, and what cannot be written is told before a run that
 // may take long.
-Done check_files(const CLI::App& command);
+void check_files(const CLI::App& command);
 
 }  // namespace cli
