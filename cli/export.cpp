@@ -72,7 +72,7 @@ int carry_out(const Program& program, const ExportOptions& options) {
         const std::string name = capture::folder_of(c.id);
         write_below(folder, name + ".json", capture::export_case(c));
         if (k >= suite.outside) {
-            carried[c.id.substr(0, c.id.find(':')) + ".toml"] = c.where.file;
+            carried[c.id.substr(0, c.id.find(':')) + ".toml"] = c.claim.where.file;
         }
         list.push_back({{"id", c.id},
                         {"file", name + ".json"},

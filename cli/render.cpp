@@ -324,8 +324,9 @@ void declare(CLI::App& app, RenderOptions& o) {
     add_profile(&app, o.profile);
     add_judged_device(&app, o.judged);
     add_choice(&app, "--renderer", o.renderer, drawing_names(),
-               "what draws: an algorithm of docs/algorithms.md or the reference; allowed: no "
-               "drawing, but what the reference allows");
+               "what draws: an algorithm of docs/algorithms.md, the reference or the software "
+               "rasterizer; allowed: no drawing, but what the reference allows",
+               takes_choices);
 }
 
 }  // namespace

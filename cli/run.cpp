@@ -30,6 +30,7 @@
 #include "report/text/unexpected.hpp"
 #include "run/process/library.hpp"
 #include "run/process/pool.hpp"
+#include "run/worker/derived.hpp"
 
 namespace cli {
 
@@ -43,7 +44,7 @@ namespace {
 void check_pictures(std::vector<run::PlannedCase>& plan) {
     run::Pool pool(cases::cores());
     for (run::PlannedCase& c : plan) {
-        if (c.data.expected_hits) {
+        if (c.data.claim.expected_hits) {
             pool.submit([&c] { c.error = run::check_before_running(c.data); }, [] {});
         }
     }
@@ -132,7 +133,7 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
                                      "', this is '" + device.name + "' or another driver version"));
     }
     p.header.device = device;
-    set_limits(config, first->device);
+    config.limits = run::limits_of(first->device);
     if (auto fits = check_required_device(options, device); !fits) {
         return stopped(options, fits.error());
     }

@@ -130,7 +130,7 @@ std::optional<Rejection> check_attribute(const Capabilities& c, const cases::Dra
     return std::nullopt;
 }
 
-std::optional<Rejection> check_conservative(const DeviceInfo& device, const cases::Draw& draw) {
+std::optional<Rejection> check_conservative(const Capabilities& device, const cases::Draw& draw) {
     using enum cases::Conservative;
     if (draw.conservative == none) {
         return std::nullopt;
@@ -181,7 +181,7 @@ std::optional<Rejection> check_draw(const Capabilities& c, const cases::Draw& dr
     if (cases::is_statistic(draw.query) && !c.pipeline_statistics) {
         return unsupported("the device lacks the feature pipelineStatisticsQuery");
     }
-    if (auto rejection = check_conservative(c.info, draw)) {
+    if (auto rejection = check_conservative(c, draw)) {
         return rejection;
     }
     if (auto rejection = check_depth(c, draw.depth)) {

@@ -41,26 +41,21 @@ CLI::Option* add_choice(CLI::App* app, const std::string& name, T& target,
             if (takes_other != nullptr && takes_other(results.back(), target)) {
                 return true;
             }
-            std::string all;
-            for (const std::string& word : words) {
-                all += (all.empty() ? "" : ", ") + word;
-            }
-            throw CLI::ValidationError(name, "'" + results.back() + "' is none of " + all +
-                                                 cases::did_you_mean(results.back(), words));
+            throw CLI::ValidationError(
+                name, fmt::format("'{}' is none of {}{}", results.back(), fmt::join(words, ", "),
+                                  cases::did_you_mean(results.back(), words)));
         }
         target = found->second;
         return true;
     };
-    std::string shown;
     std::string initial;
     for (const auto& [word, value] : names) {
-        shown += (shown.empty() ? "" : "|") + word;
         if (value == target) {
             initial = word;
         }
     }
     return app->add_option(name, parse, initial.empty() ? what : what + " [" + initial + "]")
-        ->type_name(shown);
+        ->type_name(fmt::format("{}", fmt::join(words, "|")));
 }
 
 // Refuses what is no number of the range, in our own words.
@@ -87,6 +82,8 @@ bool parse_pair(const std::string& text, char separator, uint32_t& a, uint32_t& 
 const std::map<std::string, When>& when_names();
 // What --renderer takes; the options keep a reference to it.
 const std::map<std::string, std::string>& renderer_names();
+// Whether it is one with choices: "software:ties=top-right".
+bool takes_choices(const std::string& words, std::string& renderer);
 
 void add_suite_folder(CLI::App* app, SuiteOptions& o);
 void add_suite(CLI::App* app, SuiteOptions& o);

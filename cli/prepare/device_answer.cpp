@@ -14,13 +14,6 @@
 
 namespace cli {
 
-run::WorkerOptions worker_options(const DeviceOptions& options) {
-    return {options};
-}
-
-namespace {
-
-// The first lines of what a worker printed, each for itself.
 std::vector<std::string> printed_lines(const std::string& output) {
     constexpr size_t kMostLines = 20;
     std::vector<std::string> out;
@@ -30,8 +23,6 @@ std::vector<std::string> printed_lines(const std::string& output) {
     }
     return out;
 }
-
-}  // namespace
 
 Stop explain_failure(const capture::Failure& failure, const std::string& output) {
     Stop stop{report::kExitDevice, {cases::printable(failure.message)}};
@@ -65,9 +56,10 @@ Stop explain_death(const run::Death& death) {
 }
 
 OrStop<run::WorkerClient> start_first_worker(const run::LoopConfig& config) {
-    if (const capture::Installed installed = find_drivers(config.worker.device);
-        !installed.problem.empty()) {
-        return tl::unexpected(Stop{report::kExitDevice, {installed.problem}});
+    const capture::RendererOptions& device = config.worker.device;
+    if (std::string wrong = device.icd.empty() ? "" : find_drivers(device).problem;
+        !wrong.empty()) {
+        return tl::unexpected(Stop{report::kExitDevice, {std::move(wrong)}});
     }
     cases::Expected<run::WorkerClient> client =
         run::WorkerClient::start(config.command, config.worker, config.timeout);
