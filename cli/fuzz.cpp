@@ -48,23 +48,12 @@ struct FuzzOptions {
 
 // What all parts of a hunt that goes on counted.
 fuzz::HuntCounts sum_of(fuzz::HuntCounts sum, const fuzz::HuntCounts& now) {
+    const fuzz::HuntCounts before = std::exchange(sum, now);
+    fuzz::HuntCounts::fields(
+        [](const cases::Field&, auto& all, const auto& earlier) { all += earlier; }, sum, before);
     sum.next_case = now.next_case;
     sum.poses = now.poses;
     sum.pairs = now.pairs;
-    sum.drawn += now.drawn;
-    sum.triangles += now.triangles;
-    sum.failed += now.failed;
-    sum.unsupported += now.unsupported;
-    sum.through_broken_doors += now.through_broken_doors;
-    sum.empty += now.empty;
-    sum.unjudged += now.unjudged;
-    sum.refused += now.refused;
-    sum.missing += now.missing;
-    sum.unrepeated += now.unrepeated;
-    sum.reductions += now.reductions;
-    sum.reduction_cases += now.reduction_cases;
-    sum.drawing_seconds += now.drawing_seconds;
-    sum.reducing_seconds += now.reducing_seconds;
     return sum;
 }
 

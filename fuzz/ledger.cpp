@@ -143,7 +143,6 @@ std::string file_of_not_reduced(uint64_t number) {
 }
 
 std::string to_json(const Ledger& ledger) {
-    const HuntCounts& c = ledger.counts;
     Json entries = Json::array();
     for (const Entry& entry : ledger.entries) {
         entries.push_back(to_json(entry));
@@ -152,43 +151,28 @@ std::string to_json(const Ledger& ledger) {
     for (const Waiting& one : ledger.waiting) {
         waiting.push_back(to_json(one));
     }
-    const Json json = {{"schema", kSchema},
-                       {"tool_version", ledger.tool_version},
-                       {"device", cases::printable(ledger.device)},
-                       {"driver", cases::printable(ledger.driver)},
-                       {"arguments", ledger.arguments},
-                       {"selectors", ledger.selectors},
-                       {"suite", ledger.suite},
-                       {"cases_checksum", ledger.cases_checksum},
-                       {"expectations", ledger.expectations},
-                       {"no_expect", ledger.no_expect},
-                       {"expect", ledger.expect},
-                       {"seed", ledger.seed},
-                       {"shard", ledger.shard},
-                       {"shards", ledger.shards},
-                       {"profile", cases::to_string(ledger.profile)},
-                       {"seconds", ledger.seconds},
-                       {"is_finished", ledger.is_finished},
-                       {"next_case", c.next_case},
-                       {"judged_cases", c.drawn},
-                       {"triangles", c.triangles},
-                       {"failed_cases", c.failed},
-                       {"unsupported_cases", c.unsupported},
-                       {"cases_through_broken_doors", c.through_broken_doors},
-                       {"empty_cases", c.empty},
-                       {"unjudged_cases", c.unjudged},
-                       {"unrepeated_failures", c.unrepeated},
-                       {"refused_changes", c.refused},
-                       {"numbers_without_case", c.missing},
-                       {"poses", c.poses},
-                       {"pairs_of_features", c.pairs},
-                       {"reductions", c.reductions},
-                       {"reduction_cases", c.reduction_cases},
-                       {"drawing_seconds", c.drawing_seconds},
-                       {"reducing_seconds", c.reducing_seconds},
-                       {"causes", std::move(entries)},
-                       {"waiting", std::move(waiting)},
-                       {"left", ledger.left}};
+    Json json = {{"schema", kSchema},
+                 {"tool_version", ledger.tool_version},
+                 {"device", cases::printable(ledger.device)},
+                 {"driver", cases::printable(ledger.driver)},
+                 {"arguments", ledger.arguments},
+                 {"selectors", ledger.selectors},
+                 {"suite", ledger.suite},
+                 {"cases_checksum", ledger.cases_checksum},
+                 {"expectations", ledger.expectations},
+                 {"no_expect", ledger.no_expect},
+                 {"expect", ledger.expect},
+                 {"seed", ledger.seed},
+                 {"shard", ledger.shard},
+                 {"shards", ledger.shards},
+                 {"profile", cases::to_string(ledger.profile)},
+                 {"seconds", ledger.seconds},
+                 {"is_finished", ledger.is_finished}};
+    HuntCounts::fields([&](const cases::Field& f, const auto& value) { json[f.name] = value; },
+                       ledger.counts);
+    json["causes"] = std::move(entries);
+    json["waiting"] = std::move(waiting);
+    json["left"] = ledger.left;
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -225,24 +209,13 @@ cases::Expected<Ledger> load_ledger(const fs::path& folder) {
         ledger.profile = *profile;
         ledger.seconds = json.at("seconds");
         ledger.is_finished = json.at("is_finished");
-        HuntCounts& c = ledger.counts;
-        c.next_case = json.at("next_case");
-        c.drawn = json.at("judged_cases");
-        c.triangles = json.at("triangles");
-        c.failed = json.at("failed_cases");
-        c.unsupported = json.at("unsupported_cases");
-        c.through_broken_doors = json.value("cases_through_broken_doors", uint64_t{0});
-        c.empty = json.at("empty_cases");
-        c.unjudged = json.at("unjudged_cases");
-        c.unrepeated = json.at("unrepeated_failures");
-        c.refused = json.value("refused_changes", uint64_t{0});
-        c.missing = json.value("numbers_without_case", uint64_t{0});
-        c.poses = json.at("poses");
-        c.pairs = json.at("pairs_of_features");
-        c.reductions = json.at("reductions");
-        c.reduction_cases = json.at("reduction_cases");
-        c.drawing_seconds = json.at("drawing_seconds");
-        c.reducing_seconds = json.at("reducing_seconds");
+        HuntCounts::fields(
+            [&](const cases::Field& f, auto& value) {
+                if (json.contains(f.name) || !f.has(cases::kOlderLackIt)) {
+                    value = json.at(f.name);
+                }
+            },
+            ledger.counts);
         for (const Json& entry : json.at("causes")) {
             ledger.entries.push_back(entry_of(entry, folder));
             ledger.entries.back().is_known = entry.at("is_known");
