@@ -39,12 +39,10 @@ TO_MEND = set("""
     ref/exercise/value_tests.cpp ref/expectation/expectation.cpp ref/expectation/narrowing_complements.cpp
     ref/expectation/narrowing_sets.cpp ref/expectation/narrowing_stencil.cpp ref/position/clip_volume.cpp
     ref/stencil/courses.cpp ref/stencil/exact.cpp ref/value/accept/judge_separately.cpp ref/value/accept/quad.cpp
-    ref/value/accept/rounded_set.cpp ref/value/expected_values.cpp ref/value/judge.cpp ref/value/judge_run.cpp
-    ref/value/mismatch.cpp ref/value/sign.cpp run/expected/expectation_dates.cpp vk_harness/batch.cpp
-    vk_harness/commands/rendering.cpp vk_harness/device/loader.cpp vk_harness/large_case.cpp
-    vk_harness/own_samples.cpp vk_harness/pipeline/clear_pipeline.cpp vk_harness/pipeline/feedback_pipeline.cpp
+    ref/value/accept/rounded_set.cpp run/expected/expectation_dates.cpp vk_harness/device/loader.cpp
+    vk_harness/pipeline/clear_pipeline.cpp vk_harness/pipeline/feedback_pipeline.cpp
     vk_harness/pipeline/input_pipeline.cpp vk_harness/pipeline/object_state.cpp vk_harness/pipeline/pipeline_ways.cpp
-    vk_harness/plan.cpp vk_harness/renderer.cpp vk_harness/submission.cpp
+    vk_harness/renderer.cpp
 """.split())
 FACTORY = "cli/renderers"  # the table of renderers, which alone knows the harness
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^">]+)[">]')
