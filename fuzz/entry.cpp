@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <utility>
 
@@ -55,21 +56,23 @@ bool shows_like(const CaseRecord& record, const Symptom& symptom) {
                        });
 }
 
-// The cases of the texts that are one, and their numbers among the texts.
-std::pair<std::vector<cases::Case>, std::vector<size_t>> load_all(
-    const std::vector<std::string>& texts) {
-    std::pair<std::vector<cases::Case>, std::vector<size_t>> all;
+// Draws those of the texts that are cases, and visits each with its number among the texts, its
+// case and its record.
+void draw_texts(const std::vector<std::string>& texts, const run::DrawAndJudge& draw,
+                const std::function<void(size_t k, const cases::Case&, const CaseRecord&)>& visit) {
+    std::vector<cases::Case> cases;
+    std::vector<size_t> of;
     for (size_t k = 0; k < texts.size(); ++k) {
         if (std::optional<cases::Case> c = load_one(texts[k], std::to_string(k))) {
-            all.first.push_back(std::move(*c));
-            all.second.push_back(k);
+            cases.push_back(std::move(*c));
+            of.push_back(k);
         }
     }
-    return all;
-}
-
-std::vector<CaseRecord> records_of(const run::DrawAndJudge& draw, std::vector<cases::Case> cases) {
-    return cases.empty() ? std::vector<CaseRecord>() : draw(std::move(cases), {}).records;
+    const std::vector<CaseRecord> records =
+        cases.empty() ? std::vector<CaseRecord>() : draw(cases, {}).records;
+    for (size_t k = 0; k < of.size(); ++k) {
+        visit(of[k], cases[k], records[k]);
+    }
 }
 
 // The reduced case once more, now by whichever rule it fails and with what only a suite wants of it
@@ -82,11 +85,9 @@ Document like_failure(const Document& document, const Symptom& symptom,
     }
     const Shows shown = [&](const std::vector<std::string>& texts) {
         std::vector<bool> out(texts.size(), false);
-        const auto [cases, of] = load_all(texts);
-        const std::vector<CaseRecord> records = records_of(draw, cases);
-        for (size_t k = 0; k < of.size(); ++k) {
-            out[of[k]] = shows_like(records[k], symptom);
-        }
+        draw_texts(texts, draw, [&](size_t k, const cases::Case&, const CaseRecord& record) {
+            out[k] = shows_like(record, symptom);
+        });
         return out;
     };
     return reduce(document, shown, options).document;
@@ -122,19 +123,14 @@ std::vector<std::string> passing(const Document& document, const run::DrawAndJud
     const std::vector<Neighbour> all = neighbours(document);
     std::vector<bool> judged(all.size(), false), passes(all.size(), false);
     for (size_t begin = 0; begin < all.size(); begin += kAtOnce) {
-        std::vector<cases::Case> cases;
-        std::vector<size_t> of;
+        std::vector<std::string> texts;
         for (size_t k = begin; k < std::min(begin + kAtOnce, all.size()); ++k) {
-            if (std::optional<cases::Case> c = load_one(all[k].text, std::to_string(k))) {
-                cases.push_back(std::move(*c));
-                of.push_back(k);
-            }
+            texts.push_back(all[k].text);
         }
-        const std::vector<CaseRecord> records = records_of(draw, cases);
-        for (size_t k = 0; k < of.size(); ++k) {
-            passes[of[k]] = records[k].status == Status::pass;
-            judged[of[k]] = passes[of[k]] || symptom_of(records[k]).has_value();
-        }
+        draw_texts(texts, draw, [&](size_t k, const cases::Case&, const CaseRecord& record) {
+            passes[begin + k] = record.status == Status::pass;
+            judged[begin + k] = passes[begin + k] || symptom_of(record).has_value();
+        });
     }
     return sentences(all, judged, passes);
 }
@@ -269,17 +265,18 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
     const auto is_at_end = [&] { return is_over && is_over(); };
     const Shows shown = [&](const std::vector<std::string>& texts) {
         std::vector<bool> out(texts.size(), false);
-        const auto [cases, of] = load_all(texts);
-        const std::vector<CaseRecord> records = records_of(draw, cases);
-        for (size_t k = 0; k < of.size() && !is_at_end(); ++k) {
-            if (records[k].status == Status::unsupported) {
-                unsupported.insert(texts[of[k]]);
+        draw_texts(texts, draw, [&](size_t k, const cases::Case& c, const CaseRecord& record) {
+            if (is_at_end()) {
+                return;
             }
-            has_died = symptom.status == Status::fail && (records[k].status == Status::crash ||
-                                                          records[k].status == Status::timeout ||
-                                                          records[k].status == Status::device_lost);
-            out[of[k]] = shows(records[k], symptom) && (!sound_at || is_sound(cases[k], *sound_at));
-        }
+            if (record.status == Status::unsupported) {
+                unsupported.insert(texts[k]);
+            }
+            has_died = symptom.status == Status::fail &&
+                       (record.status == Status::crash || record.status == Status::timeout ||
+                        record.status == Status::device_lost);
+            out[k] = shows(record, symptom) && (!sound_at || is_sound(c, *sound_at));
+        });
         return out;
     };
     // A worker may die for another reason, and a death says nothing of a wrong picture.
@@ -300,8 +297,9 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
         return cut;
     }
     // Once more, for what it shows is told.
-    const std::optional<cases::Case> smallest = load_one(to_text(reduced.document), "reduced");
-    const CaseRecord last = smallest ? records_of(draw, {*smallest}).front() : CaseRecord();
+    CaseRecord last;
+    draw_texts({to_text(reduced.document)}, draw,
+               [&](size_t, const cases::Case&, const CaseRecord& record) { last = record; });
     Entry entry;
     entry.symptom = symptom;
     // What the reducer brought in, as a constant for values, is no need of the cause.
