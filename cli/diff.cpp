@@ -117,7 +117,7 @@ std::vector<std::string> unknown_folders(const fs::path& captures,
 }
 
 // The cases of an export, by its list.
-OrStop<std::set<std::string>> exported_ids(const fs::path& folder) {
+std::set<std::string> exported_ids(const fs::path& folder) {
     const fs::path file = folder / "index.json";
     std::set<std::string> ids;
     try {
@@ -131,30 +131,27 @@ OrStop<std::set<std::string>> exported_ids(const fs::path& folder) {
     } catch (const std::exception&) {
         // told below
     }
-    return tl::unexpected(stop_with(report::kExitInvalidFile,
-                                    "'" + cases::printable(file.string()) +
-                                        "' is no list of exported cases; name the folder that "
-                                        "'edgecase export' wrote"));
+    throw stop_with(report::kExitInvalidFile,
+                    "'" + cases::printable(file.string()) +
+                        "' is no list of exported cases; name the folder that "
+                        "'edgecase export' wrote");
 }
 
-OrStop<std::monostate> check_captures(const DiffOptions& options,
-                                      const std::vector<std::string>& ids) {
+void check_captures(const DiffOptions& options, const std::vector<std::string>& ids) {
     std::error_code ignored;
     if (!fs::is_directory(options.captures, ignored)) {
-        return tl::unexpected(stop_with(report::kExitInvalidFile,
-                                        "--captures '" + options.captures +
-                                            "' is no folder; name the one with the planes that "
-                                            "were rendered"));
+        throw stop_with(report::kExitInvalidFile,
+                        "--captures '" + options.captures +
+                            "' is no folder; name the one with the planes that "
+                            "were rendered");
     }
     if (!options.exported.empty()) {
         // Without its list, cases of one's own would be told to be unknown.
-        if (const auto listed = exported_ids(options.exported); !listed) {
-            return tl::unexpected(listed.error());
-        }
+        exported_ids(options.exported);
     }
     const std::vector<std::string> unknown = unknown_folders(options.captures, ids);
     if (unknown.empty()) {
-        return std::monostate{};
+        return;
     }
     std::vector<std::string> folders;
     for (const std::string& id : ids) {
@@ -162,36 +159,33 @@ OrStop<std::monostate> check_captures(const DiffOptions& options,
     }
     const std::string more =
         unknown.size() == 1 ? "" : " and " + std::to_string(unknown.size() - 1) + " more";
-    return tl::unexpected(stop_with(
+    throw stop_with(
         report::kExitInvalidFile,
         "'" + cases::printable((fs::path(options.captures) / unknown.front()).string()) + "'" +
             more + (more.empty() ? " belongs" : " belong") + " to no case of the suite" +
             cases::did_you_mean(unknown.front(), folders,
                                 "; folders have the names that 'edgecase export' writes, and cases "
                                 "of your own are known by --exported DIR or by their file or "
-                                "folder, as there")));
+                                "folder, as there"));
 }
 
 // Without selectors, what was exported or drawn is judged; the sentence says so.
-OrStop<std::string> keep_captured(const DiffOptions& options, Selection& selection) {
+std::string keep_captured(const DiffOptions& options, Selection& selection) {
     const size_t all = selection.cases.size();
     if (!options.exported.empty()) {
-        const OrStop<std::set<std::string>> ids = exported_ids(options.exported);
-        if (!ids) {
-            return tl::unexpected(ids.error());
-        }
-        std::set<std::string> unknown = *ids;
+        const std::set<std::string> ids = exported_ids(options.exported);
+        std::set<std::string> unknown = ids;
         for (const cases::Case& c : selection.cases) {
             unknown.erase(c.id);
         }
         if (options.run.suite.selectors.empty() && !unknown.empty()) {
-            return tl::unexpected(stop_with(
+            throw stop_with(
                 report::kExitInvalidFile,
                 "'" + cases::printable(options.exported) + "' has the case '" +
                     cases::printable(*unknown.begin()) +
-                    "', which is not in the suite; export the cases of this suite again"));
+                    "', which is not in the suite; export the cases of this suite again");
         }
-        std::erase_if(selection.cases, [&](const cases::Case& c) { return !ids->contains(c.id); });
+        std::erase_if(selection.cases, [&](const cases::Case& c) { return !ids.contains(c.id); });
     } else if (options.run.suite.selectors.empty()) {
         std::erase_if(selection.cases, [&](const cases::Case& c) {
             std::error_code ignored;
@@ -202,11 +196,11 @@ OrStop<std::string> keep_captured(const DiffOptions& options, Selection& selecti
         return std::string();
     }
     if (selection.cases.empty()) {
-        return tl::unexpected(stop_with(
+        throw stop_with(
             report::kExitNothingSelected,
             "no case is selected: " + (options.exported.empty()
                                            ? "'" + options.captures + "' holds a folder of none"
-                                           : "'" + options.exported + "' lists none of them")));
+                                           : "'" + options.exported + "' lists none of them"));
     }
     const size_t left_out = all - selection.cases.size();
     selection.whole_suite = selection.whole_suite && left_out == 0;
@@ -260,10 +254,28 @@ std::string skipped_text(const std::map<std::string, size_t>& skipped) {
     return text.empty() ? text : text + "\n";
 }
 
-// Nothing was judged; the reports of an earlier call would look like this one's.
-int stopped(const RunOptions& options, const Stop& stop) {
-    remove_reports_of_last_run(options);
-    return report_stop(stop);
+// What is to be judged, and what was expected of it.
+struct Asked {
+    Selection selection;
+    std::string left_out;  // a sentence
+    report::Run header;
+    ExpectedById expected;
+};
+
+Asked ask(const Program& program, const DiffOptions& options) {
+    const RunOptions& o = options.run;
+    try {
+        Asked asked{must(select_cases(program, o)), {}, {}, {}};
+        check_captures(options, asked.selection.known_ids);
+        asked.left_out = keep_captured(options, asked.selection);
+        asked.header = make_header(program, options, asked.selection);
+        asked.expected = must(expectations_of(o, asked.selection, asked.header));
+        return asked;
+    } catch (const Stop&) {
+        // Nothing was judged; the reports of an earlier call would look like this one's.
+        remove_reports_of_last_run(o);
+        throw;
+    }
 }
 
 int carry_out(const Program& program, const DiffOptions& given) {
@@ -272,34 +284,19 @@ int carry_out(const Program& program, const DiffOptions& given) {
     options.run.suite.carried =
         (fs::path(given.exported.empty() ? given.captures : given.exported) / kCarried).string();
     const RunOptions& o = options.run;
-    OrStop<Selection> selection = select_cases(program, o);
-    if (!selection) {
-        return stopped(o, selection.error());
-    }
-    if (auto checked = check_captures(options, selection->known_ids); !checked) {
-        return stopped(o, checked.error());
-    }
-    const OrStop<std::string> left_out = keep_captured(options, *selection);
-    if (!left_out) {
-        return stopped(o, left_out.error());
-    }
-    report::Run header = make_header(program, options, *selection);
-    const auto expected = expectations_of(o, *selection, header);
-    if (!expected) {
-        return stopped(o, expected.error());
-    }
+    Asked asked = ask(program, options);
+    const Selection& selection = asked.selection;
+    const ExpectedById& expected = asked.expected;
+    report::Run& header = asked.header;
     const fs::path folder = o.output.empty() ? new_folder("out", "captures") : fs::path(o.output);
-    OrStop<report::Journal> journal = open_journal(folder, header, false);
-    if (!journal) {
-        return report_stop(journal.error());
-    }
+    report::Journal journal = must(open_journal(folder, header, false));
     remove_reports({folder, o.json, o.junit, o.html});
     std::FILE* console = console_beside(o.json, o.junit, o.html);
     report::ConsoleStyle style = console_style(console, o.color, o.verbose);
     style.folder = shell_quote(folder.string());
     style.quiet = o.quiet;
     if (!o.quiet) {
-        std::fputs((report::console_header(header, style) + *left_out).c_str(), console);
+        std::fputs((report::console_header(header, style) + asked.left_out).c_str(), console);
         std::fflush(console);
     }
 
@@ -313,9 +310,9 @@ int carry_out(const Program& program, const DiffOptions& given) {
     std::map<std::string, size_t> skipped;
     std::string failure;
     size_t done = 0;
-    Progress progress(o.quiet ? ProgressStyle::none : o.progress, selection->cases.size());
+    Progress progress(o.quiet ? ProgressStyle::none : o.progress, selection.cases.size());
     std::vector<std::string> ids;
-    for (const cases::Case& c : selection->cases) {
+    for (const cases::Case& c : selection.cases) {
         ids.push_back(c.id);
     }
     report::UnexpectedResults unexpected(ids, style);
@@ -325,19 +322,19 @@ int carry_out(const Program& program, const DiffOptions& given) {
             std::fputs(text.c_str(), console);
         }
     };
-    std::vector<std::vector<std::string>> not_judged(selection->cases.size());
+    std::vector<std::vector<std::string>> not_judged(selection.cases.size());
     run::Pool pool(cases::cores());
-    for (size_t k = 0; k < selection->cases.size(); ++k) {
-        const cases::Case& c = selection->cases[k];
+    for (size_t k = 0; k < selection.cases.size(); ++k) {
+        const cases::Case& c = selection.cases[k];
         CaseRecord& record = header.cases[k];
         const auto finish = [&, k] {
-            settle(record, *expected, o.require_support);
+            settle(record, expected, o.require_support);
             if (!record.outcome.findings.empty()) {
                 record.commands.explain =
                     explain_line(program, o, record.id, options.judged) +
                     report::sample_options(report::leading_finding(record), c.target);
             }
-            if (auto written = journal->write_end(record); !written && failure.empty()) {
+            if (auto written = journal.write_end(record); !written && failure.empty()) {
                 failure = written.error().message;
             }
             for (const std::string& word : not_judged[k]) {
@@ -348,8 +345,8 @@ int carry_out(const Program& program, const DiffOptions& given) {
             record.evidence.pictures = {};
             record.outcome.findings.clear();
         };
-        if (const auto found = expected->find(c.id);
-            found != expected->end() && skips(found->second)) {
+        if (const auto found = expected.find(c.id);
+            found != expected.end() && skips(found->second)) {
             record.status = Status::skip;
             record.reason = found->second.note;
             pool.submit([] {}, finish);
@@ -368,17 +365,17 @@ int carry_out(const Program& program, const DiffOptions& given) {
     print(unexpected.rest());
     header.ended = utc_now(false);
     header.seconds = seconds_since(begin);
-    if (auto written = journal->write_stop(header); !written && failure.empty()) {
+    if (auto written = journal.write_stop(header); !written && failure.empty()) {
         failure = written.error().message;
     }
     Ending ending{failure, "judging stopped early", skipped_text(skipped), {}};
     if (o.diagnosis && !header.interrupted) {
         ending.complete = [&](report::Run& run) {
             const auto each = [&](const auto& visit) {
-                std::for_each(selection->cases.begin(), selection->cases.end(), visit);
+                std::for_each(selection.cases.begin(), selection.cases.end(), visit);
             };
             diagnose(run, each);
-            keep_diagnoses(run, *journal);
+            keep_diagnoses(run, journal);
         };
     }
     return conclude(folder, o, Ci::none, console, style, ending);
