@@ -31,6 +31,8 @@ bool keep_verdict(CaseRecord& record, const diff::Verdict& verdict, KeepPictures
                     : verdict.ok()         ? Status::pass
                                            : Status::fail;
     record.reason = verdict.error;
+    record.error_kind =
+        verdict.shows_nothing ? report::ErrorKind::shows_nothing : report::ErrorKind::other;
     record.outcome = diff::Outcome(verdict);
     record.outcome.wrong_samples = verdict.count_wrong_samples();
     return pictures == KeepPictures::all ||
@@ -132,6 +134,7 @@ void judge(CaseRecord& record, const cases::Case& filed, const capture::CaptureV
         try_viewport_grid(c, limits, capture, expectation, verdict);
         if (verdict.ok() && !c.blit && !c.target.has_instruments &&
             diff::may_stay_clear(c, expectation)) {
+            verdict.shows_nothing = true;
             verdict.error =
                 "every sample may hold the clear colour, so that a black picture would pass; "
                 "choose another colour, or another clear colour";

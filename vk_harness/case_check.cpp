@@ -115,9 +115,10 @@ std::optional<Rejection> check_case(const Capabilities& capabilities, const case
         }
         if (shaders::capture_vertex(vertex_variant(key)).empty() ||
             shaders::capture_fragment(fragment_variant(key)).empty()) {
-            return invalid(
+            return Rejection{
+                Rendered::Status::not_built,
                 "a draw asks for a combination of shader features that no shader was built for; "
-                "put them into different draws");
+                "put them into different draws"};
         }
     }
     if (auto missing = missing_clip_support(capabilities.clip, c)) {

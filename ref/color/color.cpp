@@ -330,7 +330,9 @@ ColorVerdict ColorReference::judge(size_t index, cases::SampleId id,
     }
     const glm::vec4* last = witness ? witness->written : nullptr;
     for (size_t k = 0; k < std::min<size_t>(sets.size(), 3); ++k) {
-        verdict.expected += (k == 0 ? "" : "; or ") + unit_.text_of(color_of(sets[k], id, last));
+        const color::Color color = color_of(sets[k], id, last);
+        verdict.expected += (k == 0 ? "" : "; or ") + unit_.text_of(color);
+        verdict.may_overflow = verdict.may_overflow || unit_.may_overflow(color);
     }
     verdict.expected += sets.size() > 3 ? "; or others" : "";
     verdict.kind = ColorVerdict::Kind::value;

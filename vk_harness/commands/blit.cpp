@@ -91,27 +91,24 @@ BlitImages::PlainImage BlitImages::make_image(const Device& device, cases::Color
     return made;
 }
 
-BlitImages BlitImages::create(const Device& device, const cases::Case& c) {
+BlitImages::BlitImages(const Device& device, const cases::Case& c) {
     const cases::Blit& blit = *c.blit;
-    BlitImages images;
     const std::vector<std::byte> texels =
         encode_texels(blit.source_format, cases::blit_source(blit));
     // Behind the texels what the destination holds before it is cleared: fresh memory may hold the
     // clear colour, and a clear that is lost would go unseen.
-    images.poison_offset_ = (texels.size() + kCopyAlignment - 1) / kCopyAlignment * kCopyAlignment;
+    poison_offset_ = (texels.size() + kCopyAlignment - 1) / kCopyAlignment * kCopyAlignment;
     const VkDeviceSize poison =
         VkDeviceSize{c.target.width} * c.target.height * bytes_of(c.target.color->format);
-    images.upload_ = Buffer::create(device, images.poison_offset_ + poison,
-                                    VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HostAccess::write);
-    const std::span<std::byte> upload = images.upload_.bytes();
+    upload_ = Buffer::create(device, poison_offset_ + poison, VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                             HostAccess::write);
+    const std::span<std::byte> upload = upload_.bytes();
     std::copy(texels.begin(), texels.end(), upload.begin());
-    std::fill(upload.begin() + static_cast<std::ptrdiff_t>(images.poison_offset_), upload.end(),
+    std::fill(upload.begin() + static_cast<std::ptrdiff_t>(poison_offset_), upload.end(),
               kPoisonByte);
-    images.upload_.flush();
-    images.source_ = make_image(device, blit.source_format, blit.source_width, blit.source_height);
-    images.destination_ =
-        make_image(device, c.target.color->format, c.target.width, c.target.height);
-    return images;
+    upload_.flush();
+    source_ = make_image(device, blit.source_format, blit.source_width, blit.source_height);
+    destination_ = make_image(device, c.target.color->format, c.target.width, c.target.height);
 }
 
 void BlitImages::record(const Device& device, VkCommandBuffer commands, const cases::Case& c,

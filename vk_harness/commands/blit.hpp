@@ -24,7 +24,7 @@ std::vector<std::byte> encode_texels(cases::ColorFormat format,
 class BlitImages {
   public:
     // The case has a blit. The source's texels are written to host memory here.
-    static BlitImages create(const Device& device, const cases::Case& c);
+    BlitImages(const Device& device, const cases::Case& c);
 
     // Records the upload of the source, clearing of the destination, the blit, and, unless
     // `readback` is null, the copy of the destination to byte `offset` of it.

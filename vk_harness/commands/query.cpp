@@ -68,10 +68,9 @@ VkQueryPipelineStatisticFlags statistic_of(Query query) {
 
 // A pool has one kind of queries, and all that a case asks are as long as it has draws: those of
 // other draws are not used.
-Queries Queries::create(const Device& device, const cases::Case& c) {
-    Queries queries(device, c);
+Queries::Queries(const Device& device, const cases::Case& c) : device_(&device), case_(&c) {
     for (const cases::Draw& draw : c.draws) {
-        if (!queries.is_asked(draw.query) || queries.pools_.contains(statistic_of(draw.query))) {
+        if (!is_asked(draw.query) || pools_.contains(statistic_of(draw.query))) {
             continue;
         }
         VkQueryPoolCreateInfo info = Typed{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
@@ -79,11 +78,10 @@ Queries Queries::create(const Device& device, const cases::Case& c) {
         info.queryType = info.pipelineStatistics == 0 ? VK_QUERY_TYPE_OCCLUSION
                                                       : VK_QUERY_TYPE_PIPELINE_STATISTICS;
         info.queryCount = static_cast<uint32_t>(c.draws.size());
-        queries.pools_[info.pipelineStatistics] =
+        pools_[info.pipelineStatistics] =
             make(device, Stage::memory, "vkCreateQueryPool", device.vk().vkCreateQueryPool,
                  device.vk().vkDestroyQueryPool, info);
     }
-    return queries;
 }
 
 bool Queries::is_asked(Query query) const {
