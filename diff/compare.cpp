@@ -24,9 +24,6 @@ namespace diff {
 
 namespace {
 
-// What somebody wants to know of a capture.
-enum class Wanted : uint8_t { all, findings_without_ratios, symptoms, first_finding };
-
 // One comparison's state; the phases of a sample stand in judge_sample().
 class Comparison {
   public:
@@ -416,8 +413,9 @@ class Comparison {
 }  // namespace
 
 Verdict compare(const cases::Case& c, const ref::Expectation& expectation,
-                const capture::CaptureView& capture, const ref::ValueSelection& selection) {
-    return Comparison(c, expectation, capture, selection, false).run();
+                const capture::CaptureView& capture, Wanted wanted,
+                const ref::ValueSelection& selection) {
+    return Comparison(c, expectation, capture, selection, false, {}, {}, wanted).run();
 }
 
 Verdict compare_colors(const cases::Case& c, const ref::Expectation& expectation,
@@ -428,22 +426,6 @@ Verdict compare_colors(const cases::Case& c, const ref::Expectation& expectation
     return Comparison(c, expectation, capture, {}, has_wrong || !witnesses.empty(), marks,
                       witnesses)
         .run();
-}
-
-Verdict compare_to_first(const cases::Case& c, const ref::Expectation& expectation,
-                         const capture::CaptureView& capture) {
-    return Comparison(c, expectation, capture, {}, false, {}, {}, Wanted::first_finding).run();
-}
-
-Verdict compare_without_ratios(const cases::Case& c, const ref::Expectation& expectation,
-                               const capture::CaptureView& capture) {
-    return Comparison(c, expectation, capture, {}, false, {}, {}, Wanted::findings_without_ratios)
-        .run();
-}
-
-Verdict compare_symptoms(const cases::Case& c, const ref::Expectation& expectation,
-                         const capture::CaptureView& capture) {
-    return Comparison(c, expectation, capture, {}, false, {}, {}, Wanted::symptoms).run();
 }
 
 Verdict compare_by_sample(const cases::Case& c, const ref::Expectation& expectation,

@@ -40,6 +40,10 @@ TO_MEND = set("""
     ref/expectation/narrowing_sets.cpp ref/expectation/narrowing_stencil.cpp ref/position/clip_volume.cpp
     ref/stencil/courses.cpp ref/stencil/exact.cpp ref/value/accept/judge_separately.cpp ref/value/accept/quad.cpp
     ref/value/accept/rounded_set.cpp run/expected/expectation_dates.cpp vk_harness/device/loader.cpp
+    rasterizers/software/target/logic_unit.cpp ref/exercise/case_facts.cpp ref/exercise/coverage_tests.cpp
+    ref/exercise/depth_tests.cpp ref/exercise/stencil_changes.cpp ref/exercise/value_tests.cpp
+    run/expected/expectation_dates.cpp vk_harness/batch.cpp vk_harness/commands/rendering.cpp
+    vk_harness/device/loader.cpp vk_harness/large_case.cpp vk_harness/own_samples.cpp
     vk_harness/pipeline/clear_pipeline.cpp vk_harness/pipeline/feedback_pipeline.cpp
     vk_harness/pipeline/input_pipeline.cpp vk_harness/pipeline/object_state.cpp vk_harness/pipeline/pipeline_ways.cpp
     vk_harness/renderer.cpp
