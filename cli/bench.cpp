@@ -147,22 +147,22 @@ uint64_t sample_count(const std::vector<cases::Case>& cases) {
 constexpr size_t kBatch = 16;  // cases in one submission, as `run` does it
 
 // Draws all cases that the device supports once; seconds.
-vk_harness::Result<double> draw_bare(vk_harness::Renderer& renderer,
-                                     const std::vector<cases::Case>& cases) {
+capture::Result<double> draw_bare(vk_harness::Renderer& renderer,
+                                  const std::vector<cases::Case>& cases) {
     const Clock::time_point begin = Clock::now();
     size_t drawn = 0;
     for (size_t k = 0; k < cases.size(); k += kBatch) {
         const size_t count = std::min(kBatch, cases.size() - k);
         const auto batch = renderer.render_bare(std::span(cases).subspan(k, count));
         if (!batch) {
-            return tl::unexpected<vk_harness::Failure>(batch.error());
+            return tl::unexpected<capture::Failure>(batch.error());
         }
         drawn += *batch;
     }
     if (drawn == 0) {
-        vk_harness::Failure nothing;
+        capture::Failure nothing;
         nothing.message = "this device supports none of the selected cases; select others";
-        return tl::unexpected<vk_harness::Failure>(std::move(nothing));
+        return tl::unexpected<capture::Failure>(std::move(nothing));
     }
     return seconds_since(begin);
 }
@@ -174,18 +174,18 @@ int bare_command(const Program& program, const BenchOptions& options) {
         return report_stop(suite.error());
     }
     const std::vector<cases::Case> cases = selected_cases(*suite);
-    vk_harness::Options vulkan;
+    capture::RendererOptions vulkan;
     vulkan.device = options.device.device;
     vulkan.icd_file = options.device.icd;
-    vk_harness::Result<vk_harness::Renderer> renderer = vk_harness::Renderer::create(vulkan);
+    capture::Result<vk_harness::Renderer> renderer = vk_harness::Renderer::create(vulkan);
     if (!renderer) {
         complain(renderer.error().message);
         return report::kExitDevice;
     }
-    const vk_harness::Result<double> cold = draw_bare(*renderer, cases);
+    const capture::Result<double> cold = draw_bare(*renderer, cases);
     // A second pass only when asked: the whole process is what the parent times.
     const bool twice = std::getenv("EDGECASE_BENCH_TWICE") != nullptr;
-    const vk_harness::Result<double> warm = twice ? draw_bare(*renderer, cases) : cold;
+    const capture::Result<double> warm = twice ? draw_bare(*renderer, cases) : cold;
     if (!cold || !warm) {
         complain((cold ? warm : cold).error().message);
         return report::kExitAllSkipped;

@@ -141,28 +141,27 @@ struct Diagnosis {
 
     std::string chosen_by;
     std::vector<run::Manifest> manifests;
-    std::vector<vk_harness::DeviceInfo> devices;
+    std::vector<capture::DeviceInfo> devices;
     std::vector<std::optional<run::SuiteShare>> shares;  // of the devices, as far as known
     std::vector<std::string> problems;
     std::vector<std::string> advice;
     bool usable = false;  // what the options choose can run the suite
 };
 
-void add_failure(Diagnosis& d, const vk_harness::Failure& failure) {
+void add_failure(Diagnosis& d, const capture::Failure& failure) {
     d.problems.push_back(failure.message);
     d.problems.insert(d.problems.end(), failure.reasons.begin(), failure.reasons.end());
-    if (!d.devices.empty() ||
-        (!d.chosen_by.empty() && failure.stage != vk_harness::Stage::loader)) {
+    if (!d.devices.empty() || (!d.chosen_by.empty() && failure.stage != capture::Stage::loader)) {
         return;  // the driver works, but is not what was asked for; or another one was chosen
     }
-    if (failure.stage == vk_harness::Stage::loader) {
+    if (failure.stage == capture::Stage::loader) {
         d.advice.emplace_back("sudo apt install libvulkan1 mesa-vulkan-drivers");
     } else {
         d.advice.emplace_back("sudo apt install mesa-vulkan-drivers");
     }
 }
 
-bool is_usable(const vk_harness::DeviceInfo& device) {
+bool is_usable(const capture::DeviceInfo& device) {
     return device.missing.empty();
 }
 
@@ -183,7 +182,7 @@ cases::Expected<void> ask_worker(const Program& program, const DeviceOptions& op
     if (!answer) {
         return cases::failure("interrupted");
     }
-    if (const auto* list = std::get_if<std::vector<vk_harness::DeviceInfo>>(&*answer);
+    if (const auto* list = std::get_if<std::vector<capture::DeviceInfo>>(&*answer);
         list != nullptr) {
         d.devices = *list;
         if (list->empty()) {
@@ -193,14 +192,12 @@ cases::Expected<void> ask_worker(const Program& program, const DeviceOptions& op
             }
         }
         d.usable = std::any_of(list->begin(), list->end(), is_usable);
-    } else if (const auto* device = std::get_if<vk_harness::DeviceInfo>(&*answer);
-               device != nullptr) {
+    } else if (const auto* device = std::get_if<capture::DeviceInfo>(&*answer); device != nullptr) {
         d.usable = true;
         if (d.devices.empty()) {  // no driver's
             d.devices.push_back(*device);
         }
-    } else if (const auto* failure = std::get_if<vk_harness::Failure>(&*answer);
-               failure != nullptr) {
+    } else if (const auto* failure = std::get_if<capture::Failure>(&*answer); failure != nullptr) {
         d.usable = false;
         add_failure(d, *failure);
         std::istringstream printed(cases::printable(client->output_since_batch()));
@@ -255,9 +252,8 @@ void ask_shares(const Program& program, const DeviceOptions& options, Diagnosis&
             continue;
         }
         run::WorkerOptions worker = worker_options(options);
-        worker.vulkan.device.clear();
-        worker.vulkan.pinned_uuid = d.devices[k].uuid;
-        worker.vulkan.pinned_driver = d.devices[k].driver_id;
+        worker.renderer.device.clear();
+        worker.renderer.pinned = d.devices[k].key;
         const auto reasons = run::ask_what_is_lacking(
             worker_command(program), worker,
             std::chrono::milliseconds(static_cast<int64_t>(options.timeout * 1000)), asked,
@@ -305,9 +301,9 @@ std::vector<std::string> share_lines(const run::SuiteShare& share) {
     return lines;
 }
 
-Json wrong_limits_json(const vk_harness::DeviceInfo& device) {
+Json wrong_limits_json(const capture::DeviceInfo& device) {
     Json wrong = Json::array();
-    for (const vk_harness::WrongLimit& limit : device.wrong_limits) {
+    for (const capture::WrongLimit& limit : device.wrong_limits) {
         wrong.push_back({{"name", limit.name},
                          {"claimed", limit.claimed},
                          {"required", limit.required},
@@ -323,20 +319,19 @@ Json to_json(const Diagnosis& d) {
     }
     Json devices = Json::array();
     for (size_t k = 0; k < d.devices.size(); ++k) {
-        const vk_harness::DeviceInfo& device = d.devices[k];
-        const report::Device r = to_report(device);
+        const capture::DeviceInfo& device = d.devices[k];
         devices.push_back({{"index", device.index},
-                           {"name", r.name},
-                           {"type", r.type},
-                           {"driver_name", r.driver_name},
-                           {"driver_info", r.driver_info},
-                           {"uuid", r.uuid},
-                           {"api_version", r.api_version},
-                           {"subpixel_bits", r.subpixel_bits},
-                           {"viewport_subpixel_bits", r.viewport_subpixel_bits},
+                           {"name", device.name},
+                           {"type", device.type},
+                           {"driver_name", device.driver_name},
+                           {"driver_info", device.driver_info},
+                           {"uuid", device.uuid},
+                           {"api_version", device.api_version},
+                           {"subpixel_bits", device.subpixel_bits},
+                           {"viewport_subpixel_bits", device.viewport_subpixel_bits},
                            {"max_target_size", device.max_target_size},
                            {"max_color_attachments", device.max_color_attachments},
-                           {"has_primitive_id", r.has_primitive_id},
+                           {"has_primitive_id", device.has_primitive_id},
                            {"hit_counting", device.hit_counting},
                            {"depth_beside_stencil", device.depth_beside_stencil},
                            {"has_dynamic_rendering", device.has_dynamic_rendering},
@@ -372,20 +367,20 @@ void print(const Diagnosis& d, const DeviceOptions& options) {
     }
     line("Devices");
     for (size_t k = 0; k < d.devices.size(); ++k) {
-        const vk_harness::DeviceInfo& device = d.devices[k];
-        const report::Device r = to_report(device);
-        line("  " + std::to_string(device.index) + "  " + r.name + " (" + r.type + "), " +
-             r.driver_name + " " + r.driver_info + ", Vulkan " + r.api_version);
-        line("     " + std::to_string(r.subpixel_bits) + " subpixel bits" +
-             report::judged_bits_note(r) + ", targets up to " +
+        const capture::DeviceInfo& device = d.devices[k];
+        line("  " + std::to_string(device.index) + "  " + device.name + " (" + device.type + "), " +
+             device.driver_name + " " + device.driver_info + ", Vulkan " + device.api_version);
+        line("     " + std::to_string(device.subpixel_bits) + " subpixel bits" +
+             report::judged_bits_note(device) + ", targets up to " +
              std::to_string(device.max_target_size) + ", " +
              std::to_string(device.max_color_attachments) +
-             " colour attachments, gl_PrimitiveID: " + (r.has_primitive_id ? "yes" : "no") +
+             " colour attachments, gl_PrimitiveID: " + (device.has_primitive_id ? "yes" : "no") +
              ", hits counted in " + device.hit_counting + ", depth beside a stencil " +
              device.depth_beside_stencil +
              (device.has_dynamic_rendering ? "" : ", rendered by render pass objects") +
-             (device.has_dynamic_state ? "" : ", state held by pipelines") + ", UUID " + r.uuid);
-        for (const vk_harness::WrongLimit& limit : device.wrong_limits) {
+             (device.has_dynamic_state ? "" : ", state held by pipelines") + ", UUID " +
+             device.uuid);
+        for (const capture::WrongLimit& limit : device.wrong_limits) {
             line("     wrong limit: " + limit.name + " is " + limit.claimed +
                  ", and Vulkan requires " + limit.required + " " + limit.of);
         }

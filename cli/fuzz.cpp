@@ -80,7 +80,7 @@ class FuzzCommand {
         if (!first) {
             return report_stop(first.error());
         }
-        if (auto named = name_device(to_report(first->device)); !named) {
+        if (auto named = name_device(first->device); !named) {
             return report_stop(named.error());
         }
         RunOptions judging = options_.run;
@@ -88,8 +88,7 @@ class FuzzCommand {
         judging.suite.suite = ledger_.suite.empty() ? judging.suite.suite : ledger_.suite;
         judging.no_expect = ledger_.no_expect;
         judging.expect = ledger_.expect;
-        OrStop<ExpectedFailures> expected =
-            expected_failures(program_, judging, to_report(first->device));
+        OrStop<ExpectedFailures> expected = expected_failures(program_, judging, first->device);
         if (!expected) {
             return report_stop(expected.error());
         }
@@ -200,7 +199,7 @@ class FuzzCommand {
         return std::monostate{};
     }
 
-    OrStop<std::monostate> name_device(const report::Device& device) {
+    OrStop<std::monostate> name_device(const capture::DeviceInfo& device) {
         ledger_.device = device.name;
         ledger_.driver = device.driver_name + " " + device.driver_info;
         if (!device_of_earlier_.empty() && device_of_earlier_ != ledger_.device + ledger_.driver) {

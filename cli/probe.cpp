@@ -26,8 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::pair<std::string, std::string>> device_lines(
-    const vk_harness::DeviceInfo& device) {
+std::vector<std::pair<std::string, std::string>> device_lines(const capture::DeviceInfo& device) {
     return {{"device", device.name},
             {"driver",
              device.driver_name + (device.driver_info.empty() ? "" : " ") + device.driver_info},
@@ -50,7 +49,7 @@ OrStop<probe::Datasheet> measure(const Program& program, const ProbeOptions& opt
     if (!first) {
         return tl::unexpected(first.error());
     }
-    const vk_harness::DeviceInfo device = first->device;
+    const capture::DeviceInfo device = first->device;
     run::Session session(config, std::move(first->client), device, signals);
     bool is_interrupted = false;
     std::string failure;

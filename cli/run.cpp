@@ -52,7 +52,7 @@ void check_pictures(std::vector<run::PlannedCase>& plan) {
 }
 
 OrStop<std::monostate> check_required_device(const RunOptions& options,
-                                             const report::Device& device) {
+                                             const capture::DeviceInfo& device) {
     if (options.require_device.empty()) {
         return std::monostate{};
     }
@@ -66,7 +66,7 @@ OrStop<std::monostate> check_required_device(const RunOptions& options,
     return std::monostate{};
 }
 
-bool is_same_device(const report::Device& a, const report::Device& b) {
+bool is_same_device(const capture::DeviceInfo& a, const capture::DeviceInfo& b) {
     return a.name == b.name && a.uuid == b.uuid && a.driver_version == b.driver_version &&
            a.subpixel_bits == b.subpixel_bits && a.sample_locations == b.sample_locations &&
            a.depth_beside_stencil == b.depth_beside_stencil;
@@ -87,7 +87,7 @@ OrStop<std::monostate> set_debugger(const Program& program, const RunOptions& op
     plan.front().alone = true;
     config.command = std::move(*command);
     config.timeout = std::chrono::hours(24 * 365);
-    config.worker.vulkan.longest_wait_ms = 0;
+    config.worker.renderer.longest_wait_ms = 0;
     config.schedule.lanes = 1;
     config.schedule.repeat = 1;
     config.schedule.retries = 0;
@@ -122,7 +122,7 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
         }
         return stopped(options, stop);
     }
-    const report::Device device = to_report(first->device);
+    const capture::DeviceInfo device = first->device;
     if (resumed && !is_same_device(device, p.header.device)) {
         return stopped(options,
                        stop_with(report::kExitDevice,

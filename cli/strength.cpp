@@ -12,11 +12,11 @@
 
 #include "cases/base/counted.hpp"
 #include "cases/base/limits.hpp"
+#include "cases/fault/fault.hpp"
 #include "cases/model/profile.hpp"
 #include "cli/prepare/on_threads.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "diff/verdict.hpp"
-#include "rasterizers/software/choice/fault.hpp"
 #include "rasterizers/strength/recorded.hpp"
 #include "rasterizers/strength/strength.hpp"
 
@@ -32,10 +32,10 @@ struct Catch {
     std::string rule;
     std::string leaf;
 };
-using Catches = std::map<software::Fault, Catch>;
+using Catches = std::map<cases::Fault, Catch>;
 
 // Of equal levels the first leaf's, whichever thread came first.
-void keep(Catches& catches, software::Fault fault, const Catch& found) {
+void keep(Catches& catches, cases::Fault fault, const Catch& found) {
     const auto [old, is_new] = catches.try_emplace(fault, found);
     if (!is_new &&
         std::tie(found.level, found.leaf) < std::tie(old->second.level, old->second.leaf)) {
@@ -48,7 +48,7 @@ std::string family_of(const std::string& id) {
 }
 
 // Other families of the suite that are recorded to catch a fault at this level or a looser one.
-size_t others(software::Fault fault, cases::Profile level, const std::string& family) {
+size_t others(cases::Fault fault, cases::Profile level, const std::string& family) {
     return static_cast<size_t>(
         std::ranges::count_if(software::built_in_kills(), [&](const software::Kill& kill) {
             return kill.fault == fault && kill.level <= level && kill.family != family;
@@ -68,14 +68,14 @@ void tell(const std::string& file, const Catches& catches) {
                    : fmt::format("{} of the suite {} it, too",
                                  n == 1 ? "1 other family" : fmt::format("{} other families", n),
                                  n == 1 ? "catches" : "catch");
-        const software::FaultInfo& info = software::info_of(fault);
-        lines.push_back({n, fmt::format("    {}: {}\n        {} [{}]; {}\n", info.name, info.change,
-                                        found.rule, to_string(found.level), who)});
+        const cases::FaultRow& info = cases::row_of(fault);
+        lines.push_back({n, fmt::format("    {}: {}\n        {} [{}]; {}\n", info.name,
+                                        info.sentence, found.rule, to_string(found.level), who)});
     }
     std::ranges::stable_sort(lines, {}, &Line::others);
     const auto alone = std::ranges::count(lines, size_t{0}, &Line::others);
     std::string text = fmt::format("{} catches {} of {} known faults{}\n", file, catches.size(),
-                                   software::all_faults().size(),
+                                   cases::kFaults.size(),
                                    alone > 0 ? fmt::format(", {} of them alone", alone) : "");
     for (const Line& line : lines) {
         text += line.text;
@@ -87,8 +87,8 @@ void tell(const std::string& file, const Catches& catches) {
 
 cases::Errors tell_strength(const LoadedSuite& suite, const std::vector<size_t>& selected,
                             bool quiet) {
-    std::vector<software::Fault> faults;
-    for (const software::FaultInfo& info : software::all_faults()) {
+    std::vector<cases::Fault> faults;
+    for (const cases::FaultRow& info : cases::kFaults) {
         faults.push_back(info.fault);
     }
     std::mutex mutex;
@@ -103,7 +103,7 @@ cases::Errors tell_strength(const LoadedSuite& suite, const std::vector<size_t>&
         std::string why;
         try {
             const auto wrong = software::try_faults(
-                c, faults, [&](software::Fault fault, const diff::Verdict& verdict) {
+                c, faults, [&](cases::Fault fault, const diff::Verdict& verdict) {
                     const auto loosest =
                         std::ranges::min_element(verdict.findings, {}, &diff::Finding::level);
                     own[fault] = {verdict.level, loosest->rule, c.id};

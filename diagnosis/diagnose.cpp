@@ -330,8 +330,7 @@ class Diagnoser {
         const Hypothesis& h = known_[hypothesis];
         std::vector<const cases::Case*> list;
         for (const software::Kill& kill : software::built_in_kills()) {
-            const bool is_asked = h.device.fault == kill.fault &&
-                                  kill.fault != software::Fault::none &&
+            const bool is_asked = h.device.fault == kill.fault && kill.fault != cases::kNoFault &&
                                   passed_records_.contains(kill.leaf);
             const cases::Case* c = is_asked ? (*case_of_)(kill.leaf) : nullptr;
             if (c != nullptr && cost_of(*c) <= kMaxCost) {

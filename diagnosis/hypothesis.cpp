@@ -7,15 +7,16 @@
 #include <cmath>
 #include <utility>
 
-#include "rasterizers/software/choice/fault.hpp"
+#include "cases/fault/fault.hpp"
 #include "rasterizers/strength/strength.hpp"
 
 namespace diagnosis {
 
 namespace {
 
+using cases::Fault;
+using cases::operator""_fault;
 using software::Device;
-using software::Fault;
 using software::Rounding;
 using software::TieRule;
 
@@ -69,11 +70,11 @@ std::vector<Hypothesis> known_hypotheses(int subpixel_bits) {
     for (Hypothesis& h : choices(subpixel_bits)) {
         out.push_back(std::move(h));
     }
-    for (const software::FaultInfo& fault : software::all_faults()) {
-        if (fault.fault == Fault::coarse_snapping) {
+    for (const cases::FaultRow& fault : cases::kFaults) {
+        if (fault.fault == "coarse-snapping"_fault) {
             continue;  // a choice of subpixel bits
         }
-        Hypothesis h{std::string(fault.name), without_stop(fault.change)};
+        Hypothesis h{std::string(fault.name), without_stop(fault.sentence)};
         h.device.subpixel_bits = subpixel_bits;
         h.device.fault = fault.fault;
         out.push_back(std::move(h));
@@ -83,7 +84,7 @@ std::vector<Hypothesis> known_hypotheses(int subpixel_bits) {
 
 std::optional<capture::Capture> draw(const Hypothesis& hypothesis, const cases::Case& c) {
     const Fault fault = hypothesis.device.fault;
-    if (fault != Fault::none && !software::can_matter(fault, c)) {
+    if (fault != cases::kNoFault && !software::can_matter(fault, c)) {
         return std::nullopt;
     }
     const bool is_moved = std::abs(hypothesis.moved_x) + std::abs(hypothesis.moved_y) > 0;

@@ -9,9 +9,9 @@
 
 namespace run {
 
-report::CaseRecord judge_limits(const vk_harness::DeviceInfo& device) {
+report::CaseRecord judge_limits(const capture::DeviceInfo& device) {
     diff::Verdict verdict;
-    for (const vk_harness::WrongLimit& limit : device.wrong_limits) {
+    for (const capture::WrongLimit& limit : device.wrong_limits) {
         diff::Finding finding = diff::finding_of_case(diff::FindingKind::value);
         finding.rule = cases::rule::device_limits;
         finding.level = cases::Profile::vulkan;
@@ -32,7 +32,7 @@ report::CaseRecord judge_limits(const vk_harness::DeviceInfo& device) {
     record.description = "The device's limits are what Vulkan requires.";
     record.rules = {cases::rule::device_limits};
     record.status = verdict.ok() ? report::Status::pass : report::Status::fail;
-    if (device.api_version == 0) {
+    if (device.api_version.empty()) {
         record.status = report::Status::unsupported;
         record.reason = "what draws here has no Vulkan, and so no limits of it";
     }

@@ -4,13 +4,13 @@
 // The case that no file has and nothing is drawn of: what the device says of its limits.
 #pragma once
 
+#include "capture/renderer.hpp"
 #include "report/record/run.hpp"
-#include "vk_harness/public/harness.hpp"
 
 namespace run {
 
 // The record of cases::kLimitsCase: a finding at profile vulkan for each limit that is not as
 // Vulkan requires it, or unsupported if what draws has no Vulkan.
-report::CaseRecord judge_limits(const vk_harness::DeviceInfo& device);
+report::CaseRecord judge_limits(const capture::DeviceInfo& device);
 
 }  // namespace run

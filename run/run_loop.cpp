@@ -18,9 +18,9 @@
 
 namespace run {
 
+using capture::Rendered;
 using report::CaseRecord;
 using report::Status;
-using vk_harness::Rendered;
 
 namespace {
 
@@ -75,12 +75,9 @@ RunLoop::RunLoop(LoopConfig config, Plan plan, report::Journal* journal, SignalF
       pool_(cases::cores()),
       is_finished_(cases_.size(), false) {}
 
-RunLoop::End RunLoop::run(std::vector<WorkerClient> workers, const vk_harness::DeviceInfo& device) {
+RunLoop::End RunLoop::run(std::vector<WorkerClient> workers, const capture::DeviceInfo& device) {
     device_ = device;
-    if (config_.worker.renderer.empty()) {
-        config_.worker.vulkan.pinned_uuid = device.uuid;
-        config_.worker.vulkan.pinned_driver = device.driver_id;
-    }
+    config_.worker.renderer.pinned = device.key;
     if (config_.gpu_budget) {
         schedule_.set_batch_bytes(0);  // until it is known how long they take, one case each
     }
@@ -234,9 +231,9 @@ void RunLoop::advance(Slot& slot) {
         if (!slot.client) {
             return;  // an earlier event has ended it
         }
-        if (auto* device = std::get_if<vk_harness::DeviceInfo>(&event); device != nullptr) {
+        if (auto* device = std::get_if<capture::DeviceInfo>(&event); device != nullptr) {
             on_device(slot, *device);
-        } else if (auto* failure = std::get_if<vk_harness::Failure>(&event); failure != nullptr) {
+        } else if (auto* failure = std::get_if<capture::Failure>(&event); failure != nullptr) {
             on_start_failure(slot, failure->message);
             return;
         } else if (auto* result = std::get_if<CaseResult>(&event); result != nullptr) {
@@ -250,8 +247,8 @@ void RunLoop::advance(Slot& slot) {
     }
 }
 
-void RunLoop::on_device(Slot& slot, const vk_harness::DeviceInfo& device) {
-    if (device.name != device_.name || device.uuid != device_.uuid ||
+void RunLoop::on_device(Slot& slot, const capture::DeviceInfo& device) {
+    if (device.name != device_.name || device.key != device_.key ||
         device.driver_version != device_.driver_version) {
         fail("a later worker found another device ('" + device.name + "' instead of '" +
              device_.name + "')");

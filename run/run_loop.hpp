@@ -81,7 +81,7 @@ class RunLoop {
     };
     // The first of the workers has answered with `device`; another worker with another device ends
     // the run.
-    End run(std::vector<WorkerClient> workers, const vk_harness::DeviceInfo& device);
+    End run(std::vector<WorkerClient> workers, const capture::DeviceInfo& device);
     // After run() with keeps_workers: those that wait for work, for another run.
     std::vector<WorkerClient> take_workers();
     // After a run() that has ended early: judgements that go on are not waited for. They may take
@@ -103,7 +103,7 @@ class RunLoop {
     void feed(Slot& slot);
     void start_worker(Slot& slot);
     void advance(Slot& slot);
-    void on_device(Slot& slot, const vk_harness::DeviceInfo& device);
+    void on_device(Slot& slot, const capture::DeviceInfo& device);
     void on_result(Slot& slot, CaseResult& result);
     void on_batch_done(Slot& slot);
     void on_death(Slot& slot, const Death& death);
@@ -134,7 +134,7 @@ class RunLoop {
     std::map<size_t, report::CaseRecord> judged_;  // waiting for more renderings
     std::map<size_t, report::CaseRecord> held_;    // waiting for the rest of a dead batch
     std::map<size_t, double> seconds_;
-    vk_harness::DeviceInfo device_;
+    capture::DeviceInfo device_;
     std::set<size_t> unconfirmed_;  // of judged_: unexpected failures
     size_t settled_ = 0;
     std::vector<bool> is_finished_;  // [k] has its final record

@@ -10,7 +10,7 @@
 
 namespace run {
 
-Session::Session(LoopConfig config, WorkerClient first, vk_harness::DeviceInfo device,
+Session::Session(LoopConfig config, WorkerClient first, capture::DeviceInfo device,
                  SignalFd& signals)
     : config_(std::move(config)), device_(std::move(device)), signals_(signals) {
     config_.keeps_workers = true;

@@ -20,8 +20,7 @@ namespace run {
 class Session {
   public:
     // `first` is a worker that has answered with `device`, whose limits the config has.
-    Session(LoopConfig config, WorkerClient first, vk_harness::DeviceInfo device,
-            SignalFd& signals);
+    Session(LoopConfig config, WorkerClient first, capture::DeviceInfo device, SignalFd& signals);
 
     struct Results {
         std::vector<report::CaseRecord> records;  // of the cases, in their order
@@ -49,7 +48,7 @@ class Session {
   private:
     LoopConfig config_;
     std::vector<WorkerClient> workers_;
-    vk_harness::DeviceInfo device_;
+    capture::DeviceInfo device_;
     SignalFd& signals_;
 };
 

@@ -79,8 +79,7 @@ void append(std::vector<std::string>& to, const std::vector<std::string>& from) 
 // A call that fails is never 'unsupported': what a device does not advertise, check_case has
 // rejected before anything is asked of the driver.
 Rejection rejection_of(const Failure& failure) {
-    return {failure.vk_result == VK_ERROR_DEVICE_LOST ? Rendered::Status::device_lost
-                                                      : Rendered::Status::error,
+    return {failure.is_lost ? Rendered::Status::device_lost : Rendered::Status::error,
             std::string(to_string(failure.stage)) + ": " + failure.message};
 }
 
@@ -200,7 +199,7 @@ void BatchRenderer::run_chunk(std::vector<CasePlan>& plans, bool read_back,
             reject(results[plan.slot], rejection_of(failure));
         }
         device_.vk().vkDeviceWaitIdle(device_.get());
-        if (failure.vk_result == VK_ERROR_DEVICE_LOST) {
+        if (failure.is_lost) {
             lost_ = failure.message;
         }
     }

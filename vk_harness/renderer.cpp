@@ -45,7 +45,7 @@ Result<size_t> Renderer::render_bare(std::span<const cases::Case> batch) {
         if (result.status == Rendered::Status::drawn) {
             ++drawn;
         } else if (result.status != Rendered::Status::unsupported) {
-            return tl::unexpected(Failure{Stage::loader, 0, result.reason, {}});
+            return tl::unexpected(Failure{Stage::loader, result.reason, {}, {}});
         }
     }
     return drawn;

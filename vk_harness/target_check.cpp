@@ -19,7 +19,7 @@ namespace {
 std::optional<Rejection> check_locations(const Capabilities& c, const cases::Target& t) {
     if (t.sample_locations.empty()) {
         const bool is_told = std::ranges::any_of(
-            c.info.sample_locations,
+            c.told_locations,
             [&](const cases::SampleLocations& own) { return own.size() == t.samples; });
         if (t.samples > 1 && !is_told && !c.info.sample_locations_error.empty()) {
             return invalid("{}", c.info.sample_locations_error);

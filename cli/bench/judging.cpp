@@ -21,6 +21,8 @@ namespace cli {
 
 namespace {
 
+using cases::operator""_fault;
+
 constexpr double kLeastSeconds = 0.2;  // a figure is the mean of so long
 
 // Mean seconds of one call.
@@ -108,7 +110,7 @@ bool judged(const cases::Case& c, const capture::Capture& capture, double& secon
 void time_broken(std::span<const cases::Case> cases, std::span<const size_t> quick,
                  JudgingFigures& figures) {
     software::Device broken;
-    broken.fault = software::Fault::half_pixel_shift;
+    broken.fault = "half-pixel-shift"_fault;
     for (size_t nth = 0; nth < quick.size(); nth += 2) {
         const cases::Case& c = cases[quick[nth]];
         ++figures.quick_cases;

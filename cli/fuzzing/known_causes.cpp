@@ -109,7 +109,7 @@ std::vector<Open> failing_cases(const ExpectedFailures& expected, Reducer& reduc
 }  // namespace
 
 OrStop<ExpectedFailures> expected_failures(const Program& program, const RunOptions& options,
-                                           const report::Device& device) {
+                                           const capture::DeviceInfo& device) {
     ExpectedFailures out;
     if (options.no_expect) {
         return out;

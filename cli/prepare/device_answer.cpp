@@ -16,10 +16,10 @@ namespace cli {
 
 run::WorkerOptions worker_options(const DeviceOptions& options) {
     run::WorkerOptions worker;
-    worker.vulkan.device = options.device;
-    worker.vulkan.icd_file = options.icd;
-    worker.vulkan.validation = options.validation;
-    worker.renderer = options.renderer;
+    worker.renderer.name = options.renderer;
+    worker.renderer.device = options.device;
+    worker.renderer.icd_file = options.icd;
+    worker.renderer.validation = options.validation;
     return worker;
 }
 
@@ -38,11 +38,11 @@ std::vector<std::string> printed_lines(const std::string& output) {
 
 }  // namespace
 
-Stop explain_failure(const vk_harness::Failure& failure, const std::string& output) {
+Stop explain_failure(const capture::Failure& failure, const std::string& output) {
     Stop stop{report::kExitDevice, {cases::printable(failure.message)}};
-    if (failure.vk_result != 0) {
-        stop.lines.push_back("  VkResult " + std::to_string(failure.vk_result) + " at stage '" +
-                             std::string(vk_harness::to_string(failure.stage)) + "'");
+    if (!failure.code.empty()) {
+        stop.lines.push_back("  " + failure.code + " at stage '" +
+                             std::string(capture::to_string(failure.stage)) + "'");
     }
     for (const std::string& reason : failure.reasons) {
         stop.lines.push_back("  " + cases::printable(reason));
@@ -53,7 +53,7 @@ Stop explain_failure(const vk_harness::Failure& failure, const std::string& outp
     if (const std::string limits = cases::tight_limits(); !limits.empty()) {
         stop.lines.push_back("  " + limits);
     }
-    if (failure.stage <= vk_harness::Stage::device) {
+    if (failure.stage <= capture::Stage::device) {
         stop.lines.emplace_back("  'edgecase doctor' says what is installed and what is missing");
     }
     return stop;
@@ -70,8 +70,8 @@ Stop explain_death(const run::Death& death) {
 }
 
 OrStop<run::WorkerClient> start_first_worker(const run::LoopConfig& config) {
-    const std::string& icd = config.worker.vulkan.icd_file;
-    if (!icd.empty() && config.worker.renderer.empty()) {
+    const std::string& icd = config.worker.renderer.icd_file;
+    if (!icd.empty() && config.worker.renderer.name.empty()) {
         if (const std::string wrong = run::check_manifest(icd, config.icd_from); !wrong.empty()) {
             return tl::unexpected(Stop{report::kExitDevice, {wrong}});
         }
@@ -112,10 +112,10 @@ OrStop<ReadyWorker> await_first_worker(run::WorkerClient client, const run::Loop
         if (!answer) {
             return tl::unexpected(kInterrupted);
         }
-        if (const auto* device = std::get_if<vk_harness::DeviceInfo>(&*answer); device != nullptr) {
+        if (const auto* device = std::get_if<capture::DeviceInfo>(&*answer); device != nullptr) {
             return ReadyWorker{std::move(*worker), *device};
         }
-        if (const auto* failure = std::get_if<vk_harness::Failure>(&*answer); failure != nullptr) {
+        if (const auto* failure = std::get_if<capture::Failure>(&*answer); failure != nullptr) {
             return tl::unexpected(explain_failure(*failure, worker->output_since_batch()));
         }
         const auto& death = std::get<run::Death>(*answer);

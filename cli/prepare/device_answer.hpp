@@ -16,7 +16,7 @@ run::WorkerOptions worker_options(const DeviceOptions& options);
 
 struct ReadyWorker {
     run::WorkerClient client;
-    vk_harness::DeviceInfo device;
+    capture::DeviceInfo device;
 };
 // Starts the first worker, which then gets its device ready while the parent does something else.
 OrStop<run::WorkerClient> start_first_worker(const run::LoopConfig& config);
@@ -27,7 +27,7 @@ OrStop<ReadyWorker> await_first_worker(run::WorkerClient client, const run::Loop
                                        run::SignalFd& signals);
 
 // What a failed start looks like to the user; `output` is what the worker printed.
-Stop explain_failure(const vk_harness::Failure& failure, const std::string& output);
+Stop explain_failure(const capture::Failure& failure, const std::string& output);
 Stop explain_death(const run::Death& death);
 
 }  // namespace cli

@@ -62,7 +62,7 @@ OrStop<std::vector<run::SeenPictures>> find_pictures(const RunOptions& options,
 // The expectation files of --expect, or those beside the suite that fit the device.
 OrStop<std::vector<run::ExpectationFile>> find_expectations(const RunOptions& options,
                                                             const fs::path& suite_root,
-                                                            const report::Device& device) {
+                                                            const capture::DeviceInfo& device) {
     std::vector<run::ExpectationFile> found;
     if (options.no_expect) {
         return found;

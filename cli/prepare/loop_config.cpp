@@ -18,7 +18,7 @@ run::LoopConfig loop_config(const Program& program, const RunOptions& options) {
     config.icd_from = options.device.icd_from;
     config.timeout = std::chrono::milliseconds(static_cast<int64_t>(options.device.timeout * 1000));
     // A worker that has lost its parent ends by itself, though later than one that has not.
-    config.worker.vulkan.longest_wait_ms = static_cast<uint64_t>(config.timeout.count()) * 2;
+    config.worker.renderer.longest_wait_ms = static_cast<uint64_t>(config.timeout.count()) * 2;
     if (options.gpu_budget > 0) {
         config.gpu_budget = std::chrono::milliseconds(options.gpu_budget);
     }
@@ -33,7 +33,7 @@ run::LoopConfig loop_config(const Program& program, const RunOptions& options) {
     return config;
 }
 
-void set_limits(run::LoopConfig& config, const vk_harness::DeviceInfo& device) {
+void set_limits(run::LoopConfig& config, const capture::DeviceInfo& device) {
     config.limits = run::limits_of(device);
 }
 
@@ -42,8 +42,8 @@ ref::Limits limits_of(const JudgedDevice& device) {
                           device.depth_beside_stencil);
 }
 
-void warn_of_limits(const vk_harness::DeviceInfo& device) {
-    for (const vk_harness::WrongLimit& limit : device.wrong_limits) {
+void warn_of_limits(const capture::DeviceInfo& device) {
+    for (const capture::WrongLimit& limit : device.wrong_limits) {
         complain(fmt::format("warning: the device's {} is {}, and Vulkan requires {} {}",
                              limit.name, limit.claimed, limit.required, limit.of));
     }

@@ -401,7 +401,7 @@ OrStop<std::monostate> apply_expectations(Prepared& p) {
 }
 
 std::optional<CaseRecord> limits_record(const Program& program, const Prepared& p,
-                                        const vk_harness::DeviceInfo& device) {
+                                        const capture::DeviceInfo& device) {
     const auto& all = p.header.cases;
     const auto known = std::ranges::find(all, cases::kLimitsCase, &CaseRecord::id);
     const bool is_named = p.of_limits && p.of_limits->glob == cases::kLimitsCase;

@@ -45,6 +45,6 @@ OrStop<std::monostate> apply_expectations(Prepared& p);
 // The final record of cases::kLimitsCase, if the run has to tell of it and has not yet: where a
 // limit is wrong, where it is selected, or where an expectation file names it.
 std::optional<report::CaseRecord> limits_record(const Program& program, const Prepared& p,
-                                                const vk_harness::DeviceInfo& device);
+                                                const capture::DeviceInfo& device);
 
 }  // namespace cli

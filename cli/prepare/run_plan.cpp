@@ -408,24 +408,6 @@ std::vector<std::pair<std::string, std::string>> recorded_environment() {
     return recorded;
 }
 
-report::Device to_report(const vk_harness::DeviceInfo& device) {
-    report::Device d;
-    cases::copy_like_fields(device, d);
-    d.type = device.device_type;
-    d.sample_locations = cases::to_text(device.sample_locations);
-    if (device.api_version == 0) {
-        return d;  // no Vulkan: an algorithm, or the reference
-    }
-    // VK_API_VERSION_*: variant 31..29, major 28..22, minor 21..12, patch 11..0
-    d.api_version = std::to_string((device.api_version >> 22) & 0x7fU) + "." +
-                    std::to_string((device.api_version >> 12) & 0x3ffU) + "." +
-                    std::to_string(device.api_version & 0xfffU);
-    if (const uint32_t variant = device.api_version >> 29; variant > 0) {  // not Vulkan itself
-        d.api_version += " (variant " + std::to_string(variant) + ")";
-    }
-    return d;
-}
-
 std::string utc_now(bool compact) {
     std::time_t now = std::time(nullptr);
     const char* const epoch = std::getenv("SOURCE_DATE_EPOCH");

@@ -56,8 +56,6 @@ std::string reproducer_line(const Program& program, const RunOptions& options,
 // What was set of the variables that choose or change drivers, and PWD.
 std::vector<std::pair<std::string, std::string>> recorded_environment();
 
-report::Device to_report(const vk_harness::DeviceInfo& device);
-
 // "2026-11-21T05:00:00Z", which SOURCE_DATE_EPOCH (seconds since 1970) sets for reports that are
 // built again; for file names "20261121T050000Z", always the time of the day.
 std::string utc_now(bool compact);

@@ -15,15 +15,15 @@ class Assembler {
     Assembler(const cases::Draw& draw, Fault fault)
         : topology_(draw.topology),
           is_last_((draw.provoking == cases::ProvokingVertex::last) !=
-                   (fault == Fault::provoking_mode_ignored &&
+                   (fault == "provoking-mode-ignored"_fault &&
                     draw.provoking == cases::ProvokingVertex::last)),
           fault_(fault) {}
 
     void restart() {
-        if (fault_ == Fault::restart_ignored) {
+        if (fault_ == "restart-ignored"_fault) {
             return;
         }
-        if (fault_ == Fault::restart_keeps_one && count_ > 0) {
+        if (fault_ == "restart-keeps-one"_fault && count_ > 0) {
             window_[0] = window_[std::min<uint32_t>(count_, 2) - 1];
             count_ = 1;
             odd_ = false;
@@ -32,7 +32,7 @@ class Assembler {
         count_ = 0;
         odd_ = false;
         run_ = 0;
-        if (fault_ == Fault::primitive_id_restarts) {
+        if (fault_ == "primitive-id-restarts"_fault) {
             next_id_ = 0;
         }
     }
@@ -51,18 +51,18 @@ class Assembler {
                 count_ = 0;
                 break;
             case cases::Topology::triangle_strip:
-                if (odd_ && fault_ != Fault::strip_parity) {
-                    emit({a, vertex, b}, a, fault_ == Fault::provoking_strip_odd ? b : vertex);
+                if (odd_ && fault_ != "strip-parity"_fault) {
+                    emit({a, vertex, b}, a, fault_ == "provoking-strip-odd"_fault ? b : vertex);
                 } else {
                     emit({a, b, vertex}, a, vertex);
                 }
-                odd_ = fault_ == Fault::strip_batch_parity && run_ % 9 == 0 ? false : !odd_;
+                odd_ = fault_ == "strip-batch-parity"_fault && run_ % 9 == 0 ? false : !odd_;
                 window_ = {b, vertex};
                 break;
             case cases::Topology::triangle_fan:  // window: hub, last rim vertex
-                emit({b, vertex, a}, fault_ == Fault::fan_hub_provoking ? a : b,
-                     fault_ == Fault::provoking_fan_last_hub ? a : vertex);
-                if (fault_ == Fault::fan_batch_hub && run_ % 9 == 0) {
+                emit({b, vertex, a}, fault_ == "fan-hub-provoking"_fault ? a : b,
+                     fault_ == "provoking-fan-last-hub"_fault ? a : vertex);
+                if (fault_ == "fan-batch-hub"_fault && run_ % 9 == 0) {
                     window_[0] = b;
                 }
                 window_[1] = vertex;
@@ -74,8 +74,8 @@ class Assembler {
 
   private:
     void emit(std::array<uint32_t, 3> vertex, uint32_t first, uint32_t last) {
-        const uint32_t provoking = is_last_ || fault_ == Fault::provoking_last ? last : first;
-        if (is_last_ && fault_ == Fault::provoking_turns) {
+        const uint32_t provoking = is_last_ || fault_ == "provoking-last"_fault ? last : first;
+        if (is_last_ && fault_ == "provoking-turns"_fault) {
             std::swap(vertex[0], vertex[2]);
         }
         out_.push_back({vertex, provoking, next_id_, values_of(vertex)});
@@ -84,9 +84,9 @@ class Assembler {
     }
 
     std::array<uint32_t, 3> values_of(std::array<uint32_t, 3> vertex) const {
-        if (fault_ == Fault::strip_values_exchanged && odd_) {
+        if (fault_ == "strip-values-exchanged"_fault && odd_) {
             std::swap(vertex[0], vertex[1]);
-        } else if (fault_ == Fault::fan_values_exchanged && run_ % 2 == 1 &&
+        } else if (fault_ == "fan-values-exchanged"_fault && run_ % 2 == 1 &&
                    topology_ == cases::Topology::triangle_fan) {
             std::swap(vertex[1], vertex[2]);
         }
@@ -109,7 +109,7 @@ class Assembler {
 std::vector<Primitive> assemble_primitives(const cases::Draw& draw, Fault fault) {
     Assembler assembler(draw, fault);
     const auto vertex_count = static_cast<uint32_t>(draw.positions.size());
-    if (draw.indices && fault != Fault::indices_ignored) {
+    if (draw.indices && fault != "indices-ignored"_fault) {
         for (const uint32_t index : *draw.indices) {
             if (index == cases::kRestartIndex && draw.primitive_restart) {
                 assembler.restart();
@@ -123,15 +123,15 @@ std::vector<Primitive> assemble_primitives(const cases::Draw& draw, Fault fault)
         }
     }
     std::vector<Primitive> primitives = assembler.take();
-    if (fault == Fault::batch_tail_lost && !primitives.empty()) {
+    if (fault == "batch-tail-lost"_fault && !primitives.empty()) {
         primitives.pop_back();
     }
-    if (fault == Fault::primitives_paired) {
+    if (fault == "primitives-paired"_fault) {
         for (size_t k = 0; k + 1 < primitives.size(); k += 2) {
             std::swap(primitives[k], primitives[k + 1]);
         }
     }
-    if (fault == Fault::primitives_reversed) {
+    if (fault == "primitives-reversed"_fault) {
         std::reverse(primitives.begin(), primitives.end());
     }
     return primitives;

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "cases/fault/fault.hpp"
 #include "cases/model/case.hpp"
 #include "rasterizers/software/choice/device.hpp"
-#include "rasterizers/software/choice/fault.hpp"
 #include "rasterizers/software/target/query_unit.hpp"
 
 namespace software {

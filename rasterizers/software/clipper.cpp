@@ -32,35 +32,35 @@ float guard_band(float extent, float origin) {
 }
 
 std::vector<Plane> planes_of(const cases::Draw& draw, const Device& device) {
-    if (device.fault == Fault::clip_none) {
+    if (device.fault == "clip-none"_fault) {
         return {};
     }
     float band_x = 1;
     float band_y = 1;
-    if (device.clip == ClipMethod::guard_band || device.fault == Fault::clip_band_unscissored) {
+    if (device.clip == ClipMethod::guard_band || device.fault == "clip-band-unscissored"_fault) {
         band_x = guard_band(draw.viewport.width, draw.viewport.x);
         band_y = guard_band(draw.viewport.height, draw.viewport.y);
     }
     std::vector<Plane> planes{{0, 1, band_x}, {0, -1, band_x}, {1, 1, band_y}, {1, -1, band_y}};
     const bool clips_depth =
-        draw.depth.clip.value_or(!draw.depth.clamp) || device.fault == Fault::depth_clamp_clips;
+        draw.depth.clip.value_or(!draw.depth.clamp) || device.fault == "depth-clamp-clips"_fault;
     const bool is_symmetric =
-        draw.depth.negative_one_to_one && device.fault != Fault::depth_volume_ignored;
-    if (clips_depth && device.fault != Fault::clip_no_near) {
+        draw.depth.negative_one_to_one && device.fault != "depth-volume-ignored"_fault;
+    if (clips_depth && device.fault != "clip-no-near"_fault) {
         planes.push_back({2, 1, is_symmetric ? 1.0F : 0.0F});
     }
-    if (clips_depth && device.fault != Fault::clip_no_far) {
+    if (clips_depth && device.fault != "clip-no-far"_fault) {
         planes.push_back({2, -1, 1});
     }
     if (tests_distances(device)) {
         return planes;
     }
     auto count = static_cast<int>(draw.distances.clip_count);
-    if (device.fault == Fault::distance_last_ignored && count > 0) {
+    if (device.fault == "distance-last-ignored"_fault && count > 0) {
         --count;
     }
     for (int k = 0; k < count; ++k) {
-        planes.push_back({k, device.fault == Fault::distance_flipped ? -1.0F : 1.0F, 0, true});
+        planes.push_back({k, device.fault == "distance-flipped"_fault ? -1.0F : 1.0F, 0, true});
     }
     return planes;
 }
@@ -88,11 +88,11 @@ ClipVertex cut(const ClipVertex& from, const ClipVertex& to, const Plane& plane,
     const float d_from = distance(plane, from);
     const float d_to = distance(plane, to);
     float t = d_from / (d_from - d_to);
-    if ((plane.is_user && device.fault == Fault::distance_reversed) ||
-        (!plane.is_user && device.fault == Fault::clip_reversed)) {
+    if ((plane.is_user && device.fault == "distance-reversed"_fault) ||
+        (!plane.is_user && device.fault == "clip-reversed"_fault)) {
         t = 1 - t;
     }
-    if (plane.is_user && device.fault == Fault::distance_linear) {
+    if (plane.is_user && device.fault == "distance-linear"_fault) {
         // The point whose distance is 0 if distances are linear on screen.
         t = t * from.position.w / (t * from.position.w + (1 - t) * to.position.w);
     }
@@ -110,8 +110,8 @@ ClipVertex cut(const ClipVertex& from, const ClipVertex& to, const Plane& plane,
     for (size_t a = 0; a < draw.attributes.size(); ++a) {
         const auto mode = draw.attributes[a].interpolation;
         const bool is_linear = mode == cases::Interpolation::noperspective ||
-                               device.fault == Fault::clip_screen_linear;
-        if (mode == cases::Interpolation::flat || device.fault == Fault::clip_copies_value) {
+                               device.fault == "clip-screen-linear"_fault;
+        if (mode == cases::Interpolation::flat || device.fault == "clip-copies-value"_fault) {
             out.values[a] = from.values[a];
         } else if (is_linear && (is_zero(from.position.w) || is_zero(to.position.w) ||
                                  is_zero(out.position.w))) {
@@ -139,8 +139,8 @@ bool is_first(const glm::vec4& a, const glm::vec4& b) {
 }  // namespace
 
 bool tests_distances(const Device& device) {
-    return device.tests_distances || device.fault == Fault::distance_plane_twice ||
-           device.fault == Fault::distance_plane_never;
+    return device.tests_distances || device.fault == "distance-plane-twice"_fault ||
+           device.fault == "distance-plane-never"_fault;
 }
 
 ClippedPolygon clip_triangle(const std::array<ClipVertex, 3>& triangle, const cases::Draw& draw,
@@ -161,7 +161,7 @@ ClippedPolygon clip_triangle(const std::array<ClipVertex, 3>& triangle, const ca
         for (size_t k = 0; k < count; ++k) {
             const ClipVertex& a = polygon.vertices[k];
             const ClipVertex& b = polygon.vertices[(k + 1) % count];
-            const bool is_open = plane.is_user && device.fault == Fault::distance_zero_outside;
+            const bool is_open = plane.is_user && device.fault == "distance-zero-outside"_fault;
             const auto is_inside = [&](const ClipVertex& v) {
                 return is_open ? distance(plane, v) > 0 : distance(plane, v) >= 0;
             };
@@ -176,7 +176,7 @@ ClippedPolygon clip_triangle(const std::array<ClipVertex, 3>& triangle, const ca
                 // By a clip distance from the same end whichever side is kept, so that negated
                 // distances give the same point.
                 const bool from_a = plane.is_user ? is_first(a.position, b.position)
-                                                  : a_inside || device.fault == Fault::clip_seam;
+                                                  : a_inside || device.fault == "clip-seam"_fault;
                 kept.push_back(from_a ? cut(a, b, plane, draw, device)
                                       : cut(b, a, plane, draw, device));
             }
@@ -187,7 +187,7 @@ ClippedPolygon clip_triangle(const std::array<ClipVertex, 3>& triangle, const ca
             break;
         }
     }
-    if (device.fault == Fault::clip_rejects_any && polygon.was_cut) {
+    if (device.fault == "clip-rejects-any"_fault && polygon.was_cut) {
         polygon.vertices.clear();
     }
     return polygon;

@@ -69,19 +69,19 @@ void count_assembled(const cases::Draw& draw, uint32_t number,
     uint64_t assembled = primitives.size() + (device.counts_most ? stream.partial : 0);
     uint64_t shaded = device.counts_most ? 3 * primitives.size() : distinct.size();
     switch (device.fault) {
-        case Fault::statistics_vertices_by_primitive:
+        case "statistics-vertices-by-primitive"_fault:
             vertices = 3 * primitives.size();
             break;
-        case Fault::statistics_vertices_cached:
+        case "statistics-vertices-cached"_fault:
             vertices = distinct.size();
             break;
-        case Fault::statistics_primitives_of_list:
+        case "statistics-primitives-of-list"_fault:
             assembled = vertices / 3;
             break;
-        case Fault::statistics_restarts_counted:
+        case "statistics-restarts-counted"_fault:
             assembled += stream.restarts;
             break;
-        case Fault::statistics_shades_primitives:
+        case "statistics-shades-primitives"_fault:
             shaded = primitives.size();
             break;
         default:

@@ -20,7 +20,7 @@ float unit(const cases::DepthBias& bias, cases::DepthFormat format, float larges
     if (bias.representation == Representation::floating) {
         return 1;
     }
-    const float scale = device.fault == Fault::bias_unit_doubled ? 4 : 1;
+    const float scale = device.fault == "bias-unit-doubled"_fault ? 4 : 1;
     if (format == cases::DepthFormat::d16_unorm) {
         return scale * 0x1p-16F;
     }
@@ -29,7 +29,7 @@ float unit(const cases::DepthBias& bias, cases::DepthFormat format, float larges
         return scale * 0x1p-24F;
     }
     const int exponent = largest_z > 0 ? std::max(std::ilogb(largest_z), -126) : -126;
-    const int bits = device.fault == Fault::bias_exponent ? 24 : 23;
+    const int bits = device.fault == "bias-exponent"_fault ? 24 : 23;
     return std::ldexp(1.0F, exponent - bits);
 }
 
@@ -37,26 +37,26 @@ float unit(const cases::DepthBias& bias, cases::DepthFormat format, float larges
 
 float depth_bias(const cases::Draw& draw, cases::DepthFormat format, float dzdx, float dzdy,
                  float largest_z, const Device& device) {
-    if (!draw.depth.bias || device.fault == Fault::bias_ignored) {
+    if (!draw.depth.bias || device.fault == "bias-ignored"_fault) {
         return 0;
     }
     const cases::DepthBias& bias = *draw.depth.bias;
     float slope = std::max(std::fabs(dzdx), std::fabs(dzdy));
-    if (device.fault == Fault::bias_slope_x_only) {
+    if (device.fault == "bias-slope-x-only"_fault) {
         slope = std::fabs(dzdx);
-    } else if (device.fault == Fault::bias_slope_signed) {
+    } else if (device.fault == "bias-slope-signed"_fault) {
         slope = std::fabs(dzdx) > std::fabs(dzdy) ? dzdx : dzdy;
-    } else if (device.fault == Fault::bias_slope_sum) {
+    } else if (device.fault == "bias-slope-sum"_fault) {
         slope = std::fabs(dzdx) + std::fabs(dzdy);
     }
     float o = slope * bias.slope + unit(bias, format, largest_z, device) * bias.constant;
-    if (device.fault == Fault::bias_sign) {
+    if (device.fault == "bias-sign"_fault) {
         o = -o;
     }
-    if (device.fault == Fault::bias_clamp_ignored) {
+    if (device.fault == "bias-clamp-ignored"_fault) {
         return o;
     }
-    if (device.fault == Fault::bias_clamp_both_ends && std::fabs(bias.clamp) > 0) {
+    if (device.fault == "bias-clamp-both-ends"_fault && std::fabs(bias.clamp) > 0) {
         return std::clamp(o, -std::fabs(bias.clamp), std::fabs(bias.clamp));
     }
     return bias.clamp > 0 ? std::min(o, bias.clamp) : bias.clamp < 0 ? std::max(o, bias.clamp) : o;
@@ -67,7 +67,7 @@ float stored_depth(float z, cases::DepthFormat format, const Device& device) {
         return z;
     }
     const double steps = steps_of(format);
-    const double scale = device.fault == Fault::depth_store_scale ? steps + 1 : steps;
+    const double scale = device.fault == "depth-store-scale"_fault ? steps + 1 : steps;
     const double code = std::clamp(std::nearbyint(static_cast<double>(z) * scale), 0.0, steps);
     return static_cast<float>(code / steps);
 }
@@ -76,19 +76,19 @@ float fragment_depth(float z, float bias, const cases::Draw& draw, cases::DepthF
                      const Device& device) {
     float low = std::min(draw.viewport.min_depth, draw.viewport.max_depth);
     float high = std::max(draw.viewport.min_depth, draw.viewport.max_depth);
-    if (device.fault == Fault::depth_clamp_unit) {
+    if (device.fault == "depth-clamp-unit"_fault) {
         low = 0;
         high = 1;
-    } else if (device.fault == Fault::depth_clamp_unordered) {
+    } else if (device.fault == "depth-clamp-unordered"_fault) {
         low = draw.viewport.min_depth;
         high = draw.viewport.max_depth;
     }
     const auto clamp = [&](float v) { return std::min(std::max(v, low), high); };
-    if (device.fault == Fault::depth_clamp_before_bias && draw.depth.clamp) {
+    if (device.fault == "depth-clamp-before-bias"_fault && draw.depth.clamp) {
         z = clamp(z) + bias;
     } else {
         z += bias;
-        if (draw.depth.clamp && device.fault != Fault::depth_clamp_ignored) {
+        if (draw.depth.clamp && device.fault != "depth-clamp-ignored"_fault) {
             z = clamp(z);
         }
     }
@@ -104,21 +104,21 @@ static float as_half(float z) {
 
 bool lies_within(float z, const cases::DepthBounds& bounds, const Device& device) {
     switch (device.fault) {
-        case Fault::bounds_ignored:
+        case "bounds-ignored"_fault:
             return true;
-        case Fault::bounds_exclusive:
+        case "bounds-exclusive"_fault:
             return z > bounds.min && z < bounds.max;
-        case Fault::bounds_max_exclusive:
+        case "bounds-max-exclusive"_fault:
             return z >= bounds.min && z < bounds.max;
-        case Fault::bounds_inverted:
+        case "bounds-inverted"_fault:
             return z < bounds.min || z > bounds.max;
-        case Fault::bounds_as_half:
+        case "bounds-as-half"_fault:
             return z >= as_half(bounds.min) && z <= as_half(bounds.max);
-        case Fault::bounds_without_min:
+        case "bounds-without-min"_fault:
             return z <= bounds.max;
-        case Fault::bounds_without_max:
+        case "bounds-without-max"_fault:
             return z >= bounds.min;
-        case Fault::bounds_halved:
+        case "bounds-halved"_fault:
             return z * 2 >= bounds.min && z * 2 <= bounds.max;
         default:
             return z >= bounds.min && z <= bounds.max;
@@ -127,17 +127,17 @@ bool lies_within(float z, const cases::DepthBounds& bounds, const Device& device
 
 bool passes_depth_test(const cases::Draw& draw, float z, float stored, const Device& device) {
     using cases::CompareOp;
-    if (device.fault == Fault::depth_test_ignored) {
+    if (device.fault == "depth-test-ignored"_fault) {
         return true;
     }
-    if (device.fault == Fault::depth_operands_swapped) {
+    if (device.fault == "depth-operands-swapped"_fault) {
         std::swap(z, stored);
     }
     switch (draw.depth.compare) {
         case CompareOp::never:
             return false;
         case CompareOp::less:
-            return device.fault == Fault::depth_less_or_equal ? z <= stored : z < stored;
+            return device.fault == "depth-less-or-equal"_fault ? z <= stored : z < stored;
         case CompareOp::equal:
             return z >= stored && z <= stored;
         case CompareOp::less_or_equal:

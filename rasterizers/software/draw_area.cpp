@@ -22,13 +22,13 @@ Enlargement enlargement(const cases::Draw& draw, const Device& device) {
         return {};
     }
     const double scale = std::ldexp(1.0, device.subpixel_bits);
-    const double times = device.fault == Fault::extra_size_ignored   ? 0.0
-                         : device.fault == Fault::extra_size_doubled ? 2.0
-                                                                     : 1.0;
+    const double times = device.fault == "extra-size-ignored"_fault   ? 0.0
+                         : device.fault == "extra-size-doubled"_fault ? 2.0
+                                                                      : 1.0;
     const auto own = static_cast<int64_t>(static_cast<double>(overestimation(device)) * scale);
     const auto extra = static_cast<int64_t>(
         std::ceil(static_cast<double>(draw.conservative_extra) * scale * times));
-    return {own + (device.fault == Fault::extra_size_of_box ? 0 : extra), own + extra};
+    return {own + (device.fault == "extra-size-of-box"_fault ? 0 : extra), own + extra};
 }
 
 // E(x, y) = a x + b y + c of an edge of a polygon that runs clockwise on screen.
@@ -62,7 +62,7 @@ class AreaTest {
 
     // Pixels that may be covered.
     PixelRect within(const PixelRect& rect) const {
-        if (device_.mitres_corners || device_.fault == Fault::draws_everything) {
+        if (device_.mitres_corners || device_.fault == "draws-everything"_fault) {
             return rect;
         }
         const int bits = device_.subpixel_bits;
@@ -81,10 +81,10 @@ class AreaTest {
         const int64_t x = i * pixel_;
         const int64_t y = j * pixel_;
         const Fault fault = device_.fault;
-        if (fault == Fault::draws_everything) {
+        if (fault == "draws-everything"_fault) {
             return true;
         }
-        if (fault == Fault::conservative_by_samples) {
+        if (fault == "conservative-by-samples"_fault) {
             const auto is_covered = [&](const SampleOffset& s) {
                 return covers_sample(x + s.x, y + s.y);
             };
@@ -94,7 +94,7 @@ class AreaTest {
         if (!fills_ && !device_.mitres_corners && !meets_box(x, y)) {
             return false;
         }
-        if (fills_ && fault == Fault::underestimate_two_corners) {
+        if (fills_ && fault == "underestimate-two-corners"_fault) {
             return is_inside(x, y) && is_inside(x + pixel_, y + pixel_);
         }
         return std::all_of(edges_.begin(), edges_.end(), [&](const Edge& e) {
@@ -103,11 +103,11 @@ class AreaTest {
             const bool is_lower = (e.b > 0) != fills_;
             int64_t corner_x = is_right ? x + pixel_ + by_.edges : x - by_.edges;
             int64_t corner_y = is_lower ? y + pixel_ + by_.edges : y - by_.edges;
-            if (fault == Fault::conservative_edges_in_x ||
-                (fault == Fault::conservative_corner_missed && !is_right && is_lower)) {
+            if (fault == "conservative-edges-in-x"_fault ||
+                (fault == "conservative-corner-missed"_fault && !is_right && is_lower)) {
                 corner_y = y + pixel_ / 2;
             }
-            if (fault == Fault::conservative_corner_missed && !is_right && is_lower) {
+            if (fault == "conservative-corner-missed"_fault && !is_right && is_lower) {
                 corner_x = x + pixel_ / 2;
             }
             return counts(e.at(corner_x, corner_y));
@@ -141,7 +141,7 @@ void DrawCommand::cover_area(const Primitive& primitive, const TrianglePlanes& p
     const AreaTest test(polygon, draw_, device_);
     const int64_t pixel = int64_t{1} << device_.subpixel_bits;
     PixelRect rect = rect_;
-    if (device_.fault == Fault::conservative_beyond_scissor) {
+    if (device_.fault == "conservative-beyond-scissor"_fault) {
         rect = {std::max<int64_t>(rect.x0 - 1, 0), std::max<int64_t>(rect.y0 - 1, 0),
                 std::min<int64_t>(rect.x1 + 1, out_.target.width),
                 std::min<int64_t>(rect.y1 + 1, out_.target.height)};
@@ -155,7 +155,7 @@ void DrawCommand::cover_area(const Primitive& primitive, const TrianglePlanes& p
                 is_depth_clipped(planes, static_cast<float>(x), static_cast<float>(y))) {
                 continue;
             }
-            if (device_.fault == Fault::conservative_shared_once &&
+            if (device_.fault == "conservative-shared-once"_fault &&
                 owners_.try_emplace({i, j}, primitive.id).first->second != primitive.id) {
                 continue;
             }
@@ -165,7 +165,7 @@ void DrawCommand::cover_area(const Primitive& primitive, const TrianglePlanes& p
                     covered |= 1U << s;
                 }
             }
-            if (device_.fault != Fault::conservative_mask_partial || covered == 0) {
+            if (device_.fault != "conservative-mask-partial"_fault || covered == 0) {
                 covered = (1U << samples_.size()) - 1;
             }
             for (uint32_t s = 0; s < samples_.size(); ++s) {
@@ -182,12 +182,12 @@ void DrawCommand::cover_area(const Primitive& primitive, const TrianglePlanes& p
 void DrawCommand::cover_degenerate(const Primitive& primitive,
                                    const std::vector<WindowVertex>& polygon) {
     const bool is_kept =
-        device_.rasterizes_degenerates != (device_.fault == Fault::degenerates_otherwise);
+        device_.rasterizes_degenerates != (device_.fault == "degenerates-otherwise"_fault);
     if (draw_.conservative != cases::Conservative::overestimate || !is_kept) {
         ++culled_;
         return;
     }
-    const bool front = device_.fault == Fault::degenerates_front;
+    const bool front = device_.fault == "degenerates-front"_fault;
     if (is_culled(front)) {
         ++culled_;
         return;

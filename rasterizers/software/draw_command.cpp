@@ -20,25 +20,25 @@ PixelRect draw_rect(const cases::Draw& draw, const cases::Target& target, const 
                    int64_t{draw.scissor.x} + int64_t{draw.scissor.width},
                    int64_t{draw.scissor.y} + int64_t{draw.scissor.height}};
     switch (device.fault) {
-        case Fault::scissor_closed:
+        case "scissor-closed"_fault:
             rect.x1 += 1;
             rect.y1 += 1;
             break;
-        case Fault::scissor_off_by_one:
+        case "scissor-off-by-one"_fault:
             rect.x0 += rect.x0 > 0 ? 1 : 0;
             rect.y0 += rect.y0 > 0 ? 1 : 0;
             break;
-        case Fault::scissor_ignored:
+        case "scissor-ignored"_fault:
             rect = {0, 0, int64_t{target.width}, int64_t{target.height}};
             break;
-        case Fault::scissor_half_early:  // cover() leaves out the samples farther away
+        case "scissor-half-early"_fault:  // cover() leaves out the samples farther away
             rect.x0 -= target.samples > 1 ? 1 : 0;
             rect.y0 -= target.samples > 1 ? 1 : 0;
             break;
-        case Fault::scissor_closed_odd:
+        case "scissor-closed-odd"_fault:
             rect.y1 += target.width % 2;
             break;
-        case Fault::scissor_follows_viewport: {
+        case "scissor-follows-viewport"_fault: {
             const auto dx = static_cast<int64_t>(draw.viewport.x);
             const auto dy = static_cast<int64_t>(draw.viewport.y);
             rect = {rect.x0 + dx, rect.y0 + dy, rect.x1 + dx, rect.y1 + dy};
@@ -67,33 +67,33 @@ void keep_on_grid(float& origin, float& extent, int bits) {
 cases::Draw effective(const cases::Case& c, uint32_t number, const Device& device) {
     const Fault fault = device.fault;
     cases::Draw draw = c.draws[number];
-    if (fault == Fault::state_of_first_draw) {
+    if (fault == "state-of-first-draw"_fault) {
         const cases::Draw& first = c.draws[0];
         draw.viewport = first.viewport;
         draw.scissor = first.scissor;
         draw.cull = first.cull;
         draw.front_face = first.front_face;
     }
-    if (fault == Fault::conservative_ignored) {
+    if (fault == "conservative-ignored"_fault) {
         draw.conservative = cases::Conservative::none;
-    } else if (fault == Fault::conservative_of_first_draw) {
+    } else if (fault == "conservative-of-first-draw"_fault) {
         draw.conservative = c.draws[0].conservative;
         draw.conservative_extra = c.draws[0].conservative_extra;
-    } else if (fault == Fault::underestimate_enlarges &&
+    } else if (fault == "underestimate-enlarges"_fault &&
                draw.conservative == cases::Conservative::underestimate) {
         draw.conservative = cases::Conservative::overestimate;
     }
-    if (fault == Fault::fragment_size_ignored) {
+    if (fault == "fragment-size-ignored"_fault) {
         draw.fragment_size = {1, 1};
-    } else if (fault == Fault::fragment_size_exchanged) {
+    } else if (fault == "fragment-size-exchanged"_fault) {
         std::swap(draw.fragment_size[0], draw.fragment_size[1]);
-    } else if (fault == Fault::fragment_size_of_first_draw) {
+    } else if (fault == "fragment-size-of-first-draw"_fault) {
         draw.fragment_size = c.draws[0].fragment_size;
     }
-    if (fault == Fault::layer_of_first_draw) {
+    if (fault == "layer-of-first-draw"_fault) {
         draw.layer = c.draws[0].layer;
     }
-    if (fault == Fault::viewport_rounded) {
+    if (fault == "viewport-rounded"_fault) {
         draw.viewport.x = std::round(draw.viewport.x);
         draw.viewport.y = std::round(draw.viewport.y);
         draw.viewport.width = std::round(draw.viewport.width);
@@ -121,9 +121,9 @@ DrawCommand::DrawCommand(const cases::Case& c, uint32_t number, const Device& de
       attachments_(attachments),
       rect_(draw_rect(draw_, c.target, device)),
       samples_(sample_offsets(c.target, device)) {
-    if (device.fault == Fault::bounds_at_draw_start) {
+    if (device.fault == "bounds-at-draw-start"_fault) {
         other_depth_ = out.depth;
-    } else if (device.fault == Fault::bounds_of_clear) {
+    } else if (device.fault == "bounds-of-clear"_fault) {
         other_depth_.assign(out.depth.size(), c.target.depth_clear);
     }
 }
@@ -131,11 +131,11 @@ DrawCommand::DrawCommand(const cases::Case& c, uint32_t number, const Device& de
 void DrawCommand::run() {
     const std::vector<Primitive> primitives = assemble_primitives(draw_, device_.fault);
     count_assembled(draw_, number_, primitives, device_, attachments_.queries);
-    if (draw_.rasterizer_discard && device_.fault != Fault::discard_ignored) {
+    if (draw_.rasterizer_discard && device_.fault != "discard-ignored"_fault) {
         return;
     }
     for (const Primitive& primitive : primitives) {
-        const int times = device_.fault == Fault::draw_doubled ? 2 : 1;
+        const int times = device_.fault == "draw-doubled"_fault ? 2 : 1;
         for (int k = 0; k < times; ++k) {
             rasterize(primitive);
         }
@@ -143,7 +143,7 @@ void DrawCommand::run() {
 }
 
 void DrawCommand::rasterize(const Primitive& primitive) {
-    const bool counts_late = device_.fault == Fault::statistics_without_culled;
+    const bool counts_late = device_.fault == "statistics-without-culled"_fault;
     if (!counts_late) {
         attachments_.queries.add(number_, cases::Query::clipping_invocations, 1);
     }
@@ -160,8 +160,8 @@ void DrawCommand::rasterize(const Primitive& primitive) {
         triangle[k].distance = distances_of(v, primitive, k);
         for (size_t a = 0; a < draw_.attributes.size(); ++a) {
             const bool flat = draw_.attributes[a].interpolation == cases::Interpolation::flat &&
-                              device_.fault != Fault::flat_smooth &&
-                              device_.fault != Fault::clip_flat_piece;
+                              device_.fault != "flat-smooth"_fault &&
+                              device_.fault != "clip-flat-piece"_fault;
             if (draw_.attributes[a].source == cases::Source::barycentric) {
                 // Turned so that the provoking vertex is the first, or the last.
                 const auto provoking =
@@ -169,7 +169,7 @@ void DrawCommand::rasterize(const Primitive& primitive) {
                                                   primitive.provoking) -
                                         primitive.vertex.begin());
                 size_t turn = draw_.provoking == cases::ProvokingVertex::last ? 2 : 3;
-                turn += device_.fault == Fault::barycentric_rotated ? 1 : 0;
+                turn += device_.fault == "barycentric-rotated"_fault ? 1 : 0;
                 const bool keeps_order = device_.first_strip_order && turn == 2 &&
                                          draw_.topology == cases::Topology::triangle_strip;
                 const size_t number = keeps_order ? k : (k + 3 - provoking + turn) % 3;
@@ -187,14 +187,14 @@ void DrawCommand::rasterize(const Primitive& primitive) {
     std::vector<WindowVertex> window;
     largest_z_ = 0;
     for (const ClipVertex& v : polygon.vertices) {
-        if (!(v.position.w > 0) && device_.fault != Fault::clip_none) {
+        if (!(v.position.w > 0) && device_.fault != "clip-none"_fault) {
             return;  // inside the volume w = 0 is a single point
         }
         window.push_back(project(v));
         largest_z_ = std::max(largest_z_, std::fabs(window.back().z));
     }
     if (window.size() >= 3) {
-        if (device_.fault == Fault::clip_last_piece_lost && window.size() > 3) {
+        if (device_.fault == "clip-last-piece-lost"_fault && window.size() > 3) {
             window.pop_back();
         }
         rasterize_polygon(primitive, triangle, std::move(window), polygon.was_cut);
@@ -207,7 +207,7 @@ void DrawCommand::rasterize_line(const Primitive& primitive, std::vector<WindowV
         return;
     }
     Device inclusive = device_;
-    inclusive.fault = Fault::ties_all_inclusive;
+    inclusive.fault = "ties-all-inclusive"_fault;
     const bool front = is_front(0, {});
     if (is_culled(front)) {
         return;
@@ -274,12 +274,12 @@ void DrawCommand::rasterize_polygon(const Primitive& primitive,
         return;
     }
     if (area == 0) {
-        if (device_.fault == Fault::degenerate_drawn) {
+        if (device_.fault == "degenerate-drawn"_fault) {
             rasterize_line(primitive, polygon);
         }
         return;
     }
-    if (device_.fault == Fault::small_culled) {
+    if (device_.fault == "small-culled"_fault) {
         const auto by_x = [](const WindowVertex& a, const WindowVertex& b) { return a.sx < b.sx; };
         const auto by_y = [](const WindowVertex& a, const WindowVertex& b) { return a.sy < b.sy; };
         const auto [x0, x1] = std::minmax_element(polygon.begin(), polygon.end(), by_x);
@@ -295,7 +295,7 @@ void DrawCommand::rasterize_polygon(const Primitive& primitive,
         ++culled_;
         return;
     }
-    if (device_.fault == Fault::statistics_without_culled) {
+    if (device_.fault == "statistics-without-culled"_fault) {
         attachments_.queries.add(number_, cases::Query::clipping_invocations, 1);
     }
     // Planes of the whole triangle where binary32 holds its snapped positions, else of each piece.
@@ -315,7 +315,7 @@ void DrawCommand::rasterize_polygon(const Primitive& primitive,
         whole_planes = planes_in_viewport(whole, area > 0);
     }
     const WindowVertex first = polygon[0];
-    if (device_.fault == Fault::planes_of_last && cached_planes_ &&
+    if (device_.fault == "planes-of-last"_fault && cached_planes_ &&
         cached_first_.source != first.source) {
         cached_planes_.reset();
     }
@@ -330,7 +330,7 @@ void DrawCommand::rasterize_polygon(const Primitive& primitive,
         if (whole_planes) {
             return *whole_planes;
         }
-        if (device_.fault == Fault::planes_of_last) {
+        if (device_.fault == "planes-of-last"_fault) {
             if (!cached_planes_) {
                 cached_planes_ = std::make_unique<TrianglePlanes>(
                     std::array{polygon[0], polygon[k + 1], polygon[k + 2]}, true, draw_, device_);
@@ -369,7 +369,7 @@ void DrawCommand::rasterize_polygon(const Primitive& primitive,
         return t;
     };
 
-    if (pieces == 1 || device_.fault == Fault::clip_diagonal_double) {
+    if (pieces == 1 || device_.fault == "clip-diagonal-double"_fault) {
         for (size_t k = 0; k < pieces; ++k) {
             const ScanTriangle t = piece(k);
             if (twice_area(t.v) > 0) {
@@ -392,7 +392,7 @@ void DrawCommand::rasterize_polygon(const Primitive& primitive,
     }
     box = {std::max(box.x0, rect_.x0), std::max(box.y0, rect_.y0), std::min(box.x1, rect_.x1),
            std::min(box.y1, rect_.y1)};
-    if (device_.fault == Fault::draws_everything) {
+    if (device_.fault == "draws-everything"_fault) {
         box = rect_;
     }
     const auto width = static_cast<size_t>(std::max<int64_t>(box.x1 - box.x0, 0));

@@ -43,7 +43,7 @@ bool DrawCommand::is_distance_clipped(const TrianglePlanes& planes, int64_t i, i
     const float y = static_cast<float>(j) + static_cast<float>(samples_[s].y) * unit;
     for (int k = 0; k < static_cast<int>(draw_.distances.clip_count); ++k) {
         const float c = planes.distance(k, x, y);
-        if (device_.fault == Fault::distance_plane_never ? !(c > 0) : !(c >= 0)) {
+        if (device_.fault == "distance-plane-never"_fault ? !(c > 0) : !(c >= 0)) {
             return true;
         }
     }
@@ -77,7 +77,7 @@ void DrawCommand::cover(const Primitive& primitive, const TrianglePlanes& planes
         is_depth_clipped(planes, static_cast<float>(x), static_cast<float>(y))) {
         return;
     }
-    if (device_.fault == Fault::scissor_half_early && is_before_scissor(i, j, s)) {
+    if (device_.fault == "scissor-half-early"_fault && is_before_scissor(i, j, s)) {
         return;
     }
     if (draw_.fragment_size[0] > 1 || draw_.fragment_size[1] > 1) {
@@ -107,7 +107,7 @@ void DrawCommand::shade_covered(const Primitive& primitive, const WindowVertex& 
 void DrawCommand::shade_coarse(const Primitive& primitive, const WindowVertex& first, bool front) {
     for (auto& [where, fragment] : coarse_) {
         const TrianglePlanes& planes = *std::get<2>(where);
-        if (device_.fault == Fault::fragment_covered_whole) {
+        if (device_.fault == "fragment-covered-whole"_fault) {
             fragment.covered.fill((1U << samples_.size()) - 1);
         }
         shaded_ = &fragment;
@@ -134,16 +134,16 @@ void DrawCommand::shade(const Primitive& primitive, const TrianglePlanes& planes
     const uint32_t layers = out_.target.layers;
     uint32_t layer = draw_.layer;
     switch (device_.fault) {
-        case Fault::layer_ignored:
+        case "layer-ignored"_fault:
             layer = 0;
             break;
-        case Fault::layer_off_by_one:
+        case "layer-off-by-one"_fault:
             layer = (layer + 1) % layers;
             break;
-        case Fault::layer_of_viewport:
+        case "layer-of-viewport"_fault:
             layer = std::min(draw_.viewport_index, layers - 1);
             break;
-        case Fault::all_layers_written:
+        case "all-layers-written"_fault:
             for (uint32_t k = 0; k < layers; ++k) {
                 shade_in(k, primitive, planes, first, front, i, j, s, covered);
             }
@@ -165,15 +165,15 @@ glm::vec4 DrawCommand::attribute_value(const TrianglePlanes& planes, const Windo
                                        const Invocation& invocation, size_t a, int64_t i,
                                        int64_t j) const {
     const Fault fault = device_.fault;
-    const float corner = fault == Fault::values_at_corner ? -0.5F : 0.0F;
+    const float corner = fault == "values-at-corner"_fault ? -0.5F : 0.0F;
     const float x = invocation.centre.x + corner;
     const float y = invocation.centre.y + corner;
     const float inverse_w = planes.inverse_w(x, y);
     bool flat = draw_.attributes[a].interpolation == cases::Interpolation::flat;
-    if (fault == Fault::flat_smooth) {
+    if (fault == "flat-smooth"_fault) {
         flat = false;
     }
-    if (fault == Fault::smooth_flat &&
+    if (fault == "smooth-flat"_fault &&
         draw_.attributes[a].interpolation == cases::Interpolation::smooth) {
         flat = true;
     }
@@ -185,7 +185,7 @@ glm::vec4 DrawCommand::attribute_value(const TrianglePlanes& planes, const Windo
     }
     glm::vec4 value = flat ? first.values[a]
                            : probe(draw_, device_, planes, samples_, a, i, j, place, invocation);
-    if (fault == Fault::one_over_w_cached && !flat && !interpolates(draw_.attributes[a].probe) &&
+    if (fault == "one-over-w-cached"_fault && !flat && !interpolates(draw_.attributes[a].probe) &&
         draw_.attributes[a].interpolation == cases::Interpolation::smooth) {
         value *= planes.inverse_w(place.x, place.y) / inverse_w;
     }
@@ -206,13 +206,13 @@ glm::vec4 DrawCommand::attribute_value(const TrianglePlanes& planes, const Windo
         case cases::Source::barycentric:
             break;
     }
-    if (fault == Fault::values_clamped) {
+    if (fault == "values-clamped"_fault) {
         value = glm::clamp(value, 0.0F, 1.0F);
     }
-    if (fault == Fault::components_rotated) {
+    if (fault == "components-rotated"_fault) {
         value = {value.y, value.z, value.w, value.x};
     }
-    if (fault == Fault::values_half && !flat) {
+    if (fault == "values-half"_fault && !flat) {
         for (int k = 0; k < 4; ++k) {
             value[k] = to_half_precision(value[k]);
         }
@@ -224,19 +224,19 @@ glm::vec4 DrawCommand::attribute_value(const TrianglePlanes& planes, const Windo
 bool DrawCommand::is_negative(const TrianglePlanes& planes, const WindowVertex& first,
                               const Invocation& invocation, int64_t i, int64_t j) const {
     const Fault fault = device_.fault;
-    const size_t a = fault == Fault::discard_value_of_first ? 0 : draw_.discard_attribute;
+    const size_t a = fault == "discard-value-of-first"_fault ? 0 : draw_.discard_attribute;
     if (a >= draw_.attributes.size()) {
         return false;
     }
     Invocation seen = invocation;
-    if (fault == Fault::discard_value_at_centre) {
+    if (fault == "discard-value-at-centre"_fault) {
         seen.sample = seen.centroid = {static_cast<float>(i) + 0.5F, static_cast<float>(j) + 0.5F};
     }
-    const glm::vec4 value = fault == Fault::discard_value_of_vertex
+    const glm::vec4 value = fault == "discard-value-of-vertex"_fault
                                 ? first.values[a]
                                 : attribute_value(planes, first, seen, a, i, j);
-    const float tested = fault == Fault::discard_value_of_second ? value.y : value.x;
-    return fault == Fault::discard_value_or_zero ? tested <= 0 : tested < 0;
+    const float tested = fault == "discard-value-of-second"_fault ? value.y : value.x;
+    return fault == "discard-value-or-zero"_fault ? tested <= 0 : tested < 0;
 }
 
 bool DrawCommand::is_left_out_by_alpha(const TrianglePlanes& planes, const WindowVertex& first,
@@ -244,14 +244,14 @@ bool DrawCommand::is_left_out_by_alpha(const TrianglePlanes& planes, const Windo
                                        uint32_t s) const {
     const Fault fault = device_.fault;
     const cases::ColorOutput& output = draw_.color;
-    const bool is_on = fault == Fault::alpha_to_coverage_of_first_draw ? first_alpha_to_coverage_
-                                                                       : output.alpha_to_coverage;
-    if (!is_on || !out_.target.color || fault == Fault::alpha_to_coverage_ignored ||
+    const bool is_on = fault == "alpha-to-coverage-of-first-draw"_fault ? first_alpha_to_coverage_
+                                                                        : output.alpha_to_coverage;
+    if (!is_on || !out_.target.color || fault == "alpha-to-coverage-ignored"_fault ||
         (cases::is_integer(out_.target.color->format) &&
-         fault != Fault::alpha_to_coverage_of_integers)) {
+         fault != "alpha-to-coverage-of-integers"_fault)) {
         return false;
     }
-    const float alpha = fault == Fault::alpha_to_coverage_of_one && output.alpha_to_one ? 1.0F
+    const float alpha = fault == "alpha-to-coverage-of-one"_fault && output.alpha_to_one ? 1.0F
                         : output.attribute < 0
                             ? output.value.w
                             : attribute_value(planes, first, invocation,
@@ -263,9 +263,9 @@ bool DrawCommand::is_left_out_by_alpha(const TrianglePlanes& planes, const Windo
                                 ? 0.125F + 0.25F * static_cast<float>((i & 1) * 2 + (j & 1))
                                 : 0.5F;
     float kept = alpha > 0 ? std::floor(std::min(alpha, 1.0F) * count + threshold) : 0.0F;
-    if (fault == Fault::alpha_to_coverage_rounded_up) {
+    if (fault == "alpha-to-coverage-rounded-up"_fault) {
         kept = std::max(kept, 1.0F);
-    } else if (fault == Fault::alpha_to_coverage_never_full) {
+    } else if (fault == "alpha-to-coverage-never-full"_fault) {
         kept = std::min(kept, count - 1);
     }
     switch (device_.alpha_mask) {
@@ -285,22 +285,22 @@ bool DrawCommand::is_discarded(const TrianglePlanes& planes, const WindowVertex&
                                const Invocation& invocation, int64_t i, int64_t j, uint32_t s,
                                bool front) const {
     const Fault fault = device_.fault;
-    if (fault == Fault::discard_fragment_ignored ||
-        (fault == Fault::discard_sample_zero && s != 0)) {
+    if (fault == "discard-fragment-ignored"_fault ||
+        (fault == "discard-sample-zero"_fault && s != 0)) {
         return false;
     }
     const bool is_demoted = draw_.discard_by == cases::DiscardBy::demote;
     const bool is_terminated = draw_.discard_by == cases::DiscardBy::terminate;
-    if ((fault == Fault::demote_ignored && is_demoted) ||
-        (fault == Fault::terminate_ignored && is_terminated)) {
+    if ((fault == "demote-ignored"_fault && is_demoted) ||
+        (fault == "terminate-ignored"_fault && is_terminated)) {
         return false;
     }
     const bool is_quad =
-        fault == Fault::discard_by_quad || (fault == Fault::terminate_by_quad && is_terminated);
+        fault == "discard-by-quad"_fault || (fault == "terminate-by-quad"_fault && is_terminated);
     const bool has_odd_x = ((is_quad ? i >> 1 : i) & 1) != 0;
     const bool has_odd_y = ((is_quad ? j >> 1 : j) & 1) != 0;
-    const bool is_turned = fault == Fault::discard_turned;
-    switch (fault == Fault::discard_of_first_draw ? first_discard_ : draw_.discard) {
+    const bool is_turned = fault == "discard-turned"_fault;
+    switch (fault == "discard-of-first-draw"_fault ? first_discard_ : draw_.discard) {
         case cases::Discard::odd_columns:
             return has_odd_x != is_turned;
         case cases::Discard::odd_rows:
@@ -325,14 +325,14 @@ std::optional<float> DrawCommand::written_depth(const TrianglePlanes& planes,
                                                 uint32_t s) const {
     const Fault fault = device_.fault;
     const std::optional<cases::FragDepth>& asked =
-        fault == Fault::frag_depth_of_first_draw ? first_depth_ : draw_.frag_depth;
-    const bool is_early = draw_.early_tests && fault != Fault::frag_depth_after_early_tests;
-    if (!asked || is_early || fault == Fault::frag_depth_ignored ||
-        (fault == Fault::frag_depth_of_sample_zero && s != 0)) {
+        fault == "frag-depth-of-first-draw"_fault ? first_depth_ : draw_.frag_depth;
+    const bool is_early = draw_.early_tests && fault != "frag-depth-after-early-tests"_fault;
+    if (!asked || is_early || fault == "frag-depth-ignored"_fault ||
+        (fault == "frag-depth-of-sample-zero"_fault && s != 0)) {
         return std::nullopt;
     }
     if (asked->is_coord) {
-        if (fault == Fault::frag_depth_coord_at_sample) {
+        if (fault == "frag-depth-coord-at-sample"_fault) {
             const float unit = std::ldexp(1.0F, -device_.subpixel_bits);
             return planes.depth(
                 static_cast<float>(i) + static_cast<float>(samples_[s].x) * unit + device_.place_x,
@@ -340,7 +340,7 @@ std::optional<float> DrawCommand::written_depth(const TrianglePlanes& planes,
         }
         return planes.depth(invocation.centre.x, invocation.centre.y);
     }
-    const bool is_quad = fault == Fault::frag_depth_by_quad;
+    const bool is_quad = fault == "frag-depth-by-quad"_fault;
     const bool has_odd_x = ((is_quad ? i >> 1 : i) & 1) != 0;
     const bool has_odd_y = ((is_quad ? j >> 1 : j) & 1) != 0;
     const bool is_other = (asked->where == cases::Discard::odd_columns && has_odd_x) ||
@@ -348,22 +348,22 @@ std::optional<float> DrawCommand::written_depth(const TrianglePlanes& planes,
                           (asked->where == cases::Discard::checker && has_odd_x != has_odd_y);
     const float z = is_other ? asked->other : asked->value;
     const cases::Viewport& v = draw_.viewport;
-    return fault == Fault::frag_depth_in_range ? v.min_depth + z * (v.max_depth - v.min_depth) : z;
+    return fault == "frag-depth-in-range"_fault ? v.min_depth + z * (v.max_depth - v.min_depth) : z;
 }
 
 // Whether a fragment of depth z passes the depth bounds test against what sample `at` holds.
 bool DrawCommand::is_in_bounds(float z, size_t at) const {
     const Fault fault = device_.fault;
     const std::optional<cases::DepthBounds>& bounds =
-        fault == Fault::bounds_of_first_draw ? first_bounds_ : draw_.depth.bounds;
-    if (!bounds || (fault == Fault::bounds_off_with_written_depth && draw_.frag_depth)) {
+        fault == "bounds-of-first-draw"_fault ? first_bounds_ : draw_.depth.bounds;
+    if (!bounds || (fault == "bounds-off-with-written-depth"_fault && draw_.frag_depth)) {
         return true;
     }
-    if (fault == Fault::bounds_at_draw_start || fault == Fault::bounds_of_clear) {
+    if (fault == "bounds-at-draw-start"_fault || fault == "bounds-of-clear"_fault) {
         return lies_within(other_depth_[at], *bounds, device_);
     }
-    const size_t tested = fault == Fault::bounds_of_sample_zero ? at - at % samples_.size() : at;
-    return lies_within(fault == Fault::bounds_of_fragment ? z : out_.depth[tested], *bounds,
+    const size_t tested = fault == "bounds-of-sample-zero"_fault ? at - at % samples_.size() : at;
+    return lies_within(fault == "bounds-of-fragment"_fault ? z : out_.depth[tested], *bounds,
                        device_);
 }
 
@@ -389,9 +389,9 @@ void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const Tri
     }
     const bool discarded = is_discarded(planes, first, invocation, i, j, s, front);
     const bool is_early =
-        fault == Fault::discard_tests_early  ? true
-        : fault == Fault::discard_tests_late ? false
-        : fault == Fault::demote_stores_depth && draw_.discard_by == cases::DiscardBy::demote
+        fault == "discard-tests-early"_fault  ? true
+        : fault == "discard-tests-late"_fault ? false
+        : fault == "demote-stores-depth"_fault && draw_.discard_by == cases::DiscardBy::demote
             ? true
             : draw_.early_tests;
     if (discarded && !is_early) {
@@ -399,7 +399,7 @@ void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const Tri
         return;
     }
     const bool is_left_out = is_left_out_by_alpha(planes, first, invocation, i, j, s);
-    if (is_left_out && fault != Fault::alpha_to_coverage_stores_depth) {
+    if (is_left_out && fault != "alpha-to-coverage-stores-depth"_fault) {
         end(Ending::masked);
         return;
     }
@@ -408,42 +408,42 @@ void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const Tri
     const float sample_x = static_cast<float>(i) + static_cast<float>(samples_[s].x) * unit;
     const float sample_y = static_cast<float>(j) + static_cast<float>(samples_[s].y) * unit;
     float z = planes.depth(sample_x + device_.place_x, sample_y + device_.place_y);
-    if (fault == Fault::values_at_corner) {
+    if (fault == "values-at-corner"_fault) {
         z = planes.depth(static_cast<float>(i), static_cast<float>(j));
-    } else if (fault == Fault::depth_at_centre) {
+    } else if (fault == "depth-at-centre"_fault) {
         z = planes.depth(static_cast<float>(i) + 0.5F, static_cast<float>(j) + 0.5F);
-    } else if (fault == Fault::fragment_depth_of_centre) {
+    } else if (fault == "fragment-depth-of-centre"_fault) {
         z = shaded_ == nullptr ? z : planes.depth(invocation.centre.x, invocation.centre.y);
-    } else if (fault == Fault::depth_samples_mirrored) {
+    } else if (fault == "depth-samples-mirrored"_fault) {
         z = planes.depth(2 * static_cast<float>(i) + 1 - sample_x, sample_y);
     }
-    const float largest = fault == Fault::bias_exponent_of_sample ? std::fabs(z) : largest_z_;
+    const float largest = fault == "bias-exponent-of-sample"_fault ? std::fabs(z) : largest_z_;
     const cases::DepthFormat format = out_.target.depth_format;
     const float bias =
         depth_bias(draw_, format, planes.depth_dx(), planes.depth_dy(), largest, device_);
     z = fragment_depth(z, bias, draw_, format, device_);
     const float own = z;
     if (const std::optional<float> written = written_depth(planes, invocation, i, j, s)) {
-        z = fragment_depth(*written, fault == Fault::frag_depth_biased ? bias : 0, draw_, format,
+        z = fragment_depth(*written, fault == "frag-depth-biased"_fault ? bias : 0, draw_, format,
                            device_);
     }
-    const size_t tested = fault == Fault::layer_depth_of_first ? index_in(0, i, j, s) : at;
+    const size_t tested = fault == "layer-depth-of-first"_fault ? index_in(0, i, j, s) : at;
     if (out_.target.has_depth && !is_in_bounds(z, tested)) {
-        if (fault == Fault::bounds_after_stencil) {
+        if (fault == "bounds-after-stencil"_fault) {
             attachments_.stencil.test(at, number_, front, false);
-        } else if (fault == Fault::bounds_fail_writes_depth && draw_.depth.write) {
+        } else if (fault == "bounds-fail-writes-depth"_fault && draw_.depth.write) {
             out_.depth[at] = z;
         }
         end(Ending::out_of_bounds);
         return;
     }
     const bool passes = !out_.target.has_depth ||
-                        passes_depth_test(draw_, fault == Fault::frag_depth_tested_early ? own : z,
+                        passes_depth_test(draw_, fault == "frag-depth-tested-early"_fault ? own : z,
                                           out_.depth[tested], device_);
     const bool is_left = attachments_.stencil.test(at, number_, front, passes);
-    const bool is_stored = is_left || fault == Fault::stencil_fail_writes_depth;
-    if ((passes && is_stored && (draw_.depth.write || fault == Fault::depth_write_ignored)) ||
-        fault == Fault::depth_write_before_test) {
+    const bool is_stored = is_left || fault == "stencil-fail-writes-depth"_fault;
+    if ((passes && is_stored && (draw_.depth.write || fault == "depth-write-ignored"_fault)) ||
+        fault == "depth-write-before-test"_fault) {
         out_.depth[at] = z;
     }
     const bool hidden = discarded || is_left_out;
@@ -455,34 +455,34 @@ void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const Tri
         return;
     }
     out_.hits[at] += front ? glm::vec4(1, 0, 0, 1) : glm::vec4(0, 1, 0, 1);
-    const bool of_piece = fault == Fault::clip_flat_piece;
+    const bool of_piece = fault == "clip-flat-piece"_fault;
     const uint32_t id =
-        fault == Fault::primitive_id_skips_culled ? primitive.id - culled_ : primitive.id;
+        fault == "primitive-id-skips-culled"_fault ? primitive.id - culled_ : primitive.id;
     out_.writers[at] = {number_, id, of_piece ? first.source : primitive.provoking,
                         capture::kClearId};
 
-    const float corner = fault == Fault::values_at_corner ? -0.5F : 0.0F;
+    const float corner = fault == "values-at-corner"_fault ? -0.5F : 0.0F;
     const float x = invocation.centre.x + corner;
     const float y = invocation.centre.y + corner;
-    const float corner_xy = fault == Fault::frag_coord_corner ? -0.5F : 0.0F;
+    const float corner_xy = fault == "frag-coord-corner"_fault ? -0.5F : 0.0F;
     const float inverse_w = planes.inverse_w(x, y);
     float coord_z = planes.depth(x, y);
-    if (fault == Fault::depth_samples_mirrored) {
+    if (fault == "depth-samples-mirrored"_fault) {
         coord_z = planes.depth(static_cast<float>(i) + 1 - static_cast<float>(samples_[0].x) * unit,
                                static_cast<float>(j) + static_cast<float>(samples_[0].y) * unit);
     }
-    if (fault == Fault::bias_halved_in_frag_coord) {
+    if (fault == "bias-halved-in-frag-coord"_fault) {
         coord_z += bias / 2;
     }
     const glm::vec4 older_frag_coord = out_.frag_coord[at];
     out_.frag_coord[at] = {invocation.frag_coord.x + corner_xy, invocation.frag_coord.y + corner_xy,
-                           coord_z, fault == Fault::frag_coord_w ? 1.0F / inverse_w : inverse_w};
+                           coord_z, fault == "frag-coord-w"_fault ? 1.0F / inverse_w : inverse_w};
     out_.frag_coord[at] = attachments_.color.beside(number_, out_.frag_coord[at], older_frag_coord);
 
     for (size_t a = 0; a < draw_.attributes.size(); ++a) {
         const glm::vec4 value = attribute_value(planes, first, invocation, a, i, j);
         const size_t location =
-            fault == Fault::attributes_swapped && draw_.attributes.size() > 1 && a < 2 ? 1 - a : a;
+            fault == "attributes-swapped"_fault && draw_.attributes.size() > 1 && a < 2 ? 1 - a : a;
         out_.attributes[location][at] = value;
     }
     write_color(at, primitive.id);

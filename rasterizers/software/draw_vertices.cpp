@@ -35,32 +35,32 @@ WindowVertex DrawCommand::project(const ClipVertex& v) const {
 
     float height = view.height;
     float top = view.y;
-    if (device_.fault == Fault::height_sign_ignored && height < 0) {
+    if (device_.fault == "height-sign-ignored"_fault && height < 0) {
         top += height;
         height = -height;
     }
     out.x = place(p.x, view.width * 0.5F, view.x + view.width * 0.5F);
     out.y = place(p.y, height * 0.5F, top + height * 0.5F);
     out.z = mad(divide(p.z), view.max_depth - view.min_depth, view.min_depth);
-    if (draw_.depth.negative_one_to_one && device_.fault != Fault::depth_scale_ignored) {
+    if (draw_.depth.negative_one_to_one && device_.fault != "depth-scale-ignored"_fault) {
         out.z = mad(divide(p.z), (view.max_depth - view.min_depth) * 0.5F,
                     (view.max_depth + view.min_depth) * 0.5F);
     }
     switch (device_.fault) {
-        case Fault::depth_range_ignored:
+        case "depth-range-ignored"_fault:
             out.z = divide(p.z);
             break;
-        case Fault::depth_before_divide:
+        case "depth-before-divide"_fault:
             out.z = mad(p.z, view.max_depth - view.min_depth, view.min_depth);
             break;
-        case Fault::half_pixel_shift:
+        case "half-pixel-shift"_fault:
             out.x += 0.5F;
             out.y += 0.5F;
             break;
-        case Fault::viewport_nudge:
+        case "viewport-nudge"_fault:
             out.x += 0x1p-8F;
             break;
-        case Fault::position_half:
+        case "position-half"_fault:
             out.x = to_half_precision(out.x);
             out.y = to_half_precision(out.y);
             break;
@@ -74,7 +74,7 @@ WindowVertex DrawCommand::project(const ClipVertex& v) const {
 
 bool DrawCommand::is_front(int64_t area, const std::array<ClipVertex, 3>& whole) const {
     bool clockwise = area > 0;
-    if (device_.fault == Fault::face_unclipped_w) {
+    if (device_.fault == "face-unclipped-w"_fault) {
         int negative = 0;
         for (const ClipVertex& v : whole) {
             negative += v.position.w < 0 ? 1 : 0;
@@ -82,7 +82,7 @@ bool DrawCommand::is_front(int64_t area, const std::array<ClipVertex, 3>& whole)
         clockwise = clockwise != (negative % 2 == 1);
     }
     const bool front = clockwise == (draw_.front_face == cases::FrontFace::clockwise);
-    return device_.fault == Fault::front_face_inverted ? !front : front;
+    return device_.fault == "front-face-inverted"_fault ? !front : front;
 }
 
 bool DrawCommand::is_culled(bool front) const {
@@ -90,9 +90,9 @@ bool DrawCommand::is_culled(bool front) const {
         case cases::CullMode::none:
             return false;
         case cases::CullMode::front:
-            return device_.fault == Fault::cull_inverted ? !front : front;
+            return device_.fault == "cull-inverted"_fault ? !front : front;
         case cases::CullMode::back:
-            return device_.fault == Fault::cull_inverted ? front : !front;
+            return device_.fault == "cull-inverted"_fault ? front : !front;
         case cases::CullMode::front_and_back:
             return true;
     }
@@ -101,7 +101,7 @@ bool DrawCommand::is_culled(bool front) const {
 
 // Which vertex's data a reader of vertex v gets.
 uint32_t DrawCommand::cached_vertex(uint32_t v) {
-    if (device_.fault != Fault::vertex_cache_aliased) {
+    if (device_.fault != "vertex-cache-aliased"_fault) {
         return v;
     }
     uint32_t& entry = vertex_cache_[v % vertex_cache_.size()];
@@ -117,19 +117,19 @@ glm::vec4 DrawCommand::distances_of(uint32_t v, const Primitive& primitive, size
     if (all.empty()) {
         return glm::vec4(0.0F);
     }
-    if (device_.fault == Fault::distance_by_order) {
+    if (device_.fault == "distance-by-order"_fault) {
         // Right for lists without indices only.
         return all[(3 * size_t{primitive.id} + k) % all.size()];
     }
     const glm::vec4& d = all[v];
-    return device_.fault == Fault::distance_rotated ? glm::vec4(d.y, d.z, d.w, d.x) : d;
+    return device_.fault == "distance-rotated"_fault ? glm::vec4(d.y, d.z, d.w, d.x) : d;
 }
 
 bool DrawCommand::is_distance_culled(const Primitive& primitive) const {
     const cases::ClipDistances& d = draw_.distances;
     const auto is_out = [&](uint32_t v, uint32_t k) {
         const float c = d.cull[v][static_cast<glm::vec4::length_type>(k)];
-        return device_.fault == Fault::cull_distance_zero ? c <= 0 : c < 0;
+        return device_.fault == "cull-distance-zero"_fault ? c <= 0 : c < 0;
     };
     bool is_mixed = d.cull_count > 0;
     for (const uint32_t v : primitive.vertex) {
@@ -144,10 +144,10 @@ bool DrawCommand::is_distance_culled(const Primitive& primitive) const {
         const auto count = std::count_if(primitive.vertex.begin(), primitive.vertex.end(),
                                          [&](uint32_t v) { return is_out(v, k); });
         switch (device_.fault) {
-            case Fault::cull_distance_any:
+            case "cull-distance-any"_fault:
                 is_culled = is_culled || count > 0;
                 break;
-            case Fault::cull_distance_provoking:
+            case "cull-distance-provoking"_fault:
                 is_culled = is_culled || is_out(primitive.provoking, k);
                 break;
             default:
@@ -155,10 +155,10 @@ bool DrawCommand::is_distance_culled(const Primitive& primitive) const {
                 break;
         }
     }
-    if (device_.fault == Fault::cull_distance_mixed) {
+    if (device_.fault == "cull-distance-mixed"_fault) {
         return is_mixed;
     }
-    return is_culled && device_.fault != Fault::cull_distance_ignored;
+    return is_culled && device_.fault != "cull-distance-ignored"_fault;
 }
 
 }  // namespace software

@@ -10,7 +10,7 @@ namespace software {
 namespace {
 
 bool is_per_sample(const cases::Draw& draw, const Device& device) {
-    if (device.fault == Fault::shading_once) {
+    if (device.fault == "shading-once"_fault) {
         return false;
     }
     return draw.multisample.min_sample_shading.has_value() ||
@@ -23,11 +23,11 @@ bool is_per_sample(const cases::Draw& draw, const Device& device) {
 uint32_t state_mask(const cases::Draw& draw, Fault fault, size_t samples) {
     const uint32_t mask = draw.multisample.sample_mask;
     switch (fault) {
-        case Fault::mask_ignored:
+        case "mask-ignored"_fault:
             return 0xffffffffU;
-        case Fault::mask_shifted:
+        case "mask-shifted"_fault:
             return mask << 1U;
-        case Fault::mask_reversed: {
+        case "mask-reversed"_fault: {
             uint32_t out = 0;
             for (size_t s = 0; s < samples; ++s) {
                 out |= (mask >> s & 1U) << (samples - 1 - s);
@@ -60,32 +60,32 @@ Invocation invoke(const cases::Draw& draw, const Device& device,
 
     Invocation out;
     const uint32_t alive = covered & mask;
-    const bool replaces = fault == Fault::shader_mask_replaces && draw.multisample.shader_mask;
+    const bool replaces = fault == "shader-mask-replaces"_fault && draw.multisample.shader_mask;
     out.is_written = (((replaces ? covered & shader : alive & shader) >> s) & 1U) != 0;
-    if (fault == Fault::shader_mask_ignored) {
+    if (fault == "shader-mask-ignored"_fault) {
         out.is_written = ((alive >> s) & 1U) != 0;
     }
     const bool per_sample = is_per_sample(draw, device);
     out.mask_in = per_sample ? 1U << s : alive;
-    if (fault == Fault::mask_in_full) {
+    if (fault == "mask-in-full"_fault) {
         out.mask_in = all;
     }
     out.sample_id = per_sample ? s : 0;
     out.sample_position = in_pixel(out.sample_id);
     const Place centre = at({0.5F, 0.5F});
     out.sample = at(in_pixel(s));
-    out.frag_coord = per_sample && fault != Fault::frag_coord_always_centre ? out.sample : centre;
+    out.frag_coord = per_sample && fault != "frag-coord-always-centre"_fault ? out.sample : centre;
     const bool is_corner = device.corner_inputs && count > 1;
     out.centre = per_sample && device.inputs_follow_samples ? out.sample
                  : is_corner                                ? at({0.0625F, 0.9375F})
                                                             : centre;
     out.centroid = is_corner ? centre : out.centre;
     const bool is_partial = (covered & all) != all;
-    if (is_partial && alive != 0 && fault != Fault::centroid_at_centre) {
+    if (is_partial && alive != 0 && fault != "centroid-at-centre"_fault) {
         switch (device.centroid) {
             case Centroid::first_sample: {
                 uint32_t first = 0;
-                const uint32_t from = fault == Fault::centroid_of_uncovered ? ~alive & all : alive;
+                const uint32_t from = fault == "centroid-of-uncovered"_fault ? ~alive & all : alive;
                 while (((from >> first) & 1U) == 0) {
                     ++first;
                 }
@@ -106,7 +106,7 @@ Invocation invoke(const cases::Draw& draw, const Device& device,
             }
         }
     }
-    if (fault == Fault::sample_at_centre) {
+    if (fault == "sample-at-centre"_fault) {
         out.sample = centre;
     }
     return out;
@@ -123,10 +123,10 @@ CoarseFragment coarse_fragment(const cases::Draw& draw, const Device& device, in
     }
     int64_t from_x = 0;
     int64_t from_y = 0;
-    if (device.fault == Fault::fragment_grid_at_scissor) {
+    if (device.fault == "fragment-grid-at-scissor"_fault) {
         from_x = left;
         from_y = top;
-    } else if (device.fault == Fault::fragment_grid_at_viewport) {
+    } else if (device.fault == "fragment-grid-at-viewport"_fault) {
         from_x = static_cast<int64_t>(std::floor(draw.viewport.x));
         from_y = static_cast<int64_t>(
             std::floor(std::min(draw.viewport.y, draw.viewport.y + draw.viewport.height)));
@@ -145,9 +145,9 @@ void coarsen(const cases::Draw& draw, const Device& device, std::span<const Samp
     const uint32_t pixels = fragment.width() * fragment.height();
     const uint32_t mask = state_mask(draw, fault, count);
     out.rate = fragment.log_width << 2U | fragment.log_height;
-    if (fault == Fault::fragment_rate_exchanged) {
+    if (fault == "fragment-rate-exchanged"_fault) {
         out.rate = fragment.log_height << 2U | fragment.log_width;
-    } else if (fault == Fault::fragment_rate_unknown) {
+    } else if (fault == "fragment-rate-unknown"_fault) {
         out.rate = 0;
     }
     const auto first_x = static_cast<float>(fragment.x);
@@ -155,7 +155,7 @@ void coarsen(const cases::Draw& draw, const Device& device, std::span<const Samp
     const Place own{static_cast<float>(i) + 0.5F, static_cast<float>(j) + 0.5F};
     Place centre{first_x + static_cast<float>(fragment.width()) * 0.5F,
                  first_y + static_cast<float>(fragment.height()) * 0.5F};
-    if (fault == Fault::fragment_at_first_pixel) {
+    if (fault == "fragment-at-first-pixel"_fault) {
         centre = {first_x + 0.5F, first_y + 0.5F};
     }
     // The last pixel's samples are the mask's first.
@@ -167,7 +167,7 @@ void coarsen(const cases::Draw& draw, const Device& device, std::span<const Samp
     for (uint32_t k = 0; k < pixels; ++k) {
         const uint32_t pixel = pixels - 1 - k;
         const uint32_t alive = fragment.covered.at(pixel) & mask;
-        const uint32_t from = fault == Fault::fragment_mask_forwards ? pixel : k;
+        const uint32_t from = fault == "fragment-mask-forwards"_fault ? pixel : k;
         out.mask_in |= from * count < 32 ? alive << (from * count) : 0U;
         for (uint32_t s = 0; s < count; ++s) {
             is_partial = is_partial || (fragment.covered.at(pixel) >> s & 1U) == 0;
@@ -183,12 +183,12 @@ void coarsen(const cases::Draw& draw, const Device& device, std::span<const Samp
             alive_count += 1;
         }
     }
-    out.frag_coord = fault == Fault::fragment_coord_of_pixel ? own : centre;
-    out.centre = fault == Fault::fragment_inputs_of_pixel ? own
-                 : device.coarse_inputs_at_sample         ? first
-                                                          : centre;
+    out.frag_coord = fault == "fragment-coord-of-pixel"_fault ? own : centre;
+    out.centre = fault == "fragment-inputs-of-pixel"_fault ? own
+                 : device.coarse_inputs_at_sample          ? first
+                                                           : centre;
     out.centroid = out.centre;
-    if (is_partial && alive_count > 0 && fault != Fault::centroid_at_centre) {
+    if (is_partial && alive_count > 0 && fault != "centroid-at-centre"_fault) {
         out.centroid = device.centroid == Centroid::first_sample
                            ? first
                            : Place{sum.x / alive_count, sum.y / alive_count};

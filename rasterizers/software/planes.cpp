@@ -27,7 +27,7 @@ TrianglePlanes::TrianglePlanes(const std::array<WindowVertex, 3>& v, bool positi
         }
         const float det = (x_[1] - x_[0]) * (y_[2] - y_[0]) - (x_[2] - x_[0]) * (y_[1] - y_[0]);
         inverse_area_ =
-            device.fault == Fault::reciprocal_area_12_bits ? reciprocal_12(det) : 1.0F / det;
+            device.fault == "reciprocal-area-12-bits"_fault ? reciprocal_12(det) : 1.0F / det;
         return positive ? det > 0 : det < 0;
     };
     // Where snapping has turned a sliver over, or a vertex that was cut off onto the line of the
@@ -65,11 +65,11 @@ TrianglePlanes::TrianglePlanes(const std::array<WindowVertex, 3>& v, bool positi
 }
 
 bool TrianglePlanes::is_linear(size_t a) const {
-    if (device_.fault == Fault::affine) {
+    if (device_.fault == "affine"_fault) {
         return true;
     }
     if (draw_.attributes[a].interpolation == cases::Interpolation::noperspective) {
-        return device_.fault != Fault::noperspective_smooth;
+        return device_.fault != "noperspective-smooth"_fault;
     }
     return false;
 }
@@ -90,7 +90,7 @@ TrianglePlanes::Plane TrianglePlanes::make(const std::array<float, 3>& g) const 
     plane.dadx = mad(g1, y2, -(g2 * y1)) * inverse_area_;
     plane.dady = mad(g2, x1, -(g1 * x2)) * inverse_area_;
     plane.a0 = g[0];
-    if (device_.fault == Fault::plane_origin_far) {
+    if (device_.fault == "plane-origin-far"_fault) {
         plane.a0 = g[0] - mad(plane.dadx, x_[0] + 0x1p14F, plane.dady * (y_[0] + 0x1p14F));
         return plane;
     }
@@ -112,20 +112,20 @@ std::array<float, 3> TrianglePlanes::weights(float x, float y) const {
 }
 
 float TrianglePlanes::at(const Plane& plane, float x, float y) const {
-    if (device_.fault == Fault::weights_8_bits) {
+    if (device_.fault == "weights-8-bits"_fault) {
         const std::array<float, 3> b = weights(x, y);
         const float b1 = std::nearbyint(b[1] * 256) / 256;
         const float b2 = std::nearbyint(b[2] * 256) / 256;
         return plane.g[0] + b1 * (plane.g[1] - plane.g[0]) + b2 * (plane.g[2] - plane.g[0]);
     }
-    if (device_.fault == Fault::values_stepped) {
+    if (device_.fault == "values-stepped"_fault) {
         float value = plane.a0 + plane.dady * y + plane.dadx * 0.5F;
         for (float step = 0.5F; step + 1 <= x; step += 1) {
             value += plane.dadx;
         }
         return value;
     }
-    if (device_.fault == Fault::plane_origin_far) {
+    if (device_.fault == "plane-origin-far"_fault) {
         return mad(y + 0x1p14F, plane.dady, mad(x + 0x1p14F, plane.dadx, plane.a0));
     }
     switch (device_.planes) {
@@ -141,7 +141,7 @@ float TrianglePlanes::at(const Plane& plane, float x, float y) const {
 }
 
 float TrianglePlanes::depth(float x, float y) const {
-    if (device_.fault == Fault::depth_perspective) {
+    if (device_.fault == "depth-perspective"_fault) {
         return at(depth_over_w_, x, y) / at(inverse_w_, x, y);
     }
     return at(depth_, x, y);
@@ -164,12 +164,12 @@ glm::vec4 TrianglePlanes::attribute(size_t a, float x, float y) const {
         return value;
     }
     float denominator_x = x;
-    if (device_.fault == Fault::perspective_spans) {
+    if (device_.fault == "perspective-spans"_fault) {
         denominator_x = std::floor(x / 8) * 8 + 0.5F;
     }
     const float denominator = at(inverse_w_, denominator_x, y);
     for (int k = 0; k < 4; ++k) {
-        value[k] = device_.fault == Fault::reciprocal_12_bits
+        value[k] = device_.fault == "reciprocal-12-bits"_fault
                        ? value[k] * reciprocal_12(denominator)
                        : value[k] / denominator;
     }

@@ -27,7 +27,7 @@ class Prober {
     // Along x or y in the quad, in the pixel's own line or in the quad's first.
     glm::vec4 difference(bool along_x, bool is_coarse) const {
         const glm::vec4 d = whole_difference(along_x, is_coarse);
-        return device_.fault == Fault::derivative_halved ? d * 0.5F : d;
+        return device_.fault == "derivative-halved"_fault ? d * 0.5F : d;
     }
 
     glm::vec4 width(bool is_coarse) const {
@@ -41,10 +41,10 @@ class Prober {
             const float u = d.x * static_cast<float>(attribute.texture_size[0]);
             const float v = d.y * static_cast<float>(attribute.texture_size[1]);
             const float length = std::sqrt(u * u + v * v);
-            rho = device_.fault == Fault::lod_norm && !along_x ? std::min(rho, length)
-                                                               : std::max(rho, length);
+            rho = device_.fault == "lod-norm"_fault && !along_x ? std::min(rho, length)
+                                                                : std::max(rho, length);
         }
-        float lambda = std::log2(rho) - (device_.fault == Fault::lod_one_less ? 1.0F : 0.0F);
+        float lambda = std::log2(rho) - (device_.fault == "lod-one-less"_fault ? 1.0F : 0.0F);
         if (device_.short_levels) {
             lambda = std::clamp(lambda, -16.0F, 31.0F);
         }
@@ -70,7 +70,7 @@ class Prober {
 glm::vec4 Prober::whole_difference(bool along_x, bool is_coarse) const {
     const int own = along_x ? right_ : bottom_;
     const int line = is_coarse ? -(along_x ? bottom_ : right_) : 0;
-    if (device_.fault == Fault::derivative_partial) {
+    if (device_.fault == "derivative-partial"_fault) {
         const float h = 0x1p-6F;
         const glm::vec4 plus = along_x ? at(h, 0) : at(0, h);
         return (plus - at(0, 0)) / h;
@@ -81,7 +81,7 @@ glm::vec4 Prober::whole_difference(bool along_x, bool is_coarse) const {
     }
     const glm::vec4 d = at(static_cast<float>(line), static_cast<float>(1 - own)) -
                         at(static_cast<float>(line), static_cast<float>(-own));
-    return device_.fault == Fault::derivative_y_up ? -d : d;
+    return device_.fault == "derivative-y-up"_fault ? -d : d;
 }
 
 }  // namespace
@@ -98,8 +98,8 @@ glm::vec4 probe(const cases::Draw& draw, const Device& device, const TrianglePla
     const auto at = [&](float x, float y) {
         const glm::vec4 value = planes.attribute(a, x, y);
         const bool divides = attribute.interpolation == cases::Interpolation::smooth &&
-                             (device.fault == Fault::interpolate_at_centre_w ||
-                              device.fault == Fault::one_over_w_cached);
+                             (device.fault == "interpolate-at-centre-w"_fault ||
+                              device.fault == "one-over-w-cached"_fault);
         return divides ? value * (planes.inverse_w(x, y) /
                                   planes.inverse_w(invocation.centre.x, invocation.centre.y))
                        : value;
@@ -118,7 +118,7 @@ glm::vec4 probe(const cases::Draw& draw, const Device& device, const TrianglePla
         }
         case Probe::at_offset: {
             const auto on_grid = [&](float offset) {
-                return device.fault == Fault::offset_ignored ? 0.0F : std::floor(offset * 16) / 16;
+                return device.fault == "offset-ignored"_fault ? 0.0F : std::floor(offset * 16) / 16;
             };
             return at(static_cast<float>(i) + 0.5F + on_grid(attribute.probe_offset[0]),
                       static_cast<float>(j) + 0.5F + on_grid(attribute.probe_offset[1]));

@@ -38,17 +38,17 @@ capture::Capture render(const cases::Case& c, const Device& device) {
         resolve(out, device);
     };
     const auto draws =
-        device.fault == Fault::draws_nothing ? 0U : static_cast<uint32_t>(c.draws.size());
+        device.fault == "draws-nothing"_fault ? 0U : static_cast<uint32_t>(c.draws.size());
     for (uint32_t d = 0; d < draws; ++d) {
-        if (d + 1 == draws && device.fault == Fault::resolve_early) {
+        if (d + 1 == draws && device.fault == "resolve-early"_fault) {
             finish();
         }
-        const bool reversed = device.fault == Fault::draws_reversed;
+        const bool reversed = device.fault == "draws-reversed"_fault;
         DrawCommand(c, reversed ? draws - 1 - d : d, device, out, attachments).run();
     }
-    const capture::Capture early = device.fault == Fault::resolve_early ? out : capture::Capture{};
+    const capture::Capture early = device.fault == "resolve-early"_fault ? out : capture::Capture{};
     finish();
-    if (device.fault == Fault::resolve_early) {
+    if (device.fault == "resolve-early"_fault) {
         out.resolved_color = early.resolved_color;
         out.resolved_depth = early.resolved_depth;
     }

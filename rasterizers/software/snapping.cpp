@@ -16,13 +16,13 @@ float to_half_precision(float v) {
 int64_t to_fixed(float v, const Device& device) {
     int bits = device.subpixel_bits;
     Rounding rounding = device.rounding;
-    if (device.fault == Fault::floor_snapping) {
+    if (device.fault == "floor-snapping"_fault) {
         rounding = Rounding::floor;
-    } else if (device.fault == Fault::ceil_snapping) {
+    } else if (device.fault == "ceil-snapping"_fault) {
         rounding = Rounding::ceil;
     }
     int coarse = 0;
-    if (device.fault == Fault::coarse_snapping) {
+    if (device.fault == "coarse-snapping"_fault) {
         coarse = bits - 4;
         bits = 4;
     }

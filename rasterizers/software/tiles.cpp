@@ -44,27 +44,27 @@ bool owns(TieRule rule, int64_t dx, int64_t dy) {
 
 int64_t bias_of(const Device& device, int64_t dx, int64_t dy, bool reversed, bool inner) {
     switch (device.fault) {
-        case Fault::ties_bottom_right:
+        case "ties-bottom-right"_fault:
             return owns(TieRule::bottom_right, dx, dy) ? 0 : -1;
-        case Fault::ties_top_right:
+        case "ties-top-right"_fault:
             return owns(TieRule::top_right, dx, dy) ? 0 : -1;
-        case Fault::ties_bottom_left:
+        case "ties-bottom-left"_fault:
             return owns(TieRule::bottom_left, dx, dy) ? 0 : -1;
-        case Fault::ties_left_only:
+        case "ties-left-only"_fault:
             return dy < 0 ? 0 : -1;
-        case Fault::ties_bottom_too:
+        case "ties-bottom-too"_fault:
             return dy == 0 || owns(device.ties, dx, dy) ? 0 : -1;
-        case Fault::ties_right_too:
+        case "ties-right-too"_fault:
             return dy != 0 || owns(device.ties, dx, dy) ? 0 : -1;
-        case Fault::ties_all_inclusive:
+        case "ties-all-inclusive"_fault:
             return 0;
-        case Fault::ties_all_exclusive:
+        case "ties-all-exclusive"_fault:
             return -1;
-        case Fault::ties_top_only:
+        case "ties-top-only"_fault:
             return dy == 0 && dx > 0 ? 0 : -1;
-        case Fault::ties_by_winding:
+        case "ties-by-winding"_fault:
             return owns(device.ties, reversed ? -dx : dx, reversed ? -dy : dy) ? 0 : -1;
-        case Fault::clip_diagonal_double:
+        case "clip-diagonal-double"_fault:
             if (inner) {
                 return 0;
             }
@@ -104,12 +104,12 @@ Edge make_edge(const WindowVertex& p, const WindowVertex& q, const ScanTriangle&
 bool rejects(const Edge& edge, int64_t x, int64_t y, int64_t pixel,
              const EdgeArithmetic& arithmetic, Fault fault) {
     int64_t side = kTile * pixel;
-    if (fault == Fault::tile_off_by_one) {
+    if (fault == "tile-off-by-one"_fault) {
         side -= pixel;
     }
     bool right = edge.a > 0;
     bool lower = edge.b > 0;
-    if (fault == Fault::tile_wrong_corner) {
+    if (fault == "tile-wrong-corner"_fault) {
         right = !right;
         lower = !lower;
     }
@@ -135,19 +135,19 @@ PixelRect bounding_box(const ScanTriangle& triangle, const PixelRect& rect, cons
     PixelRect box{
         floor_pixel(min_x, device.subpixel_bits), floor_pixel(min_y, device.subpixel_bits),
         floor_pixel(max_x, device.subpixel_bits) + 1, floor_pixel(max_y, device.subpixel_bits) + 1};
-    if (device.fault == Fault::box_last_column) {
+    if (device.fault == "box-last-column"_fault) {
         box.x1 -= 1;
     }
-    if (device.fault == Fault::box_last_row) {
+    if (device.fault == "box-last-row"_fault) {
         box.y1 -= 1;
     }
-    if (device.fault == Fault::box_first_column) {
+    if (device.fault == "box-first-column"_fault) {
         box.x0 += 1;
     }
-    if (device.fault == Fault::box_first_row) {
+    if (device.fault == "box-first-row"_fault) {
         box.y0 += 1;
     }
-    if (device.fault == Fault::draws_everything) {
+    if (device.fault == "draws-everything"_fault) {
         return rect;
     }
     return {std::max(box.x0, rect.x0), std::max(box.y0, rect.y0), std::min(box.x1, rect.x1),
@@ -155,10 +155,10 @@ PixelRect bounding_box(const ScanTriangle& triangle, const PixelRect& rect, cons
 }
 
 bool is_narrow(const ScanTriangle& triangle, const Device& device) {
-    if (device.fault == Fault::edge_int32) {
+    if (device.fault == "edge-int32"_fault) {
         return true;
     }
-    if (device.fault != Fault::edge_int32_256) {
+    if (device.fault != "edge-int32-256"_fault) {
         return false;
     }
     const auto [min_x, max_x] = std::minmax({triangle.v[0].sx, triangle.v[1].sx, triangle.v[2].sx});
@@ -190,26 +190,26 @@ std::vector<SampleOffset> sample_offsets(const cases::Target& target, const Devi
             locations = {{8, 8}};
             break;
     }
-    if (!target.sample_locations.empty() && device.fault != Fault::samples_standard_only) {
+    if (!target.sample_locations.empty() && device.fault != "samples-standard-only"_fault) {
         locations.clear();
         for (const auto& own : target.sample_locations) {
             locations.push_back({own[0], own[1]});
         }
     }
-    if (device.fault == Fault::samples_exchanged && locations.size() > 1) {
+    if (device.fault == "samples-exchanged"_fault && locations.size() > 1) {
         std::swap(locations[0], locations[1]);
     }
     const int shift = device.subpixel_bits - 4;
     std::vector<SampleOffset> offsets;
     for (const Location& at : locations) {
         Location place = at;
-        if (device.fault == Fault::sample_corner) {
+        if (device.fault == "sample-corner"_fault) {
             place = {at[0] - 8, at[1] - 8};
-        } else if (device.fault == Fault::samples_transposed) {
+        } else if (device.fault == "samples-transposed"_fault) {
             place = {at[1], at[0]};
-        } else if (device.fault == Fault::samples_upside_down && locations.size() > 1) {
+        } else if (device.fault == "samples-upside-down"_fault && locations.size() > 1) {
             place = {at[0], 16 - at[1]};
-        } else if (device.fault == Fault::samples_in_pixel_centres) {
+        } else if (device.fault == "samples-in-pixel-centres"_fault) {
             place = {8, 8};
         }
         offsets.push_back({place[0] * (int64_t{1} << shift), place[1] * (int64_t{1} << shift)});
@@ -238,8 +238,8 @@ void scan(const ScanTriangle& triangle, const PixelRect& rect,
     const int64_t pixel = int64_t{1} << device.subpixel_bits;
     const float unit = 1.0F / static_cast<float>(pixel);
     const PixelRect box = bounding_box(triangle, rect, device);
-    const bool everything = device.fault == Fault::draws_everything;
-    const bool binary32 = device.fault == Fault::edge_binary32;
+    const bool everything = device.fault == "draws-everything"_fault;
+    const bool binary32 = device.fault == "edge-binary32"_fault;
 
     const auto covered = [&](int64_t x, int64_t y) {
         if (everything) {
@@ -253,7 +253,7 @@ void scan(const ScanTriangle& triangle, const PixelRect& rect,
         }
         return std::all_of(edges.begin(), edges.end(), [&](const Edge& e) {
             const int64_t value = arithmetic.wrap(e.a * x + e.b * y + e.c);
-            return (device.fault == Fault::edge_truncated ? value / pixel : value) >= 0;
+            return (device.fault == "edge-truncated"_fault ? value / pixel : value) >= 0;
         });
     };
 

@@ -74,13 +74,11 @@ Kill parse_kill(const std::vector<std::string>& cells, const std::string& where)
         refuse(where);
     }
     Kill kill;
-    for (const FaultInfo& info : all_faults()) {
-        kill.fault = info.name == cells[0] ? info.fault : kill.fault;
-    }
+    kill.fault = cases::find_fault(cells[0]);
     kill.family = cells[1];
     kill.leaf = cells[2];
     const std::vector<std::string> lead = split(cells[3], ' ');
-    if (kill.fault == Fault::none || lead.size() != 3) {
+    if (kill.fault == kNoFault || lead.size() != 3) {
         refuse(where);
     }
     kill.lead = parse_lead(lead[0], lead[1], lead[2], where);

@@ -13,7 +13,7 @@
 
 #include "cases/model/profile.hpp"
 #include "diff/verdict.hpp"
-#include "rasterizers/software/choice/fault.hpp"
+#include "rasterizers/software/choice/device.hpp"
 
 namespace software {
 
@@ -33,7 +33,7 @@ struct LeadCount {
 
 // A fault and one family that caught it.
 struct Kill {
-    Fault fault = Fault::none;
+    Fault fault = kNoFault;
     std::string family;
     cases::Profile level = cases::Profile::direct3d;  // the loosest at which it is caught
     // A leaf that does so and what it costs to judge: the cheapest of those at `level`.
@@ -51,7 +51,7 @@ struct LegalResult {
 
 struct Matrix {
     size_t leaves = 0, files = 0;  // of the suite that were asked
-    std::vector<Kill> kills;       // sorted by fault (as in all_faults), then family
+    std::vector<Kill> kills;       // sorted by fault (as in kFaults), then family
     std::vector<LegalResult> legal;
 };
 

@@ -1,220 +1,246 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// The verdict on one fragment. Stages: binary64 against the unsnapped and the snapped basis
-// (accepts only what is proven); all bases of the profile in Balls; the same in rationals.
+#include "ref/value/judge.hpp"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
-#include <optional>
+#include <utility>
 
+#include "cases/base/float_bits.hpp"
+#include "cases/base/number_text.hpp"
 #include "ref/number/fixed_point.hpp"
+#include "ref/value/describe.hpp"
 #include "ref/value/sample_values.hpp"
-#include "ref/value/set_ups.hpp"
 
-namespace ref {
+namespace ref::value {
 
 using cases::Profile;
-using value::Ball;
-using value::bits_of;
-using value::is_plain_depth;
-using value::Kind;
-using value::Quantity;
-
-void ValueReference::Impl::judge_samples(uint32_t t, cases::SampleId id,
-                                         const FragmentValues& device, bool exact_only,
-                                         FragmentVerdict& out) {
-    std::array<std::optional<value::Fragment>, std::size(cases::kProfiles)> fragments;
-    for (const Quantity& q : quantities_of(t)) {
-        if (!value::is_sample_kind(q.kind) || !is_part(q)) {
-            continue;
-        }
-        // What is allowed at a profile is allowed at every looser one.
-        auto& strict = fragments.at(static_cast<size_t>(profile));
-        if (!strict) {
-            strict = covered_fragment(t, id, profile, exact_only);
-        }
-        if (may_be(*strict, q, device, profile)) {
-            continue;
-        }
-        // The loosest profile that forbids it.
-        for (const Profile at : cases::kProfiles) {
-            auto& f = fragments.at(static_cast<size_t>(at));
-            if (!f) {
-                f = covered_fragment(t, id, at, exact_only);
-            }
-            if (at > profile || may_be(*f, q, device, at)) {
-                continue;
-            }
-            add_mismatch(
-                value::mismatch_of(q, ReasonKind::value_exact, at), q.get(device),
-                [&] { return allowed_text(*f, q, at); }, out);
-            break;
-        }
-    }
-}
-
-// One invocation has one gl_FragCoord: what it writes to gl_FragDepth is what it writes to the
-// capture, clamped and stored.
-void ValueReference::Impl::judge_coord_depth(uint32_t t, const FragmentValues& device,
-                                             FragmentVerdict& out) {
-    const cases::Draw& draw = c.draws[triangles[t].draw];
-    if (!replaces_depth_by_coord(draw) || part != FragmentPart::all || !selection.depth ||
-        !selection.frag_coord || !std::isfinite(device.frag_coord.z)) {
-        return;
-    }
-    const value::StoredDepth stored(draw, c.target.depth_format, device.frag_coord.z);
-    if (!stored.may_be(device.depth, profile)) {
-        const auto depth = std::ranges::find_if(quantities_of(t),
-                                                [](const Quantity& q) { return q.id.is_depth(); });
-        const Profile level =
-            stored.may_be(device.depth, Profile::vulkan) ? profile : Profile::vulkan;
-        add_mismatch(
-            value::mismatch_of(*depth, ReasonKind::value_coord_depth, level), device.depth,
-            [&] { return stored.text(); }, out);
-    }
-}
-
-// One invocation has one value of an input: where it is negative, the fragment was discarded.
-void ValueReference::Impl::judge_sign(uint32_t t, const FragmentValues& device,
-                                      FragmentVerdict& out) {
-    const cases::Draw& draw = c.draws[triangles[t].draw];
-    if (!discards_by_value(draw) || part == FragmentPart::depth ||
-        !selection.attributes.at(draw.discard_attribute)) {
-        return;
-    }
-    const float got = device.attributes.at(draw.discard_attribute).x;
-    if (std::isfinite(got) && got <= -cases::kLeastNormal) {
-        const QuantityId id = QuantityId::of_attribute(draw.discard_attribute, 0);
-        const auto found = std::ranges::find(quantities_of(t), id, &Quantity::id);
-        add_mismatch(
-            value::mismatch_of(*found, ReasonKind::value_not_discarded, Profile::vulkan), got,
-            [] { return std::string("0 or more"); }, out);
-    }
-}
+using cases::same_bits;
 
 namespace {
 
-void tell_worst(const value::WorstError& worst, FragmentVerdict& out) {
-    out.worst_ratio = worst.ratio;
-    out.worst_quantity = worst.quantity;
+// A number as read back, and its bits.
+std::string bits_of(float f) {
+    return fmt::format("{} (0x{:08x})", cases::number_text(f), std::bit_cast<uint32_t>(f));
 }
+
+class FragmentJudge {
+  public:
+    FragmentJudge(const DrawnFragment& fragment, JudgeSettings& settings, bool exact_only)
+        : f_(fragment),
+          set_ups_(fragment.set_ups),
+          settings_(settings),
+          profile_(fragment.set_ups.profile()),
+          exact_only_(exact_only) {}
+
+    FragmentVerdict judge() {
+        if (!f_.primitive().is_finite) {
+            return out_;  // nothing is promised of a triangle with NaN or infinite positions
+        }
+        for (const Quantity& q : f_.quantities()) {
+            if (q.kind == Kind::flat && f_.has(q)) {
+                judge_flat(q, q.get(f_.device));
+            }
+        }
+        judge_samples();
+        judge_coord_depth();
+        judge_sign();
+        judge_planes();
+        out_.ok = out_.mismatches.empty();
+        for (const ValueMismatch& m : out_.mismatches) {
+            if (m.ratio > out_.worst_ratio) {
+                tell_worst({m.ratio, m.quantity});
+            }
+        }
+        return std::move(out_);
+    }
+
+  private:
+    void judge_flat(const Quantity& q, float got) {
+        const Primitive& primitive = f_.primitive();
+        const float want = provoking_value(primitive, q.id);
+        if (same_bits(got, want) || !std::isfinite(want)) {
+            return;  // NaN and infinity need not arrive
+        }
+        const bool may_be_zero = std::fabs(want) < cases::kLeastNormal;
+        if (may_be_zero && !(std::fabs(got) > 0) && !std::isnan(got)) {
+            return;  // denormals may be flushed, the sign of zero may be lost
+        }
+        ReasonKind reason = ReasonKind::value_flat;
+        const auto component = static_cast<glm::vec4::length_type>(q.id.component);
+        for (const uint32_t v : primitive.triangle.vertex) {
+            if (v != primitive.triangle.provoking &&
+                same_bits(primitive.draw->attributes[q.id.attribute].values[v][component], got)) {
+                reason = primitive.draw->provoking == cases::ProvokingVertex::first
+                             ? ReasonKind::value_of_not_first
+                             : ReasonKind::value_of_not_last;
+            }
+        }
+        add(mismatch_of(q, reason, Profile::vulkan), got, [&] {
+            return bits_of(want) + " of the provoking vertex " +
+                   std::to_string(primitive.triangle.provoking);
+        });
+    }
+
+    // Of values that are one of a few exact numbers.
+    void judge_samples() {
+        std::array<std::optional<Fragment>, std::size(cases::kProfiles)> fragments;
+        const auto may_be_at = [&](const Quantity& q, Profile at) {
+            auto& fragment = fragments.at(static_cast<size_t>(at));
+            if (!fragment) {
+                fragment = set_ups_.covered_fragment(f_.t, f_.id, at, exact_only_);
+            }
+            return may_be(*fragment, q, f_.device, at);
+        };
+        for (const Quantity& q : f_.quantities()) {
+            // What is allowed at a profile is allowed at every looser one.
+            if (!is_sample_kind(q.kind) || !f_.has(q) || may_be_at(q, profile_)) {
+                continue;
+            }
+            const Profile at = *std::ranges::find_if(
+                cases::kProfiles, [&](Profile loose) { return !may_be_at(q, loose); });
+            add(mismatch_of(q, ReasonKind::value_exact, at), q.get(f_.device),
+                [&] { return allowed_text(*fragments.at(static_cast<size_t>(at)), q, at); });
+        }
+    }
+
+    // One invocation has one gl_FragCoord: what it writes to gl_FragDepth is what it writes to the
+    // capture, clamped and stored.
+    void judge_coord_depth() {
+        const cases::Draw& draw = *f_.primitive().draw;
+        const FragmentValues& device = f_.device;
+        if (!replaces_depth_by_coord(draw) || f_.part != FragmentPart::all || !f_.selection.depth ||
+            !f_.selection.frag_coord || !std::isfinite(device.frag_coord.z)) {
+            return;
+        }
+        const StoredDepth stored(draw, set_ups_.target().depth_format, device.frag_coord.z);
+        if (!stored.may_be(device.depth, profile_)) {
+            const Profile level =
+                stored.may_be(device.depth, Profile::vulkan) ? profile_ : Profile::vulkan;
+            add(mismatch_of(quantity(QuantityId{}), ReasonKind::value_coord_depth, level),
+                device.depth, [&] { return stored.text(); });
+        }
+    }
+
+    // One invocation has one value of an input: where it is negative, the fragment was discarded.
+    void judge_sign() {
+        const cases::Draw& draw = *f_.primitive().draw;
+        if (!discards_by_value(draw) || f_.part == FragmentPart::depth ||
+            !f_.selection.attributes.at(draw.discard_attribute)) {
+            return;
+        }
+        const float got = f_.device.attributes.at(draw.discard_attribute).x;
+        if (std::isfinite(got) && got <= -cases::kLeastNormal) {
+            const Quantity& q = quantity(QuantityId::of_attribute(draw.discard_attribute, 0));
+            add(mismatch_of(q, ReasonKind::value_not_discarded, Profile::vulkan), got,
+                [] { return std::string("0 or more"); });
+        }
+    }
+
+    void judge_planes() {
+        const bool is_decided = !exact_only_ && f_.part == FragmentPart::all &&
+                                is_plain_depth(f_.primitive()) && filter();
+        if (profile_ == Profile::vulkan && !settings_.tells_ratios && !exact_only_) {
+            if (!is_decided) {
+                const std::vector<size_t> failing = f_.failing_alone();
+                describe(failing, std::vector<double>(failing.size(), HUGE_VAL));
+            }
+        } else if (!is_decided || out_.worst_ratio > 1) {
+            // What is accepted, but above one budget, another basis may explain better.
+            const CandidateVerdict verdict = f_.verdict(profile_, exact_only_);
+            out_.basis = verdict.basis;
+            tell_worst(verdict.worst);
+            describe(verdict.failing, verdict.ratios);
+        }
+    }
+
+    // Whether one of the two nominal bases is proven to explain all numbers of the fragment.
+    bool filter() {
+        const Filters& filters = set_ups_.filters(f_.t);
+        const cases::Target& target = set_ups_.target();
+        const FixedPoint fixed = sample_position(f_.id.x, f_.id.y, f_.id.sample, target);
+        const Point<double> centre{f_.id.x + 0.5, f_.id.y + 0.5};
+        const Point<double> sample{pixels(fixed.x), pixels(fixed.y)};
+        FilterPoints places{centre, sample, centre};
+        if (target.samples > 1 || cases::has_large_fragments(*f_.primitive().draw)) {
+            // The likeliest alternative; the others are left to the next stage.
+            const auto nominal = set_ups_.places<Ball>(f_.t, f_.id, Profile::direct3d).front();
+            places = {{nominal.attributes[0].x.v, nominal.attributes[0].y.v},
+                      sample,
+                      {nominal.centroid[0].x.v, nominal.centroid[0].y.v}};
+        }
+        const std::span<const Quantity> all(settings_.selected.at(set_ups_.draw_of(f_.t)));
+        const ProbePlace place = set_ups_.probe_place(f_.t, f_.id, profile_);
+        const auto accepts = [&](const Filter& filter, WorstError& worst) {
+            return filter_accepts(filter, all, places, f_.device, kBudgetFactor, worst) &&
+                   filter_accepts_probes(filter, all, place, f_.device, kBudgetFactor, worst);
+        };
+        WorstError worst;
+        bool is_decided = accepts(filters.unsnapped, worst);
+        if (filters.snapped && !(is_decided && worst.ratio <= 1)) {
+            WorstError snapped;
+            if (accepts(*filters.snapped, snapped) &&
+                (!is_decided || snapped.ratio < worst.ratio)) {
+                is_decided = true;
+                out_.basis = BasisKind::snapped;
+                worst = snapped;
+            }
+        }
+        tell_worst(worst);
+        return is_decided;
+    }
+
+    void describe(const std::vector<size_t>& failing, const std::vector<double>& ratios) {
+        std::vector<ReasonKind> reasons;
+        for (const size_t index : failing) {
+            reasons.push_back(reason_of(f_, index));
+        }
+        auto& loosest = settings_.loosest_levels;
+        const std::vector<Profile> levels =
+            loosest ? loosest->of(f_, failing, reasons) : f_.levels_of(failing);
+        for (size_t k = 0; k < failing.size(); ++k) {
+            const Quantity& q = f_.quantities()[failing[k]];
+            ValueMismatch m = mismatch_of(q, reasons[k], levels[k]);
+            m.ratio = ratios[k];
+            add(std::move(m), q.get(f_.device),
+                [&] { return expected_text(set_ups_, f_.t, f_.id, q); });
+        }
+    }
+
+    const Quantity& quantity(const QuantityId& id) const {
+        return *std::ranges::find(f_.quantities(), id, &Quantity::id);
+    }
+
+    template <class Text>
+    void add(ValueMismatch mismatch, float got, Text expected) {
+        if (!settings_.is_told || settings_.is_told(mismatch)) {
+            mismatch.expected = expected();
+            mismatch.got = bits_of(got);
+        }
+        out_.mismatches.push_back(std::move(mismatch));
+    }
+
+    void tell_worst(const WorstError& worst) {
+        out_.worst_ratio = worst.ratio;
+        out_.worst_quantity = worst.quantity;
+    }
+
+    const DrawnFragment& f_;
+    SetUps& set_ups_;
+    JudgeSettings& settings_;
+    Profile profile_;
+    bool exact_only_;
+    FragmentVerdict out_;
+};
 
 }  // namespace
 
-bool ValueReference::Impl::filter(uint32_t t, cases::SampleId id, const FragmentValues& device,
-                                  FragmentVerdict& out) {
-    const value::Loaded& triangle = load_filters(t);
-    const FixedPoint fixed = sample_position(id.x, id.y, id.sample, c.target);
-    const value::Point<double> centre{id.x + 0.5, id.y + 0.5};
-    const value::Point<double> sample{pixels(fixed.x), pixels(fixed.y)};
-    value::FilterPoints places{centre, sample, centre};
-    if (c.target.samples > 1 || cases::has_large_fragments(*triangle.primitive.draw)) {
-        // The likeliest alternative; the others are left to the next stage.
-        const auto nominal =
-            value::evaluations<Ball>(fragment(t, id, Profile::direct3d), Profile::direct3d).front();
-        places = {{nominal.attributes[0].x.v, nominal.attributes[0].y.v},
-                  sample,
-                  {nominal.centroid[0].x.v, nominal.centroid[0].y.v}};
-    }
-    const std::span<const Quantity> all(selected.at(triangles[t].draw));
-    const value::ProbePlace place = probe_place(t, id, profile);
-    const auto accepts = [&](const value::Filter& filter, value::WorstError& worst) {
-        return filter_accepts(filter, all, places, device, kBudgetFactor, worst) &&
-               filter_accepts_probes(filter, all, place, device, kBudgetFactor, worst);
-    };
-    value::WorstError worst;
-    bool is_decided = accepts(triangle.unsnapped, worst);
-    if (triangle.has_snapped && !(is_decided && worst.ratio <= 1)) {
-        value::WorstError snapped;
-        if (accepts(triangle.snapped, snapped) && (!is_decided || snapped.ratio < worst.ratio)) {
-            is_decided = true;
-            out.basis = BasisKind::snapped;
-            worst = snapped;
-        }
-    }
-    tell_worst(worst, out);
-    return is_decided;
+FragmentVerdict judge(const DrawnFragment& fragment, JudgeSettings& settings, bool exact_only) {
+    return FragmentJudge(fragment, settings, exact_only).judge();
 }
 
-FragmentVerdict ValueReference::Impl::judge(uint32_t t, cases::SampleId id,
-                                            const FragmentValues& device, bool exact_only) {
-    FragmentVerdict out;
-    const value::Loaded& triangle = load(t);
-    if (!triangle.primitive.is_finite) {
-        return out;  // nothing is promised of a triangle with NaN or infinite positions
-    }
-    const std::vector<Quantity>& all = quantities_of(t);
-    for (const Quantity& q : all) {
-        if (is_part(q) && q.kind == Kind::flat) {
-            judge_flat(triangle.primitive, q, q.get(device), out);
-        }
-    }
-    judge_samples(t, id, device, exact_only, out);
-    judge_coord_depth(t, device, out);
-    judge_sign(t, device, out);
-    const bool is_decided = !exact_only && part == FragmentPart::all &&
-                            is_plain_depth(triangle.primitive) && filter(t, id, device, out);
-    // Accepted, but above one budget: another basis may explain it better.
-    if (profile == Profile::vulkan && !tells_ratios && !exact_only) {
-        if (!is_decided) {
-            value::CandidateVerdict verdict;
-            verdict.failing = in_order(t, failing_at(t, id, device, profile, asked(t, profile)));
-            verdict.ratios.assign(verdict.failing.size(), HUGE_VAL);
-            describe(t, id, device, verdict, out);
-        }
-    } else if (!is_decided || out.worst_ratio > 1) {
-        const value::CandidateVerdict verdict = wide(t, id, device, profile, exact_only);
-        out.basis = verdict.basis;
-        tell_worst(verdict.worst, out);
-        if (!verdict.ok) {
-            describe(t, id, device, verdict, out);
-        }
-    }
-    out.ok = out.mismatches.empty();
-    for (const ValueMismatch& m : out.mismatches) {
-        if (m.ratio > out.worst_ratio) {
-            tell_worst({m.ratio, m.quantity}, out);
-        }
-    }
-    return out;
-}
-
-ValueReference::ValueReference(const cases::Case& c, const Limits& limits, Profile profile)
-    : impl_(std::make_unique<Impl>(c, limits, profile)) {}
-ValueReference::~ValueReference() = default;
-ValueReference::ValueReference(ValueReference&&) noexcept = default;
-
-void ValueReference::judge_only(const ValueSelection& selection) {
-    impl_->selection = selection;
-    impl_->selected = impl_->quantities;
-    for (std::vector<Quantity>& draw : impl_->selected) {
-        std::erase_if(draw, [&](const Quantity& q) { return !selection.has(q.id); });
-    }
-}
-
-void ValueReference::tell_only(std::function<bool(const ValueMismatch&)> is_told) {
-    impl_->is_told = std::move(is_told);
-}
-
-void ValueReference::tell_ratios(bool are_told) {
-    impl_->tells_ratios = are_told;
-}
-
-void ValueReference::tell_loosest_levels() {
-    impl_->loosest_levels.emplace();
-}
-
-FragmentVerdict ValueReference::judge(uint32_t t, cases::SampleId sample,
-                                      const FragmentValues& device, FragmentPart part) {
-    impl_->part = part;
-    return impl_->judge(t, sample, device, false);
-}
-
-FragmentVerdict ValueReference::judge_exact(uint32_t t, cases::SampleId sample,
-                                            const FragmentValues& device, FragmentPart part) {
-    impl_->part = part;
-    return impl_->judge(t, sample, device, true);
-}
-
-}  // namespace ref
+}  // namespace ref::value

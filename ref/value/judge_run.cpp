@@ -1,25 +1,17 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// The verdict on neighbouring fragments of one triangle, as far as the first stage alone (binary64
-// against the unsnapped and the snapped basis) tells that they are right.
+#include "ref/value/judge_run.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "cases/base/float_bits.hpp"
-#include "ref/value/accept/filter_run.hpp"
 #include "ref/value/fragment/shading_rate.hpp"
-#include "ref/value/set_ups.hpp"
 
-namespace ref {
+namespace ref::value {
 
 using cases::same_bits;
-using value::is_plain_depth;
-using value::Kind;
-using value::kRunLength;
-using value::Quantity;
-using value::RunValue;
 
 namespace {
 
@@ -33,11 +25,8 @@ RunValue numbers_of(const FragmentRun& run, const Quantity& q) {
     return {&q, plane.empty() ? nullptr : &plane.front().x + q.id.component, 4};
 }
 
-}  // namespace
-
 // How many leading fragments have the one number that is right for a quantity of these kinds.
-size_t ValueReference::Impl::count_exact(const Quantity& q, const RunValue& got,
-                                         const FragmentRun& run, float flat) const {
+size_t count_exact(const Quantity& q, const RunValue& got, const FragmentRun& run, float flat) {
     const bool is_x = q.id.component == 0;
     size_t k = 0;
     for (; k < run.frag_coord.size(); ++k) {
@@ -49,26 +38,29 @@ size_t ValueReference::Impl::count_exact(const Quantity& q, const RunValue& got,
     return k;
 }
 
-size_t ValueReference::Impl::judge_run(uint32_t t, const FragmentRun& run,
-                                       std::span<double> ratios) {
-    const value::Loaded& triangle = load_filters(t);
-    const value::Primitive& primitive = triangle.primitive;
-    if (!primitive.is_finite || !is_plain_depth(primitive) || c.target.samples != 1 ||
+}  // namespace
+
+size_t RunJudge::judge(SetUps& set_ups, std::span<const Quantity> selected, uint32_t t,
+                       const FragmentRun& run, std::span<double> ratios) {
+    const Primitive& primitive = set_ups.primitive(t);
+    const cases::Target& target = set_ups.target();
+    if (!primitive.is_finite || !is_plain_depth(primitive) || target.samples != 1 ||
         discards_by_value(*primitive.draw) || has_large_fragments(*primitive.draw) ||
-        value::shading_rate(*primitive.draw, 1) != value::ShadingRate::fragment) {
+        shading_rate(*primitive.draw, 1) != ShadingRate::fragment) {
         return 0;
     }
+    const Filters& filters = set_ups.filters(t);
     size_t count = run.frag_coord.size();
-    run_values.clear();
-    for (const Quantity& q : selected.at(triangles[t].draw)) {
+    values_.clear();
+    for (const Quantity& q : selected) {
         const RunValue got = numbers_of(run, q);
         if (got.at == nullptr) {
             return 0;
         }
-        if (q.kind == Kind::linear || q.kind == Kind::perspective) {
-            run_values.push_back(got);
+        if (is_numeric(q)) {
+            values_.push_back(got);
         } else if (q.kind == Kind::flat || q.kind == Kind::pixel_centre) {
-            const float flat = q.kind == Kind::flat ? value::provoking_value(primitive, q) : 0.0F;
+            const float flat = q.kind == Kind::flat ? provoking_value(primitive, q.id) : 0.0F;
             count = std::min(count, count_exact(q, got, run, flat));
         } else {
             return 0;
@@ -79,17 +71,17 @@ size_t ValueReference::Impl::judge_run(uint32_t t, const FragmentRun& run,
         const size_t n = std::min(kRunLength, count - done);
         const cases::SampleId id{run.first.x + static_cast<uint32_t>(done), run.first.y,
                                  run.first.sample, run.first.layer};
-        const FixedPoint at = sample_position(id.x, id.y, id.sample, c.target);
-        const value::RunPoints points{{id.x + 0.5, id.y + 0.5}, {pixels(at.x), pixels(at.y)}};
+        const FixedPoint at = sample_position(id.x, id.y, id.sample, target);
+        const RunPoints points{{id.x + 0.5, id.y + 0.5}, {pixels(at.x), pixels(at.y)}};
         const std::span<double> unsnapped = ratios.subspan(done, n);
-        filter_run(triangle.unsnapped, run_values, points, kBudgetFactor, unsnapped);
+        filter_run(filters.unsnapped, values_, points, kBudgetFactor, unsnapped);
         // As filter(): where the unsnapped basis does not explain the fragment within one budget,
         // the snapped one may.
         const bool is_explained = std::all_of(unsnapped.begin(), unsnapped.end(),
                                               [](double ratio) { return ratio <= 1; });
-        if (!is_explained && triangle.has_snapped) {
+        if (!is_explained && filters.snapped) {
             const std::span<double> snapped(others.data(), n);
-            filter_run(triangle.snapped, run_values, points, kBudgetFactor, snapped);
+            filter_run(*filters.snapped, values_, points, kBudgetFactor, snapped);
             for (size_t k = 0; k < n; ++k) {
                 unsnapped[k] =
                     unsnapped[k] <= 1 ? unsnapped[k] : std::min(unsnapped[k], snapped[k]);
@@ -100,15 +92,11 @@ size_t ValueReference::Impl::judge_run(uint32_t t, const FragmentRun& run,
                 return done;
             }
         }
-        for (RunValue& value : run_values) {
+        for (RunValue& value : values_) {
             value.at += n * value.step;
         }
     }
     return count;
 }
 
-size_t ValueReference::judge_run(uint32_t t, const FragmentRun& run, std::span<double> ratios) {
-    return impl_->judge_run(t, run, ratios);
-}
-
-}  // namespace ref
+}  // namespace ref::value

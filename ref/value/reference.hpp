@@ -164,8 +164,6 @@ class ValueReference {
     Sign sign(uint32_t t, cases::SampleId sample, bool exact_only = false);
 
   private:
-    void add_ranges(uint32_t t, cases::SampleId sample, std::span<const QuantityId> ids,
-                    bool may_be_outer, std::array<ValueRange, 4>& out);
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

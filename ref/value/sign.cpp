@@ -1,27 +1,23 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// Whether a value is negative, by all that a profile accepts of it (reference.hpp, Sign).
+#include "ref/value/sign.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "cases/model/sample.hpp"
 #include "ref/value/accept/candidate_reach.hpp"
-#include "ref/value/set_ups.hpp"
 
-namespace ref {
+namespace ref::value {
 
 using cases::kLeastNormal;
-using value::Ball;
-using value::Kind;
-using value::Quantity;
 
 namespace {
 
 // Of a range whose ends T bounds; open if T cannot tell. A number that is no normal one is 0 for a
 // device that flushes it, and negative for one that does not.
-Sign sign_of(const value::AcceptedRange<mpq_class>& accepted) {
+Sign sign_of(const AcceptedRange<mpq_class>& accepted) {
     const auto& [low, high] = accepted.range;
     return accepted.is_free                                        ? Sign::open
            : high <= mpq_class(-static_cast<double>(kLeastNormal)) ? Sign::negative
@@ -30,7 +26,7 @@ Sign sign_of(const value::AcceptedRange<mpq_class>& accepted) {
 }
 
 // Nothing if the Balls cannot tell.
-std::optional<Sign> sign_of(const value::AcceptedRange<Ball>& accepted) {
+std::optional<Sign> sign_of(const AcceptedRange<Ball>& accepted) {
     if (!accepted.is_known) {
         return std::nullopt;
     }
@@ -59,39 +55,35 @@ Sign sign_of(float flat) {
 
 }  // namespace
 
-Sign ValueReference::sign(uint32_t t, cases::SampleId sample, bool exact_only) {
-    const value::Primitive& primitive = impl_->load(t).primitive;
+Sign sign_of(SetUps& set_ups, uint32_t t, cases::SampleId sample, bool exact_only) {
+    const Primitive& primitive = set_ups.primitive(t);
     const QuantityId id = QuantityId::of_attribute(primitive.draw->discard_attribute, 0);
-    const cases::Attribute& a = primitive.draw->attributes.at(primitive.draw->discard_attribute);
     if (!primitive.is_finite) {
         return Sign::open;
     }
-    if (a.interpolation == cases::Interpolation::flat) {
-        return sign_of(a.values[primitive.triangle.provoking].x);
+    if (primitive.draw->attributes.at(id.attribute).interpolation == cases::Interpolation::flat) {
+        return sign_of(provoking_value(primitive, id));
     }
-    const std::vector<Quantity>& all = impl_->quantities_of(t);
-    const auto found = std::find_if(all.begin(), all.end(), [&](const Quantity& q) {
-        return q.id == id && (q.kind == Kind::linear || q.kind == Kind::perspective);
-    });
-    const std::vector<size_t> only{static_cast<size_t>(found - all.begin())};
-    if (found == all.end() || !impl_->is_asked(t, only.front(), impl_->profile)) {
+    const std::optional<size_t> index = set_ups.asked_plane(t, id);
+    if (!index) {
         return Sign::open;
     }
-    value::Asked asked{all, primitive.is_projectable};
-    asked.only = only;
+    const cases::Profile profile = set_ups.profile();
+    const Asked asked{
+        set_ups.quantities_of(t), primitive.is_projectable, nullptr, nullptr, {&*index, 1}};
     if (!exact_only) {
-        if (const auto outer = impl_->outer(t, sample, only.front())) {
-            if (outer->low >= 0) {
-                return Sign::not_negative;
-            }
-            if (outer->high <= -static_cast<double>(kLeastNormal)) {
-                return Sign::negative;
-            }
+        const auto outer =
+            set_ups.bounds(t, profile).outer(set_ups.kept_places(t, sample), asked, *index);
+        if (outer && outer->low >= 0) {
+            return Sign::not_negative;
         }
-        const std::optional<Sign> sign = impl_->ask_balls(
-            t, impl_->profile, [&](const value::CandidateSet<Ball>& set) -> std::optional<Sign> {
-                const std::optional<Sign> told = sign_of(
-                    value::accepted_ranges(set, impl_->places_of_range(t, sample), asked).front());
+        if (outer && outer->high <= -static_cast<double>(kLeastNormal)) {
+            return Sign::negative;
+        }
+        const std::optional<Sign> sign = set_ups.ask_balls(
+            t, profile, [&](const CandidateSet<Ball>& set) -> std::optional<Sign> {
+                const std::optional<Sign> told =
+                    sign_of(accepted_ranges(set, set_ups.kept_places(t, sample), asked).front());
                 // Where Balls cannot tell a corner of a piece from one at the eye they take it for
                 // unbounded, and accept more than rationals may.
                 const bool may_be_wide =
@@ -103,12 +95,9 @@ Sign ValueReference::sign(uint32_t t, cases::SampleId sample, bool exact_only) {
             return *sign;
         }
     }
-    return sign_of(value::accepted_ranges(
-                       impl_->candidates<mpq_class>(t, impl_->profile),
-                       value::evaluations<mpq_class>(
-                           impl_->fragment(t, sample, impl_->profile, exact_only), impl_->profile),
-                       asked)
+    return sign_of(accepted_ranges(set_ups.candidates<mpq_class>(t, profile),
+                                   set_ups.places<mpq_class>(t, sample, profile, exact_only), asked)
                        .front());
 }
 
-}  // namespace ref
+}  // namespace ref::value

@@ -207,7 +207,7 @@ std::string comparison_text(const std::vector<NamedRun>& runs, const Comparison&
 }
 
 Json compared_run(const NamedRun& run, const Comparison& comparison, size_t index) {
-    const Device& device = run.run.device;
+    const capture::DeviceInfo& device = run.run.device;
     return Json{{"name", comparison.letters[index]},
                 {"folder", cases::printable(run.folder)},
                 {"device", cases::printable(device.name)},

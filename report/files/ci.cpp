@@ -140,7 +140,7 @@ std::string to_github_annotation(const std::vector<std::string>& sentences) {
 }
 
 std::string to_github_summary(const Run& run) {
-    const Device& d = run.device;
+    const capture::DeviceInfo& d = run.device;
     std::string text = fmt::format("## Edgecase: {}\n\n", exit_text(run));
     text += fmt::format(
         "{}, {}{}{}{}, {} subpixel bits{}, profile {}, seed {}, {}\n\n", cell(d.name),

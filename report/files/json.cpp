@@ -266,7 +266,7 @@ void put_with_cases(std::string_view text, const Run& run, const cases::Put& put
 void tell_json(const Run& run, const cases::Put& put) {
     Json total = encode_totals(run);
     total["cases"] = run.cases.size();
-    Device device = run.device;
+    capture::DeviceInfo device = run.device;
     cases::make_printable(device);
     const CaseRecord* worst = worst_case(run);
     const Json json{

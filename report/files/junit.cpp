@@ -134,7 +134,7 @@ std::string to_junit(const Run& run) {
         skipped += element == Element::skipped ? 1U : 0U;
     }
     errors += run.missing_shards.size();
-    const Device& d = run.device;
+    const capture::DeviceInfo& d = run.device;
     const std::string name = attribute(d.name.empty() ? "no device" : d.name);
     const std::string counts =
         fmt::format("tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" time=\"{}\"",

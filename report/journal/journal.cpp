@@ -183,7 +183,7 @@ cases::Expected<void> Journal::write_run(const Run& header) {
     return write_line(line_of("run", body));
 }
 
-cases::Expected<void> Journal::write_device(const Device& device) {
+cases::Expected<void> Journal::write_device(const capture::DeviceInfo& device) {
     return write_line(line_of("device", encode(device)));
 }
 
@@ -236,7 +236,7 @@ class Rebuilder {
         if (type == "run") {
             add_run(record);
         } else if (type == "device") {
-            run_.device = decode<Device>(record);
+            run_.device = decode<capture::DeviceInfo>(record);
         } else if (type == "begin") {
             open_.insert(known(decode_id(record)));
         } else if (type == "end") {

@@ -28,7 +28,7 @@ class Journal {
     // Each returns an error sentence if the disk is full or the file is gone.
     cases::Expected<void> write_run(
         const Run& header);  // without results; run.cases carry id, file, line, ...
-    cases::Expected<void> write_device(const Device& device);
+    cases::Expected<void> write_device(const capture::DeviceInfo& device);
     cases::Expected<void> write_begin(const std::string& id, uint32_t attempt);
     cases::Expected<void> write_end(const CaseRecord& record);
     cases::Expected<void> write_stop(const Run& run);  // ended, seconds, interrupted

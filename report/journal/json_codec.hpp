@@ -79,7 +79,9 @@ nlohmann::ordered_json encode(const T& value) {
         Json::object_t object;  // Json's own braces would look for each key among all before it
         T::fields(
             [&object]<class M>(const cases::Field& field, const M& member) {
-                if (!field.has(cases::kLeftOutIfEmpty) || !detail::is_empty(member)) {
+                const bool is_left_out =
+                    field.has(cases::kLeftOutIfEmpty) && detail::is_empty(member);
+                if (!field.has(cases::kNotReported) && !is_left_out) {
                     object.emplace_back(field.name, encode(member));
                 }
             },
@@ -117,6 +119,9 @@ void decode(const nlohmann::ordered_json& json, const char* key, T& to) {
         }
         T::fields(
             [&json](const cases::Field& field, auto& member) {
+                if (field.has(cases::kNotReported)) {
+                    return;
+                }
                 if (const auto* value = detail::member(json, field.name)) {
                     decode(*value, field.name, member);
                 } else if (!field.has(cases::kOlderLackIt) && !field.has(cases::kLeftOutIfEmpty)) {

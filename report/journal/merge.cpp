@@ -16,7 +16,7 @@ namespace report {
 namespace {
 
 std::string device_text(const Run& run) {
-    const Device& d = run.device;
+    const capture::DeviceInfo& d = run.device;
     return fmt::format("{} {} {}, {} subpixel bits", d.name, d.driver_name, d.driver_info,
                        d.subpixel_bits);
 }

@@ -96,7 +96,7 @@ std::string day_and_time(const std::string& utc) {
 }
 
 std::string header(const Run& run) {
-    const Device& d = run.device;
+    const capture::DeviceInfo& d = run.device;
     std::string text = fmt::format("<h1>{}</h1>\n", cases::markup(headline(run)));
     text += levels_list(run);
     if (const std::string shortened = shortened_text(run); !shortened.empty()) {
@@ -115,9 +115,10 @@ std::string header(const Run& run) {
     text += fact("edgecase", run.tool_version);
     text += fact("ended with", exit_text(run));
     text += fact("sample locations, 1/16 pixel", d.sample_locations);
-    text +=
-        fact("depth beside a stencil, where a case names none",
-             d.depth_beside_stencil == Device().depth_beside_stencil ? "" : d.depth_beside_stencil);
+    text += fact("depth beside a stencil, where a case names none",
+                 d.depth_beside_stencil == capture::DeviceInfo().depth_beside_stencil
+                     ? ""
+                     : d.depth_beside_stencil);
     if (const CaseRecord* worst = worst_case(run)) {
         text += fact("largest accepted error",
                      fmt::format("{}, {}", accepted_text(run, *worst), worst->id));

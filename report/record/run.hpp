@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "capture/renderer.hpp"
 #include "cases/model/profile.hpp"
 #include "diff/verdict.hpp"
 #include "report/record/diagnosis.hpp"
@@ -52,35 +53,6 @@ enum ExitCode : int {
     kExitAllSkipped = 6,
     kExitInternal = 7,
     kExitInterrupted = 130,
-};
-
-// The device as the worker reported it (all text: driver strings may hold any bytes).
-struct Device {
-    std::string name, driver_name, driver_info, uuid, type;
-    std::string api_version;  // "1.3.230"
-    uint32_t vendor_id = 0, device_id = 0, driver_version = 0, driver_id = 0;
-    uint32_t subpixel_bits = 0, viewport_subpixel_bits = 0;
-    bool has_primitive_id = false;
-    std::string sample_locations;  // its own, cases::to_text; "": the standard ones
-    // Where a case names none: d24-unorm of a device that lacks D32S8.
-    std::string depth_beside_stencil = "d32-float";
-    static void fields(auto&& visit, auto&... d) {
-        visit("name", d.name...);
-        visit("driver_name", d.driver_name...);
-        visit("driver_info", d.driver_info...);
-        visit("uuid", d.uuid...);
-        visit("type", d.type...);
-        visit("api_version", d.api_version...);
-        visit("vendor_id", d.vendor_id...);
-        visit("device_id", d.device_id...);
-        visit("driver_version", d.driver_version...);
-        visit("driver_id", d.driver_id...);
-        visit("subpixel_bits", d.subpixel_bits...);
-        visit("viewport_subpixel_bits", d.viewport_subpixel_bits...);
-        visit("has_primitive_id", d.has_primitive_id...);
-        visit("sample_locations", d.sample_locations...);
-        visit("depth_beside_stencil", d.depth_beside_stencil...);
-    }
 };
 
 // Pictures of a case, one byte a sample, row by row; empty if none were kept.
@@ -346,7 +318,7 @@ struct RunEnd {
 };
 
 struct Run : RunHeader, RunEnd {
-    Device device;
+    capture::DeviceInfo device;     // its texts may hold any bytes
     std::vector<CaseRecord> cases;  // selection order; those without an end are not_run
     // Of them: whose pictures, numbers of samples and findings beyond the first are in the journal
     // alone, since reports of them all would have no bound (load_for_reports).

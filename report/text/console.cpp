@@ -281,7 +281,7 @@ size_t judged_cases(const Run& run) {
 }  // namespace
 
 std::string console_header(const Run& run, const ConsoleStyle& style) {
-    const Device& d = run.device;
+    const capture::DeviceInfo& d = run.device;
     // What draws without a driver (captures, an algorithm) has no Vulkan.
     const bool is_other = d.api_version.empty() && !d.name.empty();
     std::string text = fmt::format(

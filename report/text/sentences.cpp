@@ -153,7 +153,7 @@ std::string ratio_text(double ratio) {
     return cases::number_text(ratio, 3);
 }
 
-std::string judged_bits_note(const Device& device) {
+std::string judged_bits_note(const capture::DeviceInfo& device) {
     return !device.api_version.empty() && device.subpixel_bits < cases::kLeastSubpixelBits
                ? fmt::format(" (judged as {})", cases::kLeastSubpixelBits)
                : "";

@@ -26,7 +26,7 @@ std::string accepted_text(const Run& run, const CaseRecord& record);
 
 // " (judged as 4)" behind the subpixel bits of a device of Vulkan that claims fewer than it must
 // have; else empty.
-std::string judged_bits_note(const Device& device);
+std::string judged_bits_note(const capture::DeviceInfo& device);
 
 // What breaking a profile means: "not conformant", "very suspicious", "differs from top-left
 // hardware".

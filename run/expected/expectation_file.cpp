@@ -355,7 +355,7 @@ bool satisfies(const std::vector<uint32_t>& version, const VersionBound& bound) 
     return false;
 }
 
-std::string mismatch(const ExpectationFile& file, const report::Device& device,
+std::string mismatch(const ExpectationFile& file, const capture::DeviceInfo& device,
                      cases::Profile profile) {
     if (::fnmatch(file.device_glob.c_str(), device.name.c_str(), 0) != 0) {
         return "it is for the device '" + file.device_glob + "', this is '" + device.name + "'";

@@ -72,7 +72,7 @@ std::vector<uint32_t> find_version(std::string_view text, size_t begin);
 bool satisfies(const std::vector<uint32_t>& version, const VersionBound& bound);
 
 // Empty if the file speaks of this device and profile; else one sentence why not.
-std::string mismatch(const ExpectationFile& file, const report::Device& device,
+std::string mismatch(const ExpectationFile& file, const capture::DeviceInfo& device,
                      cases::Profile profile);
 
 // What the files say of each id; the causes of lines that agree about an id add up. Errors: two

@@ -385,7 +385,7 @@ Update update_expectations(std::string_view text, const ExpectationFile& file,
 }
 
 std::string new_expectation_file(const report::Run& run) {
-    const report::Device& d = run.device;
+    const capture::DeviceInfo& d = run.device;
     std::string text =
         std::string(kExpectationsFirstLine) + "\n# device: " + escaped(one_line(d.name), "*?[]\\");
     if (!d.driver_name.empty()) {

@@ -137,7 +137,7 @@ SeenPictures new_pictures(const report::Run& run, const std::filesystem::path& p
     return seen;
 }
 
-bool fits(const SeenPictures& seen, const report::Device& device) {
+bool fits(const SeenPictures& seen, const capture::DeviceInfo& device) {
     return ::fnmatch(seen.device_glob.c_str(), device.name.c_str(), 0) == 0;
 }
 
@@ -151,7 +151,7 @@ void add_pictures(SeenPictures& seen, const report::Run& run) {
 }
 
 bool tell_pictures(std::map<std::string, ExpectationLine>& expected,
-                   const std::vector<SeenPictures>& files, const report::Device& device,
+                   const std::vector<SeenPictures>& files, const capture::DeviceInfo& device,
                    bool is_strict) {
     bool is_any = false;
     for (const SeenPictures& file : files) {

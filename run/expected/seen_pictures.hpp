@@ -39,14 +39,14 @@ std::string to_text(const SeenPictures& seen);
 
 // A file without pictures for the device of a run.
 SeenPictures new_pictures(const report::Run& run, const std::filesystem::path& path);
-bool fits(const SeenPictures& seen, const report::Device& device);
+bool fits(const SeenPictures& seen, const capture::DeviceInfo& device);
 // Adds the pictures of a run's failures, known or not.
 void add_pictures(SeenPictures& seen, const report::Run& run);
 
 // Tells the expectations which pictures of their cases were seen, by the files that fit the device;
 // false: none does, so that nothing is known. `is_strict`: a picture that nobody has seen is news.
 bool tell_pictures(std::map<std::string, ExpectationLine>& expected,
-                   const std::vector<SeenPictures>& files, const report::Device& device,
+                   const std::vector<SeenPictures>& files, const capture::DeviceInfo& device,
                    bool is_strict);
 
 }  // namespace run

@@ -14,8 +14,8 @@
 
 namespace run {
 
-using vk_harness::DeviceInfo;
-using vk_harness::Rendered;
+using capture::DeviceInfo;
+using capture::Rendered;
 
 namespace {
 
@@ -26,7 +26,7 @@ class VulkanBackend : public Backend {
     std::string lacking(const cases::Case& c) const override { return renderer_.lacking(c); }
     std::vector<Rendered> render(const std::vector<cases::Case>& batch,
                                  const std::function<void(std::string_view)>& step,
-                                 const vk_harness::PlaneStore& store) override {
+                                 const capture::PlaneStore& store) override {
         return renderer_.render(batch, step, store);
     }
 
@@ -35,7 +35,7 @@ class VulkanBackend : public Backend {
 };
 
 // Moves the planes of a capture to where the store wants them, if anywhere.
-void move_planes(Rendered& rendered, const vk_harness::PlaneStore& store, size_t slot) {
+void move_planes(Rendered& rendered, const capture::PlaneStore& store, size_t slot) {
     if (!store) {
         return;
     }
@@ -64,7 +64,7 @@ class ReferenceBackend : public Backend {
         device_.name = "Edgecase reference";
         device_.driver_name = "built in";
         device_.uuid = std::string(32, '0');
-        device_.device_type = "cpu";
+        device_.type = "cpu";
         device_.subpixel_bits = 8;
         device_.viewport_subpixel_bits = 8;
         device_.interpolation_offset_bits = 4;
@@ -92,7 +92,7 @@ class ReferenceBackend : public Backend {
     }
     std::vector<Rendered> render(const std::vector<cases::Case>& batch,
                                  const std::function<void(std::string_view)>& step,
-                                 const vk_harness::PlaneStore& store) override {
+                                 const capture::PlaneStore& store) override {
         step("submit");
         std::vector<Rendered> results(batch.size());
         for (size_t k = 0; k < batch.size(); ++k) {
@@ -124,22 +124,21 @@ class ReferenceBackend : public Backend {
 
 }  // namespace
 
-vk_harness::Result<std::unique_ptr<Backend>> make_backend(const WorkerOptions& options) {
-    if (!options.renderer.empty()) {
+capture::Result<std::unique_ptr<Backend>> make_backend(const WorkerOptions& options) {
+    if (!options.renderer.name.empty()) {
         std::optional<software::Device> software;
-        std::string_view words = options.renderer;
+        std::string_view words = options.renderer.name;
         if (words.starts_with(kSoftware)) {
             words.remove_prefix(std::min(words.size(), kSoftware.size() + 1));  // and a ':'
             software.emplace();
             if (const std::string wrong = software::set_choices(*software, words); !wrong.empty()) {
-                return tl::unexpected(vk_harness::Failure{vk_harness::Stage::device, 0, wrong, {}});
+                return tl::unexpected(capture::Failure{capture::Stage::device, wrong, {}, {}});
             }
         }
-        return std::make_unique<ReferenceBackend>(rasterizers::find_device(options.renderer),
+        return std::make_unique<ReferenceBackend>(rasterizers::find_device(options.renderer.name),
                                                   software);
     }
-    vk_harness::Result<vk_harness::Renderer> renderer =
-        vk_harness::Renderer::create(options.vulkan);
+    capture::Result<vk_harness::Renderer> renderer = vk_harness::Renderer::create(options.renderer);
     if (!renderer) {
         return tl::unexpected(renderer.error());
     }

@@ -19,18 +19,18 @@ namespace run {
 class Backend {
   public:
     virtual ~Backend() = default;
-    virtual const vk_harness::DeviceInfo& device() const = 0;
+    virtual const capture::DeviceInfo& device() const = 0;
     // Why a case cannot be drawn, one sentence; empty if it can.
     virtual std::string lacking(const cases::Case& c) const = 0;
-    virtual std::vector<vk_harness::Rendered> render(
-        const std::vector<cases::Case>& batch, const std::function<void(std::string_view)>& step,
-        const vk_harness::PlaneStore& store) = 0;
+    virtual std::vector<capture::Rendered> render(const std::vector<cases::Case>& batch,
+                                                  const std::function<void(std::string_view)>& step,
+                                                  const capture::PlaneStore& store) = 0;
 };
 
 // The renderer "software" is the software rasterizer; choices of it may follow:
 // "software:ties=top-right,fused=yes".
 inline constexpr std::string_view kSoftware = "software";
 
-vk_harness::Result<std::unique_ptr<Backend>> make_backend(const WorkerOptions& options);
+capture::Result<std::unique_ptr<Backend>> make_backend(const WorkerOptions& options);
 
 }  // namespace run

@@ -17,7 +17,7 @@
 
 namespace run {
 
-using vk_harness::Rendered;
+using capture::Rendered;
 
 namespace {
 
@@ -30,7 +30,7 @@ struct Origin {
 // What of a picture that has other bits than the plain one is wrong by itself, at profile vulkan;
 // empty if nothing is. With `plain`, only rules count that the plain picture does not break itself.
 std::string wrong_at_vulkan(const cases::Case& filed, const Rendered& drawn,
-                            const vk_harness::DeviceInfo& device, const Rendered* plain) {
+                            const capture::DeviceInfo& device, const Rendered* plain) {
     try {
         const ref::Limits limits = limits_of(device);
         const std::optional<cases::Case> placed = ref::as_drawn(filed, limits);
@@ -75,7 +75,7 @@ std::string wrong_at_vulkan(const cases::Case& filed, const Rendered& drawn,
 // What other bits through a door amount to: what of the picture is wrong, or that nothing is to be
 // said of them.
 void judge_door(const cases::Case& c, const Rendered& plain, const Rendered& drawn,
-                const vk_harness::DeviceInfo& device, cases::DoorPromise promise,
+                const capture::DeviceInfo& device, cases::DoorPromise promise,
                 diff::Consistency& found) {
     if (promise == cases::DoorPromise::same_bits) {
         return;
@@ -97,22 +97,11 @@ struct Round {
 
 }  // namespace
 
-capture::CaptureView view_of(const Rendered& rendered) {
-    const capture::Capture& c = rendered.capture;
-    if (rendered.placed.empty()) {
-        return c;
-    }
-    capture::CaptureView view =
-        capture::view_planes(c.target, c.has_primitive, c.attribute_count, rendered.placed.data());
-    view.counted = c.counted;
-    return view;
-}
-
-ref::Limits limits_of(const vk_harness::DeviceInfo& device) {
-    ref::Limits limits;
+ref::Limits limits_of(const capture::DeviceInfo& device) {
     // Vulkan requires 4 bits of all three. What a device with more than the reference knows is not
     // judged by stands in vk_harness/draw_check.cpp.
-    limits.subpixel_bits = static_cast<int>(cases::judged_subpixel_bits(device.subpixel_bits));
+    ref::Limits limits =
+        ref::limits_of(device.subpixel_bits, device.sample_locations, device.depth_beside_stencil);
     // A device that rasterizes a sample only at the centre may have 0 bits, and asks for no offset.
     // The steps of 64 bits are below the rounding of any offset and any level.
     limits.interpolation_offset_bits =
@@ -124,14 +113,12 @@ ref::Limits limits_of(const vk_harness::DeviceInfo& device) {
     limits.overestimation = device.overestimation;
     limits.overestimation_step = device.overestimation_step;
     limits.rasterizes_degenerates = device.rasterizes_degenerates;
-    limits.sample_locations = device.sample_locations;
-    limits.beside_stencil = ref::depth_beside_stencil(device.depth_beside_stencil);
     return limits;
 }
 
 std::vector<RenderedCase> render_with_derived(
     Backend& backend, const std::vector<cases::Case>& batch,
-    const std::function<void(std::string_view)>& step, const vk_harness::PlaneStore& store,
+    const std::function<void(std::string_view)>& step, const capture::PlaneStore& store,
     const std::function<void(size_t, Rendered&)>& damage) {
     std::vector<std::vector<cases::Derivation>> derivations;
     Round beside;

@@ -16,7 +16,7 @@ namespace run {
 
 // A case's own rendering, and what its derived ones differ in, one result a derivation.
 struct RenderedCase {
-    vk_harness::Rendered rendered;
+    capture::Rendered rendered;
     std::vector<diff::Consistency> consistency;
 };
 
@@ -26,13 +26,10 @@ struct RenderedCase {
 // change a derived capture of the case with that number before it is compared.
 std::vector<RenderedCase> render_with_derived(
     Backend& backend, const std::vector<cases::Case>& batch,
-    const std::function<void(std::string_view)>& step, const vk_harness::PlaneStore& store,
-    const std::function<void(size_t, vk_harness::Rendered&)>& damage = {});
+    const std::function<void(std::string_view)>& step, const capture::PlaneStore& store,
+    const std::function<void(size_t, capture::Rendered&)>& damage = {});
 
 // What the reference has to know of a device.
-ref::Limits limits_of(const vk_harness::DeviceInfo& device);
-
-// The capture of a drawn case, wherever its planes lie.
-capture::CaptureView view_of(const vk_harness::Rendered& rendered);
+ref::Limits limits_of(const capture::DeviceInfo& device);
 
 }  // namespace run

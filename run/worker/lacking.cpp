@@ -48,9 +48,9 @@ cases::Expected<std::vector<std::string>> ask_what_is_lacking(
             return cases::failure("interrupted");
         }
         for (const WorkerEvent& event : events) {
-            if (std::get_if<vk_harness::DeviceInfo>(&event) != nullptr) {
+            if (std::get_if<capture::DeviceInfo>(&event) != nullptr) {
                 client->render(1, all, 0);
-            } else if (const auto* failure = std::get_if<vk_harness::Failure>(&event)) {
+            } else if (const auto* failure = std::get_if<capture::Failure>(&event)) {
                 return cases::failure("{}", failure->message);
             } else if (const auto* result = std::get_if<CaseResult>(&event);
                        result != nullptr && result->index < reasons.size()) {

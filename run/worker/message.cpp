@@ -10,9 +10,9 @@
 
 namespace run {
 
+using capture::Rendered;
 using cases::wire::Reader;
 using cases::wire::Writer;
-using vk_harness::Rendered;
 
 std::string encode_request(uint32_t attempt, const Room& room,
                            const std::vector<const cases::Case*>& cases) {

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "capture/checksum.hpp"
+#include "capture/renderer.hpp"
 #include "cases/model/case.hpp"
 #include "cases/wire/bytes.hpp"
 #include "diff/consistency.hpp"
-#include "vk_harness/public/harness.hpp"
 
 namespace run {
 
@@ -36,15 +36,11 @@ std::optional<T> decode(std::string_view bytes) {
 
 // How a worker is to render.
 struct WorkerOptions {
-    vk_harness::Options vulkan;
-    // No driver if not empty: "reference" draws what the reference expects (tests of the runner),
-    // other names are devices of rasterizers/algorithms.
-    std::string renderer;
+    capture::RendererOptions renderer;
     // Batches are not drawn: each case is answered with what the device lacks for it (unsupported,
     // and why), or as an error without a reason where it lacks nothing.
     bool only_asks = false;
     static void fields(auto&& visit, auto&... o) {
-        visit("vulkan", o.vulkan...);
         visit("renderer", o.renderer...);
         visit("only_asks", o.only_asks...);
     }
@@ -68,7 +64,7 @@ std::optional<RenderRequest> decode_request(std::string_view bytes);
 // sizes do not fit the target.
 struct CaseResult {
     uint32_t index = 0;  // in the batch
-    vk_harness::Rendered rendered;
+    capture::Rendered rendered;
     // Set if the planes lie in shared memory: where, and capture::capture_bits() of them when they
     // were written. The message is worth nothing if the bits are others when it arrives.
     bool is_shared = false;

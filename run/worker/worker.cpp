@@ -31,7 +31,7 @@ namespace run {
 
 namespace {
 
-using vk_harness::Rendered;
+using capture::Rendered;
 
 void send(FrameType type, std::string_view payload) {
     if (!write_all(kResultFd, encode_frame(type, payload))) {
@@ -263,8 +263,8 @@ void answer_what_is_lacking(const Backend& backend, const RenderRequest& request
 }
 
 void answer_list_devices(const WorkerOptions& options) {
-    const vk_harness::Result<std::vector<vk_harness::DeviceInfo>> devices =
-        vk_harness::list_devices(options.vulkan);
+    const capture::Result<std::vector<capture::DeviceInfo>> devices =
+        vk_harness::list_devices(options.renderer);
     if (devices) {
         send(FrameType::devices, encode(*devices));
     } else {
@@ -285,7 +285,7 @@ int run_worker() {
     const cases::Expected<std::vector<Fault>> faults = parse_faults(list != nullptr ? list : "");
     if (!faults) {
         send(FrameType::no_device,
-             encode(vk_harness::Failure{vk_harness::Stage::loader, 0, faults.error().message, {}}));
+             encode(capture::Failure{capture::Stage::loader, faults.error().message, {}, {}}));
         return report::kExitUsage;
     }
     if (has_fault(*faults, FaultKind::segv_at_start, "")) {
@@ -313,10 +313,10 @@ int run_worker() {
         } else if (frame->type == FrameType::list_devices) {
             answer_list_devices(options);
         } else if (frame->type == FrameType::hello) {
-            vk_harness::Result<std::unique_ptr<Backend>> made = make_backend(options);
+            capture::Result<std::unique_ptr<Backend>> made = make_backend(options);
             if (has_fault(*faults, FaultKind::no_device, "")) {
-                made = tl::unexpected(vk_harness::Failure{
-                    vk_harness::Stage::device, 0, "no device, on purpose (EDGECASE_FAULT)", {}});
+                made = tl::unexpected(capture::Failure{
+                    capture::Stage::device, "no device, on purpose (EDGECASE_FAULT)", {}, {}});
             }
             if (!made) {
                 send(FrameType::no_device, encode(made.error()));

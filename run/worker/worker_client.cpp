@@ -186,7 +186,7 @@ std::optional<Clock::time_point> WorkerClient::deadline() const {
 }
 
 bool WorkerClient::find_planes(CaseResult& result) const {
-    if (result.rendered.status != vk_harness::Rendered::Status::drawn) {
+    if (result.rendered.status != capture::Rendered::Status::drawn) {
         return !result.is_shared;
     }
     capture::Capture& c = result.rendered.capture;
@@ -231,14 +231,14 @@ bool WorkerClient::handle(const Frame& frame, std::vector<WorkerEvent>& events) 
             step_ = frame.payload;
             break;
         case FrameType::hello:
-            is_valid = add(decode<vk_harness::DeviceInfo>(frame.payload));
+            is_valid = add(decode<capture::DeviceInfo>(frame.payload));
             break;
         case FrameType::no_device:
             read_output();  // what a driver or a layer printed before may say why
-            is_valid = add(decode<vk_harness::Failure>(frame.payload));
+            is_valid = add(decode<capture::Failure>(frame.payload));
             break;
         case FrameType::devices:
-            is_valid = add(decode<std::vector<vk_harness::DeviceInfo>>(frame.payload));
+            is_valid = add(decode<std::vector<capture::DeviceInfo>>(frame.payload));
             break;
         case FrameType::result: {
             std::optional<CaseResult> result = decode_result(frame.payload);

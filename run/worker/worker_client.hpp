@@ -34,8 +34,8 @@ struct Death {
 std::string describe(const Death& death);
 
 struct BatchDone {};
-using WorkerEvent = std::variant<vk_harness::DeviceInfo, vk_harness::Failure,
-                                 std::vector<vk_harness::DeviceInfo>, CaseResult, BatchDone, Death>;
+using WorkerEvent = std::variant<capture::DeviceInfo, capture::Failure,
+                                 std::vector<capture::DeviceInfo>, CaseResult, BatchDone, Death>;
 
 class WorkerClient {
   public:

@@ -23,7 +23,7 @@
 
 namespace {
 
-using software::FaultInfo;
+using cases::FaultRow;
 using software::Kill;
 using software::Matrix;
 
@@ -41,22 +41,16 @@ class Sources {
         for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
             const std::string name = entry.path().filename().string();
             const std::filesystem::path extension = entry.path().extension();
-            if ((extension == ".cpp" || extension == ".hpp") && !name.starts_with("fault")) {
+            if (extension == ".cpp" || extension == ".hpp") {
                 texts_[name] = contents(entry.path());
             }
         }
     }
-    std::string of(const FaultInfo& info) const {
+    std::string of(const FaultRow& info) const {
         std::string out;
         for (const auto& [name, text] : texts_) {
-            const std::string word = fmt::format("Fault::{}", info.name);
-            for (size_t at = text.find(word); at != std::string::npos;
-                 at = text.find(word, at + 1)) {
-                const char next = text[at + word.size()];
-                if (std::isalnum(static_cast<unsigned char>(next)) == 0 && next != '_') {
-                    out += fmt::format("{}`{}`", out.empty() ? "" : " ", name);
-                    break;
-                }
+            if (text.find(fmt::format("\"{}\"_fault", info.name)) != std::string::npos) {
+                out += fmt::format("{}`{}`", out.empty() ? "" : " ", name);
             }
         }
         return out;
@@ -87,7 +81,7 @@ bool print_faults(const Matrix& matrix, const Sources& sources) {
     bool is_complete = true;
     std::string table;
     size_t found = 0, count = 0;
-    for (const FaultInfo& info : software::all_faults()) {
+    for (const FaultRow& info : cases::kFaults) {
         const std::vector<Kill> kills = software::kills_of(matrix, info.fault);
         const std::string where = sources.of(info);
         if (kills.size() < 2 || where.empty()) {
@@ -104,12 +98,12 @@ bool print_faults(const Matrix& matrix, const Sources& sources) {
         found += is_found ? 1 : 0;
         ++count;
         table += fmt::format("| `{}` | {} | {} | {} | {}`{}` | {} | {} | {} |\n", info.name,
-                             info.change, where, code_words(info.rules), is_found ? "" : "! ", top,
-                             cases::to_string(software::loosest(kills)), kills.size(), cases);
+                             info.sentence, where, code_words(info.rules), is_found ? "" : "! ",
+                             top, cases::to_string(software::loosest(kills)), kills.size(), cases);
     }
     const auto count_of = [&](auto&& is_counted) {
-        return std::count_if(software::all_faults().begin(), software::all_faults().end(),
-                             [&](const FaultInfo& info) {
+        return std::count_if(cases::kFaults.begin(), cases::kFaults.end(),
+                             [&](const FaultRow& info) {
                                  return is_counted(software::kills_of(matrix, info.fault).size());
                              });
     };
@@ -172,7 +166,7 @@ void print_families(const Matrix& matrix) {
         std::vector<std::string> needed;  // one of two that catch it at all
     };
     std::map<std::string, Family> families;
-    for (const FaultInfo& info : software::all_faults()) {
+    for (const FaultRow& info : cases::kFaults) {
         const std::vector<Kill> kills = software::kills_of(matrix, info.fault);
         const cases::Profile level = software::loosest(kills);
         const auto at_level = std::count_if(kills.begin(), kills.end(),

@@ -101,7 +101,7 @@ class Driver(ProgramTest):
         done = self.run_driver("--no-expect", *families, check=1)
         self.assertEqual(re.findall(r"^diagnosis: (.*)$", done.stdout, re.M), list(told))
         results = self.results()
-        self.assertEqual([d["names"] for d in results["diagnoses"]], [["one_over_w_cached"], ["scissor_half_early"]])
+        self.assertEqual([d["names"] for d in results["diagnoses"]], [["one-over-w-cached"], ["scissor-half-early"]])
         jsonschema.Draft7Validator(schema("results-1")).validate(results)
         for name in ("report.html", "results.json"):
             self.assertIn(told[0], (self.out / name).read_text())

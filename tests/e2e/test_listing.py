@@ -266,15 +266,15 @@ class Listing(ProgramTest):
         self.assertIn("name the cases", self.edgecase("lint", "--strength", check=2).stderr)
         told = self.edgecase("lint", "--strength", "fam/c3", check=0).stdout
         self.assertRegex(told, r"(?m)^\S+/c3\.toml catches \d+ of \d+ known faults$")
-        self.assertRegex(told, r"    draws_nothing: Nothing is drawn\.\n        cover\.inside \[vulkan\]; \d+ other families")
-        self.assertIn("    ties_right_too: ", told)  # the diagonal runs through samples
+        self.assertRegex(told, r"    draws-nothing: Nothing is drawn\.\n        cover\.inside \[vulkan\]; \d+ other families")
+        self.assertIn("    ties-right-too: ", told)  # the diagonal runs through samples
         counts = [int(n) for n in re.findall(r"; (\d+) other famil", told)]
         self.assertEqual(counts, sorted(counts))
         self.write_case("fam/c3", re.sub("vertices = .*", "vertices = [[1.25,1], [7.25,1], [1.25,7.25]]",
                                        CASE.format(n=3).replace(', "cover.shared-edge"', "")))
         told = self.edgecase("lint", "--strength", "fam/c3", check=0).stdout
-        self.assertIn("    draws_nothing: ", told)
-        self.assertNotIn("ties_right_too", told)  # no sample lies on an edge
+        self.assertIn("    draws-nothing: ", told)
+        self.assertNotIn("ties-right-too", told)  # no sample lies on an edge
 
     def test_strength_is_told_of_files_beside_one_with_an_error(self):
         good = (self.suite / "fam/c3.toml").read_text()

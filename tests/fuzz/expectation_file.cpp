@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
             fuzz::require(!file.error().empty());
             continue;
         }
-        report::Device device;
+        capture::DeviceInfo device;
         device.name = "llvmpipe (LLVM 15.0.6, 256 bits)";
         device.driver_info = "Mesa 22.3.6 (LLVM 15.0.6)";
         (void)run::mismatch(*file, device, cases::Profile::vulkan);

@@ -81,7 +81,7 @@ void draw(std::span<const Numbered> chunk, const std::string& fault, const fs::p
     ::setenv("EDGECASE_BREAK", fault.c_str(), 1);
     ::setenv("EDGECASE_BREAK_COUNT", count.empty() ? "/dev/null" : count.c_str(), 1);
     run::WorkerOptions options;
-    options.vulkan.device = "llvmpipe";
+    options.renderer.device = "llvmpipe";
     auto backend = run::make_backend(options);
     if (!backend) {
         give_up(backend.error().message);
@@ -122,15 +122,15 @@ uint64_t bits_of(const run::RenderedCase& drawn) {
     result.rendered.stray_writes = drawn.rendered.stray_writes;
     result.consistency = drawn.consistency;
     const std::string findings = run::encode_findings(result) + drawn.rendered.reason;
-    return drawn.rendered.status == vk_harness::Rendered::Status::drawn
-               ? cases::checksum(capture::capture_bits(run::view_of(drawn.rendered)), findings)
+    return drawn.rendered.status == capture::Rendered::Status::drawn
+               ? cases::checksum(capture::capture_bits(capture::view_of(drawn.rendered)), findings)
                : cases::checksum(0, findings);
 }
 
 report::CaseRecord judged(const Numbered& one, const run::RenderedCase& drawn,
                           const ref::Limits& limits) {
     report::CaseRecord record = run::make_record(one.data);
-    run::judge(record, one.data, run::view_of(drawn.rendered),
+    run::judge(record, one.data, capture::view_of(drawn.rendered),
                {drawn.consistency, drawn.rendered.stray_writes}, limits, cases::Profile::direct3d,
                run::KeepPictures::none);
     return record;
@@ -139,13 +139,13 @@ report::CaseRecord judged(const Numbered& one, const run::RenderedCase& drawn,
 std::set<std::string> symptoms_of(const Numbered& one, const run::RenderedCase& drawn,
                                   const ref::Limits& limits) {
     std::set<std::string> texts;
-    if (drawn.rendered.status == vk_harness::Rendered::Status::error) {
+    if (drawn.rendered.status == capture::Rendered::Status::error) {
         // A call that fails: a hunt tells it as a case that is not judged. What the call was given
         // may be another number without the fault, and is nothing that shows it.
         const std::string& reason = drawn.rendered.reason;
         return {"not judged: " + reason.substr(0, reason.find(" for "))};
     }
-    if (drawn.rendered.status != vk_harness::Rendered::Status::drawn) {
+    if (drawn.rendered.status != capture::Rendered::Status::drawn) {
         return texts;
     }
     const report::CaseRecord record = judged(one, drawn, limits);
@@ -380,7 +380,7 @@ std::vector<std::string> layer_faults() {
 }
 
 void count_cases(const Plan& plan, const std::function<void(const PoseCounts&)>& tell) {
-    using Status = vk_harness::Rendered::Status;
+    using Status = capture::Rendered::Status;
     Sequence sequence(plan.seed, plan.first, plan.cases);
     while (sequence.next_case() < plan.cases) {
         const std::vector<Numbered> chunk = sequence.next(1);

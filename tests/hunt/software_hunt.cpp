@@ -8,11 +8,11 @@
 #include <mutex>
 
 #include "cases/base/parallel.hpp"
+#include "cases/fault/fault.hpp"
 #include "fuzz/cause.hpp"
 #include "fuzz/entry.hpp"
 #include "hunt/hunt.hpp"
 #include "hunt/sequence.hpp"
-#include "rasterizers/software/choice/fault.hpp"
 #include "rasterizers/strength/strength.hpp"
 #include "run/judge.hpp"
 
@@ -35,15 +35,15 @@ report::CaseRecord judged(const cases::Case& c, const software::Device& device) 
 
 std::vector<std::string> software_faults() {
     std::vector<std::string> names;
-    for (const software::FaultInfo& info : software::all_faults()) {
+    for (const cases::FaultRow& info : cases::kFaults) {
         names.emplace_back(info.name);
     }
     return names;
 }
 
 void hunt_software(const Plan& plan, const OnFind& tell) {
-    std::map<software::Fault, Find> finds;
-    for (const software::FaultInfo& info : software::all_faults()) {
+    std::map<cases::Fault, Find> finds;
+    for (const cases::FaultRow& info : cases::kFaults) {
         if (std::find(plan.faults.begin(), plan.faults.end(), info.name) != plan.faults.end()) {
             finds[info.fault].fault = info.name;
         }
@@ -58,7 +58,7 @@ void hunt_software(const Plan& plan, const OnFind& tell) {
         cases::for_each_index(chunk.size(), [&](size_t k) {
             const uint64_t number = chunk[k].number;
             const cases::Case& data = chunk[k].data;
-            std::vector<software::Fault> open;
+            std::vector<cases::Fault> open;
             {
                 const std::lock_guard lock(mutex);
                 for (const auto& [fault, find] : finds) {
@@ -68,7 +68,7 @@ void hunt_software(const Plan& plan, const OnFind& tell) {
                 }
             }
             const auto alarm =
-                software::try_faults(data, open, [&](software::Fault fault, const auto&) {
+                software::try_faults(data, open, [&](cases::Fault fault, const auto&) {
                     software::Device device;
                     device.fault = fault;
                     const report::CaseRecord record = judged(data, device);

@@ -77,9 +77,9 @@ TEST(Device, Layers) {
         }
         return counts;
     };
-    EXPECT_EQ(hits_by_layer(Fault::none), (std::array<int, 3>{0, 0, 136}));
-    EXPECT_EQ(hits_by_layer(Fault::layer_ignored), (std::array<int, 3>{136, 0, 0}));
-    EXPECT_EQ(hits_by_layer(Fault::all_layers_written), (std::array<int, 3>{136, 136, 136}));
+    EXPECT_EQ(hits_by_layer(cases::kNoFault), (std::array<int, 3>{0, 0, 136}));
+    EXPECT_EQ(hits_by_layer("layer-ignored"_fault), (std::array<int, 3>{136, 0, 0}));
+    EXPECT_EQ(hits_by_layer("all-layers-written"_fault), (std::array<int, 3>{136, 136, 136}));
 }
 
 TEST(Device, SlopeThroughCentres) {

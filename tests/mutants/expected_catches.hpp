@@ -7,13 +7,12 @@
 
 #include "cases/model/profile.hpp"
 #include "mutants/software.hpp"
-#include "rasterizers/software/choice/fault.hpp"
 
 namespace mutants {
 
 // Which cases must notice a fault.
 struct ExpectedCatch {
-    Fault fault = Fault::none;
+    Fault fault = kNoFault;
     cases::Profile profile = cases::Profile::direct3d;  // the loosest at which they must
     std::vector<std::string_view> cases;  // ids; without a matrix part: some leaf of the file
 };

@@ -30,7 +30,7 @@ std::string top_rule(const std::vector<Kill>& kills) {
     return causes.empty() ? "" : causes.front().rule;
 }
 
-bool is_broken(const FaultInfo& info, std::string_view rule) {
+bool is_broken(const FaultRow& info, std::string_view rule) {
     std::istringstream rules{std::string(info.rules)};
     return std::find(std::istream_iterator<std::string>(rules), {}, rule) !=
            std::istream_iterator<std::string>();

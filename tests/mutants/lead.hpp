@@ -15,7 +15,7 @@ namespace mutants {
 
 // The rule of the first cause that a report of the fault's failures tells (report/text/causes.hpp).
 std::string top_rule(const std::vector<Kill>& kills);
-// True if the fault breaks it (FaultInfo::rules).
-bool is_broken(const FaultInfo& info, std::string_view rule);
+// True if the fault breaks it (FaultRow::rules).
+bool is_broken(const FaultRow& info, std::string_view rule);
 
 }  // namespace mutants

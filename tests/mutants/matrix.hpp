@@ -14,13 +14,12 @@
 #include "cases/model/case.hpp"
 #include "cases/model/profile.hpp"
 #include "mutants/software.hpp"
-#include "rasterizers/software/choice/fault.hpp"
 
 namespace mutants {
 
 // What is known of one fault after some cases.
 struct MatrixRow {
-    Fault fault = Fault::none;
+    Fault fault = kNoFault;
     cases::Profile loosest = cases::Profile::direct3d;   // of all findings; meaningful if caught
     std::map<std::string, std::set<std::string>> files;  // case files that caught it, by family
     std::map<std::string, std::string> first_rule;       // of the first finding, by case file

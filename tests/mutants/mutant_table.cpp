@@ -34,7 +34,7 @@ std::vector<size_t> leaves_of(const std::vector<cases::Case>& suite) {
 void print_faults(const std::vector<cases::Case>& suite, const std::set<std::string>& wanted,
                   bool with_cases, bool all) {
     std::vector<mutants::MatrixRow> rows;
-    for (const auto& info : mutants::all_faults()) {
+    for (const auto& info : cases::kFaults) {
         if (wanted.empty() || wanted.count(std::string(info.name)) > 0) {
             mutants::MatrixRow row;
             row.fault = info.fault;
@@ -55,7 +55,7 @@ void print_faults(const std::vector<cases::Case>& suite, const std::set<std::str
         for (const auto& [name, files] : row.files) {
             families += fmt::format("{}{} {}", families.empty() ? "" : ", ", name, files.size());
         }
-        fmt::print("{:<30}{:>6} {:>6}  {:<9} {}\n", mutants::to_string(row.fault), row.leaves(),
+        fmt::print("{:<30}{:>6} {:>6}  {:<9} {}\n", cases::to_string(row.fault), row.leaves(),
                    row.file_count(), row.leaves() > 0 ? cases::to_string(row.loosest) : "-",
                    families);
         if (with_cases) {

@@ -31,7 +31,7 @@ namespace mutants {
 void PrintTo(const LegalDevice& device, std::ostream* out) {
     *out << device.name;
 }
-void PrintTo(const FaultInfo& info, std::ostream* out) {
+void PrintTo(const FaultRow& info, std::ostream* out) {
     *out << info.name;
 }
 
@@ -96,7 +96,7 @@ bool is_every_leaf_asked() {
 // file, and of every 32nd of the others.
 TEST(Suite, NothingDrawnFailsEveryCase) {
     Device device;
-    device.fault = Fault::draws_nothing;
+    device.fault = "draws-nothing"_fault;
     const auto passed = wrong_cases(
         device, cases::Profile::vulkan,
         [](size_t k, const cases::Case& c) {
@@ -168,7 +168,7 @@ TEST(Mutants, EveryNamedCaseExists) {
 }
 
 TEST(Mutants, EveryFaultHasItsCases) {
-    for (const FaultInfo& info : all_faults()) {
+    for (const FaultRow& info : cases::kFaults) {
         const auto rows = expected_catches();
         const auto row = std::find_if(rows.begin(), rows.end(), [&](const ExpectedCatch& r) {
             return r.fault == info.fault;
@@ -179,8 +179,8 @@ TEST(Mutants, EveryFaultHasItsCases) {
 }
 
 TEST(Mutants, EveryFaultSaysWhatItBreaks) {
-    for (const FaultInfo& info : all_faults()) {
-        EXPECT_TRUE(info.change.ends_with('.')) << info.name;
+    for (const FaultRow& info : cases::kFaults) {
+        EXPECT_TRUE(info.sentence.ends_with('.')) << info.name;
         std::istringstream words{std::string(info.rules)};
         size_t rules = 0;
         for (std::string rule; words >> rule; ++rules) {
@@ -200,7 +200,7 @@ std::vector<Kill> examples(Fault fault) {
 }
 
 TEST(Recorded, EveryFaultIsCaughtByTwoFamilies) {
-    for (const FaultInfo& info : all_faults()) {
+    for (const FaultRow& info : cases::kFaults) {
         std::set<std::string> families;
         for (const Kill& kill : kills_of(recorded(), info.fault)) {
             families.insert(kill.family);
@@ -225,7 +225,7 @@ TEST(Recorded, EveryFaultIsCaughtByAFirstOrLastLeaf) {
             quick.insert(all[k].id);
         }
     }
-    for (const FaultInfo& info : all_faults()) {
+    for (const FaultRow& info : cases::kFaults) {
         const std::vector<Kill> kills = kills_of(recorded(), info.fault);
         EXPECT_TRUE(std::any_of(kills.begin(), kills.end(), [&](const Kill& kill) {
             return quick.count(std::string(kill.leaf)) > 0;
@@ -259,7 +259,7 @@ TEST(Recorded, LevelsAreNoStricterThanExpected) {
 TEST(Recorded, TheFirstRuleIsABrokenOne) {
     size_t found = 0;
     std::string others;
-    for (const FaultInfo& info : all_faults()) {
+    for (const FaultRow& info : cases::kFaults) {
         const std::string rule = top_rule(kills_of(recorded(), info.fault));
         if (is_broken(info, rule)) {
             ++found;
@@ -267,9 +267,10 @@ TEST(Recorded, TheFirstRuleIsABrokenOne) {
             others += fmt::format("\n  {}: {}", info.name, rule);
         }
     }
-    EXPECT_GE(10 * found, 9 * all_faults().size()) << "misleading:" << others;
-    RecordProperty("percent", fmt::format("{:.1f}", 100.0 * static_cast<double>(found) /
-                                                        static_cast<double>(all_faults().size())));
+    EXPECT_GE(10 * found, 9 * cases::kFaults.size()) << "misleading:" << others;
+    RecordProperty("percent",
+                   fmt::format("{:.1f}", 100.0 * static_cast<double>(found) /
+                                             static_cast<double>(cases::kFaults.size())));
 }
 
 TEST(Recorded, EveryLegalDeviceHasNoFalseAlarm) {
@@ -291,7 +292,7 @@ bool is_in_share(std::string_view name) {
     return test_support::share_of(8, suite().cases.size(), "EDGECASE_MUTANT_SHARE").has(name);
 }
 
-class Mutant : public testing::TestWithParam<FaultInfo> {
+class Mutant : public testing::TestWithParam<FaultRow> {
   protected:
     Mutant() { device_.fault = GetParam().fault; }
     Device device_;
@@ -348,7 +349,7 @@ TEST_P(Mutant, IsCaughtByItsCases) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Faults, Mutant, testing::ValuesIn(all_faults()),
+INSTANTIATE_TEST_SUITE_P(Faults, Mutant, testing::ValuesIn(cases::kFaults),
                          [](const auto& fault) { return std::string(fault.param.name); });
 
 }  // namespace

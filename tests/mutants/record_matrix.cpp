@@ -75,7 +75,7 @@ std::string signature_of(const diff::Verdict& verdict) {
 // What is asked of whom.
 struct Plan {
     bool quick = false;
-    std::vector<mutants::Fault> faults;
+    std::vector<cases::Fault> faults;
 };
 
 constexpr size_t kQuickLeaves = 2;
@@ -84,40 +84,40 @@ constexpr size_t kQuickFiles = 2;
 // How many files of a family have caught a fault at the profile vulkan.
 class Tally {
   public:
-    void add(mutants::Fault fault, const std::string& family) {
+    void add(cases::Fault fault, const std::string& family) {
         const std::lock_guard lock(mutex_);
         ++files_[{fault, family}];
     }
-    bool is_enough(mutants::Fault fault, const std::string& family) {
+    bool is_enough(cases::Fault fault, const std::string& family) {
         const std::lock_guard lock(mutex_);
         return files_[{fault, family}] >= kQuickFiles;
     }
 
   private:
     std::mutex mutex_;
-    std::map<std::pair<mutants::Fault, std::string>, size_t> files_;
+    std::map<std::pair<cases::Fault, std::string>, size_t> files_;
 };
 
 // The lines of one file.
 std::string record_file(const std::vector<const cases::Case*>& leaves, const Plan& plan,
                         Tally& tally) {
     std::string lines;
-    std::set<mutants::Fault> settled;
+    std::set<cases::Fault> settled;
     const std::string family = mutants::family_of(*leaves.front());
     for (const cases::Case* leaf : leaves) {
         const ref::Expectation expectation = ref::expect(*leaf, {}, cases::Profile::direct3d);
-        const auto captured = [&](mutants::Fault fault) {
+        const auto captured = [&](cases::Fault fault) {
             mutants::Device device;
             device.fault = fault;
             return mutants::captured(*leaf, device);
         };
-        const capture::Capture right = captured(mutants::Fault::none);
+        const capture::Capture right = captured(cases::kNoFault);
         if (const diff::Verdict verdict = mutants::compare(*leaf, expectation, right);
             !verdict.ok()) {
             fmt::print(stderr, "false alarm: {}\n", mutants::describe(*leaf, verdict));
             continue;
         }
-        for (const mutants::Fault fault : plan.faults) {
+        for (const cases::Fault fault : plan.faults) {
             if (settled.count(fault) > 0 || !mutants::can_matter(fault, *leaf) ||
                 (plan.quick && tally.is_enough(fault, family))) {
                 continue;
@@ -134,7 +134,7 @@ std::string record_file(const std::vector<const cases::Case*>& leaves, const Pla
                 settled.insert(fault);
                 tally.add(fault, family);
             }
-            lines += fmt::format("catch\t{}\t{}\t{}\t{}\n", mutants::to_string(fault), leaf->id,
+            lines += fmt::format("catch\t{}\t{}\t{}\t{}\n", cases::to_string(fault), leaf->id,
                                  cost_of(*leaf), signature_of(verdict));
         }
     }
@@ -166,13 +166,13 @@ std::set<std::string> done_in(const char* log, std::string_view what) {
 }
 
 // Faults and the files that caught them at the profile vulkan, each pair once.
-std::set<std::pair<mutants::Fault, std::string>> caught_in(const char* log) {
-    std::set<std::pair<mutants::Fault, std::string>> out;
+std::set<std::pair<cases::Fault, std::string>> caught_in(const char* log) {
+    std::set<std::pair<cases::Fault, std::string>> out;
     for (const std::vector<std::string>& line : lines_of(log)) {
         if (line.size() < 5 || line[0] != "catch" || line[4].find("vulkan/") == std::string::npos) {
             continue;
         }
-        for (const mutants::FaultInfo& info : mutants::all_faults()) {
+        for (const cases::FaultRow& info : cases::kFaults) {
             if (info.name == line[1]) {
                 out.emplace(info.fault, line[2].substr(0, line[2].find(':')));
             }
@@ -211,7 +211,7 @@ void thin_out(std::vector<const cases::Case*>& leaves) {
 int record_faults(const cases::Suite& suite, const char* path, Plan plan) {
     const bool some_faults = !plan.faults.empty();
     if (!some_faults) {
-        for (const mutants::FaultInfo& info : mutants::all_faults()) {
+        for (const cases::FaultRow& info : cases::kFaults) {
             plan.faults.push_back(info.fault);
         }
     }
@@ -313,7 +313,7 @@ bool is_better(const Catch& a, const Catch& b) {
     return std::tuple(a.lead.level, a.cost, a.leaf) < std::tuple(b.lead.level, b.cost, b.leaf);
 }
 
-mutants::Kill kill_of(mutants::Fault fault, const std::string& family,
+mutants::Kill kill_of(cases::Fault fault, const std::string& family,
                       const std::map<std::string, Catch>& files) {
     mutants::Kill kill;
     kill.fault = fault;
@@ -363,7 +363,7 @@ int condense(const char* path, const std::filesystem::path& folder) {
             return 1;
         }
     }
-    for (const mutants::FaultInfo& info : mutants::all_faults()) {
+    for (const cases::FaultRow& info : cases::kFaults) {
         for (const auto& [family, files] : catches[std::string(info.name)]) {
             matrix.kills.push_back(kill_of(info.fault, family, files));
         }
@@ -389,7 +389,7 @@ int main(int argc, char** argv) {
                    "       record_matrix condense LOG FOLDER\n");
         return 2;
     }
-    for (const mutants::FaultInfo& info : mutants::all_faults()) {
+    for (const cases::FaultRow& info : cases::kFaults) {
         if (std::find(words.begin() + 2, words.end(), info.name) != words.end()) {
             plan.faults.push_back(info.fault);
         }

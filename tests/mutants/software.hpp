@@ -5,8 +5,12 @@
 // names alone.
 #pragma once
 
+#include "cases/fault/fault.hpp"
+#include "rasterizers/software/choice/device.hpp"
+
 namespace software {}
 
 namespace mutants {
 using namespace software;
+using cases::FaultRow;
 }  // namespace mutants

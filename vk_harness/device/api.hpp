@@ -18,6 +18,9 @@ namespace vk_harness {
 // The enumerator's name, or its number.
 std::string result_name(VkResult result);
 
+// "VkResult -4"; empty of VK_SUCCESS.
+std::string code_of(VkResult result);
+
 // A failure of one call: "vkCreateDevice failed with VK_ERROR_...".
 Failure call_failure(Stage stage, VkResult result, std::string_view call);
 
@@ -26,7 +29,7 @@ Failure call_failure(Stage stage, VkResult result, std::string_view call);
     throw std::move(failure);
 }
 [[noreturn]] inline void fail(Stage stage, std::string message, VkResult result = VK_SUCCESS) {
-    fail(Failure{stage, static_cast<int>(result), std::move(message), {}});
+    fail(Failure{stage, std::move(message), {}, code_of(result), result == VK_ERROR_DEVICE_LOST});
 }
 
 // Throws the failure of the call that returned `result`, unless it succeeded.

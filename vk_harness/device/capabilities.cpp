@@ -38,6 +38,16 @@ std::string failed_query(VkResult result) {
 
 namespace {
 
+// "1.3.230".
+std::string version_text(uint32_t version) {
+    std::string text = fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(version),
+                                   VK_API_VERSION_MINOR(version), VK_API_VERSION_PATCH(version));
+    if (const uint32_t variant = VK_API_VERSION_VARIANT(version); variant > 0) {
+        text += fmt::format(" (variant {})", variant);  // not Vulkan itself
+    }
+    return text;
+}
+
 std::string device_type_name(VkPhysicalDeviceType type) {
     constexpr std::array<const char*, 5> kNames = {"other", "integrated-gpu", "discrete-gpu",
                                                    "virtual-gpu", "cpu"};  // numbered by Vulkan
@@ -93,10 +103,12 @@ void query_properties(Capabilities& c, uint32_t index) {
     }
     info.vendor_id = first.vendorID;
     info.device_id = first.deviceID;
-    info.api_version = first.apiVersion;
+    c.api_version = first.apiVersion;
+    info.api_version = version_text(first.apiVersion);
     info.driver_version = first.driverVersion;
     info.driver_id = static_cast<uint32_t>(driver.driverID);
-    info.device_type = device_type_name(first.deviceType);
+    info.key = fmt::format("{}:{}", info.uuid, info.driver_id);  // drivers share a device's UUID
+    info.type = device_type_name(first.deviceType);
     c.limits = first.limits;
     info.subpixel_bits = c.limits.subPixelPrecisionBits;
     info.viewport_subpixel_bits = c.limits.viewportSubPixelBits;
@@ -151,7 +163,7 @@ void query_optional_features(Capabilities& c) {
     VkPhysicalDeviceFragmentShaderBarycentricFeaturesKHR barycentric =
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADER_BARYCENTRIC_FEATURES_KHR};
     VkPhysicalDeviceFeatures2 features = Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
-    if (c.info.api_version >= VK_API_VERSION_1_2) {
+    if (c.api_version >= VK_API_VERSION_1_2) {
         chain(features, features12);
     }
     // A structure may only be chained if the device has its extension.
@@ -169,7 +181,7 @@ void query_optional_features(Capabilities& c) {
     if (is_subset) {
         c.portability = portability_support(portability);
     }
-    c.info.wrong_limits = wrong_limits(c.limits, features.features, c.info.api_version, is_subset);
+    c.info.wrong_limits = wrong_limits(c.limits, features.features, c.api_version, is_subset);
     c.info.has_primitive_id = features.features.geometryShader == VK_TRUE;
     c.depth_clamp = features.features.depthClamp == VK_TRUE;
     c.depth_bias_clamp = features.features.depthBiasClamp == VK_TRUE;
@@ -192,7 +204,7 @@ void query_optional_features(Capabilities& c) {
     c.max_layers = std::min(c.limits.maxFramebufferLayers, c.limits.maxImageArrayLayers);
     c.doors = query_door_support(c.physical, has_device_extension);
     c.doors.geometry = c.info.has_primitive_id;  // the same feature
-    c.discard = query_discard_support(c.physical, c.info.api_version, has_device_extension);
+    c.discard = query_discard_support(c.physical, c.api_version, has_device_extension);
     c.clip = query_clip_support(c.physical, has_device_extension);
     c.doors.feedback = c.doors.feedback && c.clip.feedback_keeps_order;
     c.barycentrics = barycentric.fragmentShaderBarycentric == VK_TRUE;
@@ -256,7 +268,7 @@ void query_fragment_sizes(Capabilities& c) {
 
 void query_features(Capabilities& c) {
     std::vector<std::string>& missing = c.info.missing;
-    c.core = query_core_support(c.physical, c.info.api_version, has_device_extension);
+    c.core = query_core_support(c.physical, c.api_version, has_device_extension);
     missing.insert(missing.end(), c.core.missing.begin(), c.core.missing.end());
     if (c.core.missing.empty()) {
         c.info.has_dynamic_rendering = c.core.dynamic_rendering;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cases/model/case.hpp"
+#include "cases/model/sample.hpp"
 #include "vk_harness/device/clip_support.hpp"
 #include "vk_harness/device/core_support.hpp"
 #include "vk_harness/device/depth_bias_control.hpp"
@@ -48,6 +49,7 @@ struct FragmentSizeSupport {
 struct Capabilities {
     VkPhysicalDevice physical = VK_NULL_HANDLE;
     DeviceInfo info;
+    uint32_t api_version = 0;  // VkPhysicalDeviceProperties::apiVersion
     VkPhysicalDeviceLimits limits{};
     VkPhysicalDeviceMemoryProperties memory{};
     uint32_t queue_family = 0;
@@ -59,10 +61,11 @@ struct Capabilities {
     float location_range[2] = {0, 0};  // pixels
     // Sample counts with which kTwoNumbers, drawn to and read back, does what kColorFormat does.
     VkSampleCountFlags narrow_sample_counts = 0;
-    bool blends_wide = true;              // kColorFormat can be blended: counts hits
-    bool blends_narrow = true;            // kTwoNumbers, too
-    bool has_standard_locations = false;  // standardSampleLocations
-    bool has_sample_shading = false;      // sampleRateShading
+    bool blends_wide = true;                             // kColorFormat can be blended: counts hits
+    bool blends_narrow = true;                           // kTwoNumbers, too
+    bool has_standard_locations = false;                 // standardSampleLocations
+    std::vector<cases::SampleLocations> told_locations;  // without them: by gl_SamplePosition
+    bool has_sample_shading = false;                     // sampleRateShading
     // By cases::DepthFormat: sample counts that can be drawn and read back; 0 if the device has not
     // got the format.
     std::array<VkSampleCountFlags, 3> depth_sample_counts{VK_SAMPLE_COUNT_1_BIT};

@@ -37,8 +37,7 @@ bool names(const std::string& wanted, const DeviceInfo& info) {
 }  // namespace
 
 bool is_pinned(const Options& options, const DeviceInfo& info) {
-    return options.pinned_uuid.empty() ||
-           (info.uuid == options.pinned_uuid && info.driver_id == options.pinned_driver);
+    return options.pinned.empty() || info.key == options.pinned;
 }
 
 Capabilities choose_device(const Instance& instance, const Options& options) {
@@ -64,10 +63,10 @@ Capabilities choose_device(const Instance& instance, const Options& options) {
         failure.message =
             "no Vulkan device was found; install a driver (Debian: mesa-vulkan-drivers) or set "
             "VK_DRIVER_FILES";
-    } else if (!options.pinned_uuid.empty()) {
+    } else if (!options.pinned.empty()) {
         failure.message = fmt::format(
             "the device that the run began with (UUID {}) is not there any more, or cannot be used",
-            options.pinned_uuid);
+            options.pinned.substr(0, options.pinned.find(':')));
     } else if (options.device.empty()) {
         failure.message = "no Vulkan device can run the cases";
     } else {
@@ -122,7 +121,7 @@ Device Device::create(const Capabilities& capabilities) {
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_ENABLE_FEATURES_EXT};
     depth_clip.depthClipEnable = VK_TRUE;
     VkPhysicalDeviceFeatures2 features = Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
-    if (capabilities.info.api_version >= VK_API_VERSION_1_2) {
+    if (capabilities.api_version >= VK_API_VERSION_1_2) {
         features.pNext = &features12;
     }
     std::vector<const char*> extensions;

@@ -35,7 +35,8 @@ class Device {
     const Capabilities& capabilities() const { return *capabilities_; }
     // What it has answered, or why it has not.
     void set_sample_locations(std::vector<cases::SampleLocations> told, std::string error = {}) {
-        capabilities_->info.sample_locations = std::move(told);
+        capabilities_->info.sample_locations = cases::to_text(told);
+        capabilities_->told_locations = std::move(told);
         capabilities_->info.sample_locations_error = std::move(error);
     }
     // Nanoseconds that a wait for the device lasts at most; UINT64_MAX: without end.

@@ -6,28 +6,6 @@
 
 namespace vk_harness {
 
-std::string_view to_string(Stage stage) {
-    switch (stage) {
-        case Stage::loader:
-            return "loader";
-        case Stage::instance:
-            return "instance";
-        case Stage::device:
-            return "device";
-        case Stage::shader:
-            return "shader";
-        case Stage::pipeline:
-            return "pipeline";
-        case Stage::memory:
-            return "memory";
-        case Stage::submit:
-            return "submit";
-        case Stage::readback:
-            return "readback";
-    }
-    return "unknown";
-}
-
 std::string result_name(VkResult result) {
     switch (result) {
         case VK_SUCCESS:
@@ -69,15 +47,20 @@ std::string result_name(VkResult result) {
         case VK_ERROR_UNKNOWN:
             return "VK_ERROR_UNKNOWN";
         default:
-            return "VkResult " + std::to_string(static_cast<int>(result));
+            return code_of(result);
     }
+}
+
+std::string code_of(VkResult result) {
+    return result == VK_SUCCESS ? "" : "VkResult " + std::to_string(static_cast<int>(result));
 }
 
 Failure call_failure(Stage stage, VkResult result, std::string_view call) {
     return {stage,
-            static_cast<int>(result),
             std::string(call) + " failed with " + result_name(result),
-            {}};
+            {},
+            code_of(result),
+            result == VK_ERROR_DEVICE_LOST};
 }
 
 void check(Stage stage, VkResult result, std::string_view call) {

@@ -7,9 +7,13 @@
 
 #include <cstdint>
 
-#include "rasterizers/software/choice/fault.hpp"
+#include "cases/fault/fault.hpp"
 
 namespace software {
+
+using cases::Fault;
+using cases::kNoFault;
+using cases::operator""_fault;
 
 enum class Rounding : uint8_t { nearest_even, half_up, floor, ceil, truncate };
 
@@ -107,7 +111,7 @@ struct Device {
     // Pipeline statistics: vertices of incomplete primitives, each vertex of each primitive, whole
     // quads of fragments, whatever becomes of them. Else as little as must be counted.
     bool counts_most = false;
-    Fault fault = Fault::none;
+    Fault fault = kNoFault;
     // An error with a size: depths and inputs are evaluated so many pixels right of and below where
     // they should be.
     float place_x = 0, place_y = 0;

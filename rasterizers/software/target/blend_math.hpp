@@ -137,23 +137,23 @@ typename Math::Value second_factor_of(BlendFactor factor, size_t k, const Operan
         factor == BlendFactor::src1_alpha || factor == BlendFactor::one_minus_src1_alpha;
     const bool is_complement =
         factor == BlendFactor::one_minus_src1_color || factor == BlendFactor::one_minus_src1_alpha;
-    const size_t from = is_alpha && fault != Fault::second_alpha_as_color ? 3 : k;
+    const size_t from = is_alpha && fault != "second-alpha-as-color"_fault ? 3 : k;
     const auto value =
-        fault == Fault::second_lost ? 0
-        : fault == Fault::second_as_first || (fault == Fault::second_alpha_as_first && is_alpha)
+        fault == "second-lost"_fault ? 0
+        : fault == "second-as-first"_fault || (fault == "second-alpha-as-first"_fault && is_alpha)
             ? o.source[from]
             : o.second[from];
-    return is_complement && fault != Fault::second_complement_forgotten ? Math::kOne - value
-                                                                        : value;
+    return is_complement && fault != "second-complement-forgotten"_fault ? Math::kOne - value
+                                                                         : value;
 }
 
 template <class Math>
 typename Math::Value factor_of(BlendFactor factor, size_t k, const Operands<Math>& o, Fault fault) {
     const auto one = Math::kOne;
     const auto minus = [&](auto v) {
-        return fault == Fault::blend_complement_forgotten ? v : one - v;
+        return fault == "blend-complement-forgotten"_fault ? v : one - v;
     };
-    const size_t constant = fault == Fault::blend_constants_alpha ? 3 : k;
+    const size_t constant = fault == "blend-constants-alpha"_fault ? 3 : k;
     switch (factor) {
         case BlendFactor::zero:
             return 0;
@@ -191,50 +191,50 @@ typename Math::Value factor_of(BlendFactor factor, size_t k, const Operands<Math
         case BlendFactor::src_alpha_saturate:
             break;
     }
-    if (k == 3 && fault != Fault::blend_saturate_alpha) {
+    if (k == 3 && fault != "blend-saturate-alpha"_fault) {
         return one;
     }
     const bool is_zero = std::equal_to<>()(o.source[3], typename Math::Value{});
-    if (fault == Fault::blend_saturate_source_zero && is_zero) {
+    if (fault == "blend-saturate-source-zero"_fault && is_zero) {
         return o.source[3];
     }
-    return fault == Fault::blend_saturate_ignored ? o.source[3]
-                                                  : std::min(o.source[3], minus(o.destination[3]));
+    return fault == "blend-saturate-ignored"_fault ? o.source[3]
+                                                   : std::min(o.source[3], minus(o.destination[3]));
 }
 
 template <class Math>
 std::array<typename Math::Value, 4> blend_all(const cases::Blend& blend, Operands<Math> o,
                                               const Math& math, Fault fault) {
-    if (fault == Fault::sources_exchanged && cases::takes_second(blend)) {
+    if (fault == "sources-exchanged"_fault && cases::takes_second(blend)) {
         std::swap(o.source, o.second);
     }
-    if (fault == Fault::blend_premultiplies) {
+    if (fault == "blend-premultiplies"_fault) {
         for (size_t k = 0; k < 3; ++k) {
             o.source[k] = math.scale(o.source[k], o.source[3]);
         }
     }
     std::array<typename Math::Value, 4> out{};
     for (size_t k = 0; k < 4; ++k) {
-        const bool is_alpha = fault == Fault::blend_alpha_for_color   ? true
-                              : fault == Fault::blend_color_for_alpha ? false
-                                                                      : k == 3;
+        const bool is_alpha = fault == "blend-alpha-for-color"_fault   ? true
+                              : fault == "blend-color-for-alpha"_fault ? false
+                                                                       : k == 3;
         const cases::BlendEquation& equation = is_alpha ? blend.alpha : blend.color;
         auto f = factor_of(equation.source, k, o, fault);
         auto g = factor_of(equation.destination, k, o, fault);
-        if (fault == Fault::blend_factors_exchanged) {
+        if (fault == "blend-factors-exchanged"_fault) {
             std::swap(f, g);
         }
         const auto s = o.source[k];
         const auto d = o.destination[k];
         BlendOp op = equation.op;
-        if (fault == Fault::blend_subtract_exchanged && op == BlendOp::subtract) {
+        if (fault == "blend-subtract-exchanged"_fault && op == BlendOp::subtract) {
             op = BlendOp::reverse_subtract;
-        } else if (fault == Fault::blend_subtract_exchanged && op == BlendOp::reverse_subtract) {
+        } else if (fault == "blend-subtract-exchanged"_fault && op == BlendOp::reverse_subtract) {
             op = BlendOp::subtract;
-        } else if (fault == Fault::blend_op_ignored) {
+        } else if (fault == "blend-op-ignored"_fault) {
             op = BlendOp::add;
         }
-        const bool scales = fault == Fault::blend_min_max_scaled;
+        const bool scales = fault == "blend-min-max-scaled"_fault;
         const auto a = scales ? math.scale(s, f) : s;
         const auto b = scales ? math.scale(d, g) : d;
         if constexpr (std::is_same_v<Math, FloatMath>) {

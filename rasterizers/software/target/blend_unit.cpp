@@ -23,7 +23,7 @@ std::array<float, 4> to_array(const glm::vec4& v) {
 
 BlendUnit::BlendUnit(cases::ColorFormat format, const Device& device)
     : device_(device), format_(format), layout_(layout_of(format)) {
-    if (device.fault == Fault::srgb_alpha_encoded && layout_.channels[0].number == Number::srgb) {
+    if (device.fault == "srgb-alpha-encoded"_fault && layout_.channels[0].number == Number::srgb) {
         layout_.channels[3].number = Number::srgb;
     }
 }
@@ -35,7 +35,7 @@ bool BlendUnit::is_fixed() const {
 
 Texel BlendUnit::cleared(const glm::vec4& color) const {
     Device device = device_;  // clears take another path
-    device.fault = Fault::none;
+    device.fault = kNoFault;
     Texel out{};
     const FormatLayout layout = layout_of(format_);
     for (size_t k = 0; k < 4; ++k) {
@@ -59,15 +59,15 @@ capture::ColorCodes BlendUnit::read_back(const Texel& texel) const {
 uint8_t BlendUnit::mask_of(const cases::ColorOutput& output) const {
     const unsigned mask = output.write_mask;
     switch (device_.fault) {
-        case Fault::write_mask_ignored:
+        case "write-mask-ignored"_fault:
             return 0xf;
-        case Fault::write_mask_ignored_blending:
+        case "write-mask-ignored-blending"_fault:
             return output.blend ? 0xf : output.write_mask;
-        case Fault::logic_mask_ignored:
+        case "logic-mask-ignored"_fault:
             return output.logic ? 0xf : output.write_mask;
-        case Fault::write_mask_shifted:
+        case "write-mask-shifted"_fault:
             return static_cast<uint8_t>((mask << 1 | mask >> 3) & 0xfU);
-        case Fault::write_mask_unswizzled: {  // bit k is the component at position k in memory
+        case "write-mask-unswizzled"_fault: {  // bit k is the component at position k in memory
             unsigned out = 0;
             for (unsigned k = 0; k < 4; ++k) {
                 out |= (mask >> layout_.position[k] & 1U) << k;
@@ -103,21 +103,21 @@ std::array<uint32_t, 4> BlendUnit::blend_fixed(const cases::Blend& blend,
             store_channel(blend.constants[static_cast<int>(k)], {Number::unorm, 8}, device_);
     }
     const FixedMath math{device_.multiply, device_.unorm == UnormRounding::down,
-                         device_.fault == Fault::blend_shift_only};
+                         device_.fault == "blend-shift-only"_fault};
     return blend_all(blend, o, math, device_.fault);
 }
 
 glm::vec4 BlendUnit::replaced(const cases::ColorOutput& output, const glm::vec4& written) const {
     const Number number = layout_.channels[0].number;
-    const bool is_on = output.alpha_to_one &&
-                       (number != Number::uint || device_.fault == Fault::alpha_to_one_of_integers);
-    const bool is_lost = device_.fault == Fault::alpha_to_one_ignored ||
-                         device_.fault == Fault::alpha_to_one_stored ||
-                         (device_.fault == Fault::alpha_to_one_unblended && output.blend);
+    const bool is_on = output.alpha_to_one && (number != Number::uint ||
+                                               device_.fault == "alpha-to-one-of-integers"_fault);
+    const bool is_lost = device_.fault == "alpha-to-one-ignored"_fault ||
+                         device_.fault == "alpha-to-one-stored"_fault ||
+                         (device_.fault == "alpha-to-one-unblended"_fault && output.blend);
     if (!is_on || is_lost) {
         return written;
     }
-    if (device_.fault == Fault::alpha_to_one_everywhere) {
+    if (device_.fault == "alpha-to-one-everywhere"_fault) {
         return glm::vec4(1);
     }
     const float most = number == Number::uint ? 255.0F : 1.0F;
@@ -132,10 +132,10 @@ Texel BlendUnit::write(const cases::ColorOutput& output, const glm::vec4& writte
         return c.number == Number::unorm && c.bits == 8;
     });
     std::array<uint32_t, 4> codes{};
-    const bool operates = output.logic && device_.fault != Fault::logic_ignored;
+    const bool operates = output.logic && device_.fault != "logic-ignored"_fault;
     const std::optional<cases::Blend> equation =
-        operates && device_.fault != Fault::logic_blends_too ? std::nullopt : output.blend;
-    if (!equation || device_.fault == Fault::blend_ignored) {
+        operates && device_.fault != "logic-blends-too"_fault ? std::nullopt : output.blend;
+    if (!equation || device_.fault == "blend-ignored"_fault) {
         for (size_t k = 0; k < 4; ++k) {
             codes[k] = channels[k].bits != 0
                            ? store_channel(source[static_cast<int>(k)], channels[k], device_)
@@ -149,11 +149,11 @@ Texel BlendUnit::write(const cases::ColorOutput& output, const glm::vec4& writte
                                  device_);
             d[k] = before[layout_.position[k]];
         }
-        if (device_.fault == Fault::blend_dst_alpha_one) {
+        if (device_.fault == "blend-dst-alpha-one"_fault) {
             d[3] = 255;
         }
         cases::Blend fixed = *equation;
-        if (output.alpha_to_one && device_.fault == Fault::alpha_to_one_of_second) {
+        if (output.alpha_to_one && device_.fault == "alpha-to-one-of-second"_fault) {
             fixed.second.w = 1;
         }
         codes = blend_fixed(fixed, s, d);
@@ -164,28 +164,28 @@ Texel BlendUnit::write(const cases::ColorOutput& output, const glm::vec4& writte
             device_.blend == BlendMath::one_product
                 ? with_known_factors(*equation, output.alpha_to_one, channels[3].bits == 0)
                 : *equation;
-        if (output.alpha_to_one && device_.fault == Fault::alpha_to_one_of_second) {
+        if (output.alpha_to_one && device_.fault == "alpha-to-one-of-second"_fault) {
             clamped.second.w = 1;
         }
         for (int k = 0; k < 4; ++k) {
             const auto n = static_cast<size_t>(k);
-            if (is_fixed() && device_.fault != Fault::blend_source_unclamped) {
+            if (is_fixed() && device_.fault != "blend-source-unclamped"_fault) {
                 s[k] = clamp_to_unit(s[k]);
                 clamped.constants[k] = clamp_to_unit(clamped.constants[k]);
             }
-            if (is_fixed() && device_.fault != Fault::second_unclamped) {
+            if (is_fixed() && device_.fault != "second-unclamped"_fault) {
                 clamped.second[k] = clamp_to_unit(clamped.second[k]);
             }
-            if (device_.fault == Fault::blend_floats_clamped && !is_fixed()) {
+            if (device_.fault == "blend-floats-clamped"_fault && !is_fixed()) {
                 s[k] = clamp_to_unit(s[k]);
             }
             if (channels[n].bits != 0) {
                 d[k] = load_channel(before[layout_.position[n]], channels[n], device_);
             }
         }
-        if (device_.fault == Fault::blend_dst_alpha_one) {
+        if (device_.fault == "blend-dst-alpha-one"_fault) {
             d.w = 1;
-        } else if (device_.fault == Fault::blend_missing_alpha_zero && channels[3].bits == 0) {
+        } else if (device_.fault == "blend-missing-alpha-zero"_fault && channels[3].bits == 0) {
             d.w = 0;
         }
         const glm::vec4 result = blend(clamped, s, d);
@@ -198,7 +198,7 @@ Texel BlendUnit::write(const cases::ColorOutput& output, const glm::vec4& writte
                            : 0;
         }
     }
-    if (output.alpha_to_one && device_.fault == Fault::alpha_to_one_stored &&
+    if (output.alpha_to_one && device_.fault == "alpha-to-one-stored"_fault &&
         channels[3].bits != 0) {
         codes[3] = store_channel(1.0F, channels[3], device_);
     }
@@ -210,7 +210,7 @@ Texel BlendUnit::write(const cases::ColorOutput& output, const glm::vec4& writte
     Texel out = before;
     const unsigned mask = mask_of(output);
     for (size_t k = 0; k < 4; ++k) {
-        const size_t at = device_.fault == Fault::bgra_swapped ? k : layout_.position[k];
+        const size_t at = device_.fault == "bgra-swapped"_fault ? k : layout_.position[k];
         if (channels[k].bits != 0 && (mask >> k & 1U) != 0) {
             out[at] = codes[k];
         }
@@ -228,49 +228,49 @@ ColorAttachment::ColorAttachment(const cases::Case& c, const Device& device)
     const size_t count = size_t{c.target.width} * c.target.rows() * c.target.samples;
     texels_.assign(count, unit_.cleared(clear_of(c.target, device)));
     last_.assign(
-        device.fault == Fault::blend_stale || device.fault == Fault::blend_merges ? count : 0,
+        device.fault == "blend-stale"_fault || device.fault == "blend-merges"_fault ? count : 0,
         Last{});
     for (const cases::Draw& draw : c.draws) {
         cases::ColorOutput output = draw.color;
         const cases::ColorOutput& first = c.draws.front().color;
         switch (device.fault) {
-            case Fault::blend_of_first_draw:
+            case "blend-of-first-draw"_fault:
                 output.blend = first.blend;
                 break;
-            case Fault::logic_of_first_draw:
+            case "logic-of-first-draw"_fault:
                 output.logic = first.logic;
                 break;
-            case Fault::logic_off_with_early_tests:
+            case "logic-off-with-early-tests"_fault:
                 output.logic = draw.early_tests ? std::nullopt : output.logic;
                 break;
-            case Fault::logic_off_with_written_depth:
+            case "logic-off-with-written-depth"_fault:
                 output.logic = draw.frag_depth ? std::nullopt : output.logic;
                 break;
-            case Fault::write_mask_of_first_draw:
+            case "write-mask-of-first-draw"_fault:
                 output.write_mask = first.write_mask;
                 break;
-            case Fault::blend_constants_of_first_draw:
+            case "blend-constants-of-first-draw"_fault:
                 if (output.blend && first.blend) {
                     output.blend->constants = first.blend->constants;
                 }
                 break;
-            case Fault::alpha_to_one_of_first_draw:
+            case "alpha-to-one-of-first-draw"_fault:
                 output.alpha_to_one = first.alpha_to_one;
                 break;
-            case Fault::alpha_to_one_multisampled:
+            case "alpha-to-one-multisampled"_fault:
                 output.alpha_to_one = output.alpha_to_one && c.target.samples > 1;
                 break;
-            case Fault::second_of_first_draw:
+            case "second-of-first-draw"_fault:
                 if (output.blend && first.blend && takes_second(*first.blend)) {
                     output.blend->second = first.blend->second;
                 }
                 break;
-            case Fault::blend_constants_ignored:
+            case "blend-constants-ignored"_fault:
                 if (output.blend) {
                     output.blend->constants = glm::vec4(0);
                 }
                 break;
-            case Fault::blend_stays_on:
+            case "blend-stays-on"_fault:
                 if (!outputs_.empty() && !output.blend) {
                     output.blend = outputs_.back().blend;
                 }
@@ -293,12 +293,12 @@ void ColorAttachment::write(size_t sample, uint32_t draw, uint32_t primitive,
     }
     const size_t index = *place;
     const glm::vec4 source = passed(case_.target, value, device_);
-    if (device_.fault == Fault::color_reloaded && draw != draw_) {
+    if (device_.fault == "color-reloaded"_fault && draw != draw_) {
         // Each draw starts with the load operation.
         std::fill(texels_.begin(), texels_.end(), unit_.cleared(clear_of(case_.target, device_)));
     }
     draw_ = draw;
-    if (device_.fault == Fault::color_per_pixel) {
+    if (device_.fault == "color-per-pixel"_fault) {
         const size_t first = index - index % case_.target.samples;
         for (size_t s = 0; s < case_.target.samples; ++s) {
             if (first + s == index || !outputs_[draw].blend) {
@@ -318,24 +318,24 @@ void ColorAttachment::write_sample(size_t index, uint32_t draw, uint32_t primiti
     if (!last_.empty()) {
         Last& last = last_[index];
         const bool is_next = last.draw == draw && last.primitive + 1 == primitive;
-        if (device_.fault == Fault::blend_merges && is_next && output.blend) {
+        if (device_.fault == "blend-merges"_fault && is_next && output.blend) {
             last.primitive = primitive;
             return;  // taken for the fragment before
         }
-        if (device_.fault == Fault::blend_stale && is_next) {
+        if (device_.fault == "blend-stale"_fault && is_next) {
             before = last.before;
         }
         last = {draw, primitive, texel};
     }
     texel = unit_.write(output, source, before);
-    if (device_.fault == Fault::blend_twice && output.blend) {
+    if (device_.fault == "blend-twice"_fault && output.blend) {
         texel = unit_.write(output, source, texel);
     }
 }
 
 glm::vec4 ColorAttachment::beside(uint32_t draw, const glm::vec4& value,
                                   const glm::vec4& before) const {
-    if (device_.fault == Fault::blend_everywhere && !outputs_.empty() && outputs_[draw].blend) {
+    if (device_.fault == "blend-everywhere"_fault && !outputs_.empty() && outputs_[draw].blend) {
         return unit_.blend(*outputs_[draw].blend, value, before);
     }
     return value;

@@ -37,7 +37,7 @@ class Blitter {
                   blit_.source_width},
           down_{blit_.source.y0, blit_.source.y1, blit_.destination.y0, blit_.destination.y1,
                 blit_.source_height} {
-        if (device.fault == Fault::blit_mirror_ignored) {
+        if (device.fault == "blit-mirror-ignored"_fault) {
             for (Axis* axis : {&across_, &down_}) {
                 *axis = {std::min(axis->s0, axis->s1), std::max(axis->s0, axis->s1),
                          std::min(axis->d0, axis->d1), std::max(axis->d0, axis->d1), axis->size};
@@ -46,8 +46,8 @@ class Blitter {
     }
 
     bool writes(uint32_t x, uint32_t y) const {
-        const bool closed = device_.fault == Fault::blit_region_closed;
-        return device_.fault != Fault::draws_nothing &&
+        const bool closed = device_.fault == "blit-region-closed"_fault;
+        return device_.fault != "draws-nothing"_fault &&
                across_.contains(static_cast<int32_t>(x), closed) &&
                down_.contains(static_cast<int32_t>(y), closed);
     }
@@ -56,7 +56,7 @@ class Blitter {
         const float u = coordinate(across_, static_cast<int32_t>(x));
         const float v = coordinate(down_, static_cast<int32_t>(y));
         const bool linear = blit_.filter == cases::BlitFilter::linear &&
-                            device_.fault != Fault::blit_filter_ignored;
+                            device_.fault != "blit-filter-ignored"_fault;
         return linear ? filtered(u, v) : converted(fetch(std::floor(u), std::floor(v)));
     }
 
@@ -65,14 +65,14 @@ class Blitter {
     float coordinate(const Axis& axis, int32_t i) const {
         const auto side = static_cast<float>(axis.d1 - axis.d0);
         float scale = static_cast<float>(axis.s1 - axis.s0) / side;
-        if (device_.fault == Fault::blit_scale_truncated && std::fabs(scale) > 1) {
+        if (device_.fault == "blit-scale-truncated"_fault && std::fabs(scale) > 1) {
             scale = std::trunc(scale);
         }
-        if (device_.fault == Fault::blit_corners_aligned && std::abs(axis.d1 - axis.d0) > 1) {
+        if (device_.fault == "blit-corners-aligned"_fault && std::abs(axis.d1 - axis.d0) > 1) {
             const float last = std::fabs(static_cast<float>(axis.s1 - axis.s0)) - 1;
             scale = std::copysign(last / (std::fabs(side) - 1), scale);
         }
-        const float half = device_.fault == Fault::blit_half_texel_lost ? 0.0F : 0.5F;
+        const float half = device_.fault == "blit-half-texel-lost"_fault ? 0.0F : 0.5F;
         if (device_.blit_steps) {  // from texel to texel, from the region's first one on
             const int32_t first = std::min(axis.d0, axis.d1);
             float u =
@@ -92,7 +92,7 @@ class Blitter {
             const int low = region ? std::min(axis.s0, axis.s1) : 0;
             const int high = region ? std::max(axis.s0, axis.s1) : static_cast<int>(axis.size);
             const int texel = static_cast<int>(at);
-            if (device_.fault == Fault::blit_edge_wraps) {
+            if (device_.fault == "blit-edge-wraps"_fault) {
                 const int size = static_cast<int>(axis.size);
                 return static_cast<size_t>((texel % size + size) % size);
             }
@@ -102,7 +102,7 @@ class Blitter {
     }
 
     TexelCodes converted(const TexelCodes& texel) const {
-        if (is_copied_ || device_.fault == Fault::blit_copies_codes) {
+        if (is_copied_ || device_.fault == "blit-copies-codes"_fault) {
             TexelCodes out{};
             for (size_t k = 0; k < 4; ++k) {
                 const uint32_t bits = to_.channels[k].bits;
@@ -122,7 +122,7 @@ class Blitter {
 
     // A component that the source lacks.
     uint32_t missing(size_t k) const {
-        return k == 3 && device_.fault != Fault::blit_missing_alpha_zero ? 1 : 0;
+        return k == 3 && device_.fault != "blit-missing-alpha-zero"_fault ? 1 : 0;
     }
 
     // Integers are clamped to what the format holds.
@@ -131,7 +131,7 @@ class Blitter {
         for (size_t k = 0; k < 4; ++k) {
             const uint32_t code = from_.channels[k].bits == 0 ? missing(k) : texel[k];
             const uint32_t bits = to_.channels[k].bits;
-            const bool cuts = device_.fault == Fault::integer_8_bits;
+            const bool cuts = device_.fault == "integer-8-bits"_fault;
             out[k] = bits == 0            ? 0
                      : bits == 8 && !cuts ? std::min(code, 0xffU)
                      : bits == 8 || cuts  ? code & 0xffU
@@ -150,7 +150,7 @@ class Blitter {
     TexelCodes stored(const std::array<float, 4>& numbers) const {
         TexelCodes out{};
         for (size_t k = 0; k < 4; ++k) {
-            const size_t source = device_.fault == Fault::bgra_swapped && k < 3 ? 2 - k : k;
+            const size_t source = device_.fault == "bgra-swapped"_fault && k < 3 ? 2 - k : k;
             out[k] = to_.channels[k].bits == 0
                          ? 0
                          : store_channel(numbers[source], to_.channels[k], device_);
@@ -159,7 +159,7 @@ class Blitter {
     }
 
     TexelCodes filtered(float u, float v) const {
-        const float shift = device_.fault == Fault::blit_filter_unshifted ? 0.0F : 0.5F;
+        const float shift = device_.fault == "blit-filter-unshifted"_fault ? 0.0F : 0.5F;
         const auto split = [&](float at, float& whole) {
             const float texel = at - shift;
             whole = std::floor(texel);
@@ -169,7 +169,7 @@ class Blitter {
         float row = 0;
         const float alpha = split(u, column);
         const float beta =
-            device_.fault == Fault::blit_filters_one_axis ? (split(v, row), 0.0F) : split(v, row);
+            device_.fault == "blit-filters-one-axis"_fault ? (split(v, row), 0.0F) : split(v, row);
         std::array<float, 4> numbers{};
         for (size_t k = 0; k < 4; ++k) {
             const auto at = [&](float x, float y) { return load(fetch(x, y), k); };

@@ -28,7 +28,7 @@ uint32_t exchanged(uint32_t table) {
 
 bool BlendUnit::has_logic(size_t k) const {
     const Channel& channel = layout_.channels[k];
-    if (channel.bits == 0 || (device_.fault == Fault::logic_alpha_copied && k == 3)) {
+    if (channel.bits == 0 || (device_.fault == "logic-alpha-copied"_fault && k == 3)) {
         return false;
     }
     switch (layout_.channels[0].number) {  // alpha of an sRGB format is UNORM itself
@@ -36,19 +36,19 @@ bool BlendUnit::has_logic(size_t k) const {
         case Number::uint:
             return true;
         case Number::srgb:
-            return device_.fault == Fault::logic_on_srgb;
+            return device_.fault == "logic-on-srgb"_fault;
         default:
-            return device_.fault == Fault::logic_on_floats;
+            return device_.fault == "logic-on-floats"_fault;
     }
 }
 
 uint32_t BlendUnit::operated(cases::LogicOp op, uint32_t source, uint32_t before, size_t k) const {
     auto table =
-        static_cast<uint32_t>(device_.fault == Fault::logic_copies ? cases::LogicOp::copy : op);
-    if (device_.fault == Fault::logic_operands_exchanged) {
+        static_cast<uint32_t>(device_.fault == "logic-copies"_fault ? cases::LogicOp::copy : op);
+    if (device_.fault == "logic-operands-exchanged"_fault) {
         table = exchanged(table);
     }
-    const uint32_t bits = device_.fault == Fault::logic_low_bits ? 4 : layout_.channels[k].bits;
+    const uint32_t bits = device_.fault == "logic-low-bits"_fault ? 4 : layout_.channels[k].bits;
     const uint32_t all = bits == 32 ? UINT32_MAX : (1U << bits) - 1;
     const uint32_t rest = bits == layout_.channels[k].bits ? 0 : source & ~all;
     return (by_truth_table(table, source, before) & all) | rest;

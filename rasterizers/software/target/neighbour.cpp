@@ -33,7 +33,7 @@ void take_state(cases::ColorOutput& output, const cases::ColorOutput& other) {
 glm::vec4 clear_of(const cases::Target& target, const Device& device) {
     const cases::ColorTarget& own = *target.color;
     const cases::ColorTarget& first = target.color_at(0);
-    const bool is_first = device.fault == Fault::targets_clear_of_first &&
+    const bool is_first = device.fault == "targets-clear-of-first"_fault &&
                           is_integer(first.format) == is_integer(own.format);
     return is_first ? first.clear : own.clear;
 }
@@ -47,29 +47,29 @@ cases::ColorOutput output_beside(const cases::Case& c, const cases::Draw& draw,
         return output;
     }
     switch (device.fault) {
-        case Fault::targets_state_of_first:
+        case "targets-state-of-first"_fault:
             take_state(output, cases::output_at(target, draw, 0));
             break;
-        case Fault::targets_state_of_first_draw:
+        case "targets-state-of-first-draw"_fault:
             if (own > 0) {
                 take_state(output, c.draws.front().color);
             }
             break;
-        case Fault::targets_mask_of_next:
+        case "targets-mask-of-next"_fault:
             output.write_mask = cases::output_at(target, draw, (own + 1) % count).write_mask;
             break;
-        case Fault::targets_masked_together:
+        case "targets-masked-together"_fault:
             if (std::any_of(draw.other_colors.begin(), draw.other_colors.end(),
                             [](const auto& other) { return other.write_mask == 0; })) {
                 output.write_mask = 0;
             }
             break;
-        case Fault::targets_blended_together:
+        case "targets-blended-together"_fault:
             for (uint32_t k = 0; k < count && !output.blend; ++k) {
                 output.blend = cases::output_at(target, draw, k).blend;
             }
             break;
-        case Fault::targets_unblended_beside_integers:
+        case "targets-unblended-beside-integers"_fault:
             if (any_other(target, cases::is_integer)) {
                 output.blend.reset();
             }
@@ -87,9 +87,9 @@ const cases::ColorOutput& reaching(const cases::Target& target, const cases::Dra
                                    const Device& device) {
     const uint32_t count = target.color_count();
     uint32_t from = target.judged_color;
-    if (device.fault == Fault::targets_color_of_first && count > 1) {
+    if (device.fault == "targets-color-of-first"_fault && count > 1) {
         from = 0;
-    } else if (device.fault == Fault::targets_color_shifted && count > 1) {
+    } else if (device.fault == "targets-color-shifted"_fault && count > 1) {
         from = (from + count - 1) % count;
     }
     const bool is_of_class =
@@ -99,7 +99,7 @@ const cases::ColorOutput& reaching(const cases::Target& target, const cases::Dra
 }
 
 glm::vec4 passed(const cases::Target& target, const glm::vec4& value, const Device& device) {
-    const bool is_clamped = device.fault == Fault::targets_clamped_together &&
+    const bool is_clamped = device.fault == "targets-clamped-together"_fault &&
                             !is_integer(target.color->format) && any_other(target, is_fixed);
     return is_clamped ? glm::clamp(value, 0.0F, 1.0F) : value;
 }
@@ -111,11 +111,11 @@ std::optional<size_t> place_in(const cases::Target& target, size_t index, const 
         return index;
     }
     switch (device.fault) {
-        case Fault::targets_last_lost:
+        case "targets-last-lost"_fault:
             return own + 1 == count ? std::nullopt : std::optional(index);
-        case Fault::targets_samples_of_first:
+        case "targets-samples-of-first"_fault:
             return own > 0 && index % target.samples != 0 ? std::nullopt : std::optional(index);
-        case Fault::targets_layers_of_first:
+        case "targets-layers-of-first"_fault:
             return own > 0 ? index % (size_t{target.width} * target.height * target.samples)
                            : index;
         default:

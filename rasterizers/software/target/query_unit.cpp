@@ -25,28 +25,28 @@ void QueryUnit::count(uint32_t draw, Ending ending, bool is_first, const Quad& q
         count_fragment(draw, ending, is_first, quad);
         return;
     }
-    if (fault == Fault::query_counts_pixels && !is_first) {
+    if (fault == "query-counts-pixels"_fault && !is_first) {
         return;
     }
     bool is_counted = ending == Ending::shown || ending == Ending::hidden;
     switch (ending) {
         case Ending::masked:
-            is_counted = fault == Fault::query_before_mask;
+            is_counted = fault == "query-before-mask"_fault;
             break;
         case Ending::discarded:
-            is_counted = fault == Fault::query_before_discard;
+            is_counted = fault == "query-before-discard"_fault;
             break;
         case Ending::out_of_bounds:
-            is_counted = fault == Fault::query_before_bounds;
+            is_counted = fault == "query-before-bounds"_fault;
             break;
         case Ending::stencil_failed:
-            is_counted = fault == Fault::query_before_stencil;
+            is_counted = fault == "query-before-stencil"_fault;
             break;
         case Ending::depth_failed:
-            is_counted = fault == Fault::query_before_depth;
+            is_counted = fault == "query-before-depth"_fault;
             break;
         case Ending::hidden:
-            is_counted = fault != Fault::query_without_hidden;
+            is_counted = fault != "query-without-hidden"_fault;
             break;
         case Ending::shown:
             break;
@@ -76,7 +76,7 @@ void QueryUnit::count_fragment(uint32_t draw, Ending ending, bool is_first, cons
         quads_.clear();
     }
     const bool by_sample =
-        is_shaded_by_sample(case_.draws[draw]) && fault != Fault::statistics_fragments_by_pixel;
+        is_shaded_by_sample(case_.draws[draw]) && fault != "statistics-fragments-by-pixel"_fault;
     const bool is_shaded = device_.counts_most || ending == Ending::discarded ||
                            ending == Ending::hidden || ending == Ending::shown;
     if (!is_shaded || (is_fragment_done_ && !by_sample)) {
@@ -84,7 +84,7 @@ void QueryUnit::count_fragment(uint32_t draw, Ending ending, bool is_first, cons
     }
     is_fragment_done_ = true;
     uint64_t more = 1;
-    if (device_.counts_most || fault == Fault::statistics_fragments_by_quad) {
+    if (device_.counts_most || fault == "statistics-fragments-by-quad"_fault) {
         const uint64_t samples = by_sample ? case_.target.samples : 1;
         more = !quads_.insert(quad).second ? 0 : device_.counts_most ? 4 * samples : 1;
     }
@@ -93,9 +93,9 @@ void QueryUnit::count_fragment(uint32_t draw, Ending ending, bool is_first, cons
 
 void QueryUnit::count_clipped(uint32_t draw, size_t corners, bool was_cut) {
     uint64_t more = corners < 3 ? 0 : corners - 2;
-    if (device_.fault == Fault::statistics_clipping_lossless) {
+    if (device_.fault == "statistics-clipping-lossless"_fault) {
         more = std::max(more, uint64_t{1});
-    } else if (device_.fault == Fault::statistics_clipping_uncut && was_cut) {
+    } else if (device_.fault == "statistics-clipping-uncut"_fault && was_cut) {
         more = 0;
     }
     add(draw, Query::clipping_primitives, more);
@@ -117,19 +117,19 @@ std::vector<uint64_t> QueryUnit::results() const {
             continue;
         }
         switch (device_.fault) {
-            case Fault::query_halved:
+            case "query-halved"_fault:
                 out[k] /= 2;
                 break;
-            case Fault::query_not_reset:
+            case "query-not-reset"_fault:
                 out[k] += before;
                 break;
-            case Fault::query_in_16_bits:
+            case "query-in-16-bits"_fault:
                 out[k] &= 0xffff;
                 break;
-            case Fault::query_precise_as_any:
+            case "query-precise-as-any"_fault:
                 out[k] = query == Query::occlusion_precise ? std::min(out[k], uint64_t{1}) : out[k];
                 break;
-            case Fault::query_always_any:
+            case "query-always-any"_fault:
                 out[k] = query == Query::occlusion ? 1 : out[k];
                 break;
             default:

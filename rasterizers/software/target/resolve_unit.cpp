@@ -17,9 +17,9 @@ using cases::Resolve;
 
 template <class T>
 T select(std::span<const T> samples, Resolve mode, Fault fault) {
-    if (fault == Fault::resolve_min_max_exchanged) {
+    if (fault == "resolve-min-max-exchanged"_fault) {
         mode = mode == Resolve::min ? Resolve::max : mode == Resolve::max ? Resolve::min : mode;
-    } else if (fault == Fault::resolve_always_zero && mode != Resolve::average) {
+    } else if (fault == "resolve-always-zero"_fault && mode != Resolve::average) {
         mode = Resolve::sample_zero;
     }
     switch (mode) {
@@ -28,7 +28,7 @@ T select(std::span<const T> samples, Resolve mode, Fault fault) {
         case Resolve::max:
             return *std::max_element(samples.begin(), samples.end());
         default:
-            return fault == Fault::resolve_last_sample ? samples.back() : samples.front();
+            return fault == "resolve-last-sample"_fault ? samples.back() : samples.front();
     }
 }
 
@@ -54,20 +54,20 @@ template <class T>
 std::vector<T> averaged(std::span<const T> samples, const T& clear, Fault fault) {
     std::vector<T> out(samples.begin(), samples.end());
     switch (fault) {
-        case Fault::resolve_one_sample:
+        case "resolve-one-sample"_fault:
             out.resize(1);
             break;
-        case Fault::resolve_sample_lost:
+        case "resolve-sample-lost"_fault:
             out.pop_back();
             break;
-        case Fault::resolve_weights: {  // each mean with the next sample
+        case "resolve-weights"_fault: {  // each mean with the next sample
             out.assign({samples.back()});
             for (size_t s = 1; s < samples.size(); ++s) {
                 out.insert(out.end(), out.size(), samples[samples.size() - 1 - s]);
             }
             break;
         }
-        case Fault::resolve_drawn_only: {  // samples that still hold the clear value do not count
+        case "resolve-drawn-only"_fault: {  // samples that still hold the clear value do not count
             std::erase(out, clear);
             if (out.empty()) {
                 out.push_back(clear);
@@ -96,17 +96,17 @@ uint32_t average_channel(std::span<const uint32_t> codes, Channel channel, const
 
 // First sample of the pixel that the device reads for a pixel.
 size_t source_of(const cases::Target& target, size_t pixel, Fault fault) {
-    if (fault == Fault::resolve_shifted && pixel % target.width + 1 < target.width) {
+    if (fault == "resolve-shifted"_fault && pixel % target.width + 1 < target.width) {
         ++pixel;
     }
     return pixel * target.samples;
 }
 
 bool is_left_out(const cases::Target& target, size_t pixel, Fault fault) {
-    if (fault == Fault::resolve_row_lost) {
+    if (fault == "resolve-row-lost"_fault) {
         return pixel / target.width + 1 == target.height;
     }
-    return fault == Fault::resolve_ignored;
+    return fault == "resolve-ignored"_fault;
 }
 
 capture::ColorCodes resolve_color(std::span<const capture::ColorCodes> samples,
@@ -114,7 +114,7 @@ capture::ColorCodes resolve_color(std::span<const capture::ColorCodes> samples,
                                   const Device& device) {
     const FormatLayout layout = layout_of(target.color->format);
     const bool is_average = target.color_resolve == Resolve::average ||
-                            device.fault == Fault::resolve_averages_integers;
+                            device.fault == "resolve-averages-integers"_fault;
     if (!is_average) {
         return select(samples, target.color_resolve, device.fault);
     }

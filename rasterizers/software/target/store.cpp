@@ -30,20 +30,20 @@ float decode_srgb(float encoded) {
 
 uint32_t to_code(float v, uint32_t bits, const Device& device) {
     const float steps = steps_of(bits);
-    if (device.fault == Fault::store_wraps) {
+    if (device.fault == "store-wraps"_fault) {
         const double whole = std::floor(static_cast<double>(v) * static_cast<double>(steps) + 0.5);
         return static_cast<uint32_t>(static_cast<int64_t>(whole)) & ((1U << bits) - 1);
     }
     v = to_unit(v);
-    if ((device.fault == Fault::store_through_8_bits || device.narrow_through_eight) && bits < 8) {
+    if ((device.fault == "store-through-8-bits"_fault || device.narrow_through_eight) && bits < 8) {
         const auto eight = static_cast<uint32_t>(v * 255.0F + 0.5F);
         return eight >> (8 - bits);
     }
-    if (device.fault == Fault::store_scale) {
+    if (device.fault == "store-scale"_fault) {
         return static_cast<uint32_t>(std::fmin(v * (steps + 1), steps));
     }
     const float scaled = v * steps;
-    if (device.fault == Fault::store_truncates) {
+    if (device.fault == "store-truncates"_fault) {
         return static_cast<uint32_t>(scaled);
     }
     switch (device.unorm) {
@@ -117,7 +117,7 @@ FormatLayout layout_of(ColorFormat format) {
 
 uint32_t store_channel(float v, Channel channel, const Device& device) {
     if (channel.number == Number::half || channel.number == Number::binary32) {
-        if (device.fault == Fault::float_store_clamped) {
+        if (device.fault == "float-store-clamped"_fault) {
             v = to_unit(v);
         }
     }
@@ -130,10 +130,10 @@ uint32_t store_channel(float v, Channel channel, const Device& device) {
                 nearest.unorm = UnormRounding::nearest;
                 return store_channel(v, channel, nearest);
             }
-            if (device.fault == Fault::srgb_not_encoded) {
+            if (device.fault == "srgb-not-encoded"_fault) {
                 return to_code(v, channel.bits, device);
             }
-            if (device.fault == Fault::srgb_gamma) {
+            if (device.fault == "srgb-gamma"_fault) {
                 return to_code(std::pow(to_unit(v), 1.0F / 2.2F), channel.bits, device);
             }
             return to_code(encode_srgb(to_unit(v)), channel.bits, device);
@@ -141,12 +141,12 @@ uint32_t store_channel(float v, Channel channel, const Device& device) {
             return to_half(v, device);
         case Number::binary32:
             return std::bit_cast<uint32_t>(
-                device.fault == Fault::float_store_half ? from_half(to_half(v, device)) : v);
+                device.fault == "float-store-half"_fault ? from_half(to_half(v, device)) : v);
         case Number::uint:
             break;
     }
     const uint32_t code = v > 0 ? static_cast<uint32_t>(v) : 0U;
-    const bool is_narrow = channel.bits == 8 || device.fault == Fault::integer_8_bits;
+    const bool is_narrow = channel.bits == 8 || device.fault == "integer-8-bits"_fault;
     return is_narrow ? code & 0xffU : code;
 }
 
@@ -156,7 +156,7 @@ float load_channel(uint32_t code, Channel channel, const Device& device) {
             return static_cast<float>(code) / steps_of(channel.bits);
         case Number::srgb: {
             const float encoded = static_cast<float>(code) / steps_of(channel.bits);
-            return device.fault == Fault::srgb_not_decoded ? encoded : decode_srgb(encoded);
+            return device.fault == "srgb-not-decoded"_fault ? encoded : decode_srgb(encoded);
         }
         case Number::half:
             return from_half(static_cast<uint16_t>(code));
@@ -176,7 +176,7 @@ uint16_t to_half(float v, const Device& device) {
     if (exponent == 128) {  // infinity or NaN
         return static_cast<uint16_t>(sign | (fraction != 0 ? 0x7e00U : 0x7c00U));
     }
-    if (device.fault == Fault::half_exponent_wraps) {
+    if (device.fault == "half-exponent-wraps"_fault) {
         const uint32_t biased = static_cast<uint32_t>(exponent + 15) & 0x1fU;
         return static_cast<uint16_t>(sign | (exponent < -14 ? 0U : biased << 10 | fraction >> 13));
     }

@@ -235,7 +235,7 @@ std::vector<Range<T>> hulls_of(const Primitive& primitive, const std::vector<Pla
     std::vector<Range<T>> out(quantities.size());
     for (size_t q = 0; q < quantities.size(); ++q) {
         const Quantity& quantity = quantities[q];
-        if (quantity.kind != Kind::linear && quantity.kind != Kind::perspective) {
+        if (!is_numeric(quantity)) {
             continue;
         }
         bool is_first = true;

@@ -54,7 +54,7 @@ bool filter_accepts(const Filter& filter, std::span<const Quantity> quantities,
     const Evaluated d_centroid = evaluate(inv_w, places.centroid);
     WorstError found;
     for (const Quantity& q : quantities) {
-        if (q.kind != Kind::linear && q.kind != Kind::perspective) {
+        if (!is_numeric(q)) {
             continue;
         }
         const FilterPlane& plane = filter.planes[q.plane];

@@ -17,10 +17,6 @@
 
 namespace ref::value {
 
-inline bool is_numeric(const Quantity& q) {
-    return q.kind == Kind::linear || q.kind == Kind::perspective;
-}
-
 // How well one candidate explains one value at one evaluation.
 struct Fit {
     Answer answer = Answer::no;

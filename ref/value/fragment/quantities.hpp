@@ -63,9 +63,13 @@ struct WorstError {
     }
 };
 
+// Whether a quantity is itself interpolated by a plane.
+inline bool is_numeric(const Quantity& q) {
+    return q.kind == Kind::linear || q.kind == Kind::perspective;
+}
 // Whether a quantity has a plane of its own, and whether that plane's value is divided by 1/w.
 inline bool has_plane(const Quantity& q) {
-    return q.kind == Kind::linear || q.kind == Kind::perspective || q.kind == Kind::probe;
+    return is_numeric(q) || q.kind == Kind::probe;
 }
 inline bool is_quotient(const Quantity& q) {
     return q.kind == Kind::perspective || (q.kind == Kind::probe && q.is_perspective);

@@ -27,7 +27,7 @@ TEST(Update, HeadersOfNewFilesFitOnlyTheirDevice) {
     ASSERT_TRUE(file);
     EXPECT_EQ(run::mismatch(*file, drawn.device, cases::Profile::direct3d), "");
     EXPECT_NE(run::mismatch(*file, drawn.device, cases::Profile::vulkan), "");
-    report::Device other = drawn.device;
+    capture::DeviceInfo other = drawn.device;
     other.name = "GPU x (12)";
     EXPECT_NE(run::mismatch(*file, other, cases::Profile::direct3d), "");
     other = drawn.device;

@@ -139,10 +139,10 @@ INSTANTIATE_TEST_SUITE_P(
                     "position-w-one", "cull-back-always", "noperspective-as-flat",
                     "depth-range-swapped", "never-as-always", "bias-no-slope", "src-alpha-as-one",
                     "write-mask-no-alpha", "clip-distance-culls", "blit-mirrored-x",
-                    "ties_bottom_right", "floor_snapping", "affine", "provoking_last",
-                    "one_over_w_cached", "interpolate_at_centre_w", "scissor_half_early",
-                    "depth_samples_mirrored", "values_at_corner", "stencil_faces_exchanged",
-                    "resolve_one_sample", "subpixel-bits-4", "stencil-off",
+                    "ties-bottom-right", "floor-snapping", "affine", "provoking-last",
+                    "one-over-w-cached", "interpolate-at-centre-w", "scissor-half-early",
+                    "depth-samples-mirrored", "values-at-corner", "stencil-faces-exchanged",
+                    "resolve-one-sample", "subpixel-bits-4", "stencil-off",
                     "stencil-cleared-to-one", "stencil-cleared-to-all"),
     [](const auto& test) {
         std::string name = test.param;
@@ -202,7 +202,7 @@ TEST(Diagnose, ComparesOnlyWhatWasDelivered) {
 // Of a case that a driver draws with its colour alone, a renderer elsewhere delivers hits and
 // writers, too.
 TEST(Diagnose, ComparesPlanesThatADriverWouldNotDraw) {
-    const Hypothesis& fault = named("logic_operands_exchanged");
+    const Hypothesis& fault = named("logic-operands-exchanged");
     report::Run run;
     run.device.subpixel_bits = kBits;
     const std::string root = test_support::source_dir() + "/cases/suite";
@@ -225,7 +225,7 @@ TEST(Diagnose, ComparesPlanesThatADriverWouldNotDraw) {
                             },
                             {});
     ASSERT_FALSE(list.empty());
-    EXPECT_THAT(list.front().names, testing::Contains("logic_operands_exchanged"));
+    EXPECT_THAT(list.front().names, testing::Contains("logic-operands-exchanged"));
     EXPECT_EQ(list.front().unexplained.size(), 0U);
 }
 
@@ -247,8 +247,8 @@ TEST(Diagnose, SizesAreFitted) {
 }
 
 TEST(Diagnose, OfTwoErrorsBothAreTold) {
-    report::Run run = run_of(named("scissor_closed"));
-    const report::Run other = run_of(named("provoking_mode_ignored"));
+    report::Run run = run_of(named("scissor-closed"));
+    const report::Run other = run_of(named("provoking-mode-ignored"));
     size_t exchanged = 0;
     for (size_t k = 0; k < run.cases.size(); ++k) {
         if (other.cases[k].status == report::Status::fail &&
@@ -262,8 +262,8 @@ TEST(Diagnose, OfTwoErrorsBothAreTold) {
     for (const report::Diagnosis& d : diagnose(run)) {
         names.insert(names.end(), d.names.begin(), d.names.end());
     }
-    EXPECT_THAT(names, testing::Contains("scissor_closed"));
-    EXPECT_THAT(names, testing::Contains("provoking_mode_ignored"));
+    EXPECT_THAT(names, testing::Contains("scissor-closed"));
+    EXPECT_THAT(names, testing::Contains("provoking-mode-ignored"));
 }
 
 // For each hypothesis which cases it draws otherwise than a right device, and how, in short; no
@@ -309,19 +309,19 @@ TEST(Hypotheses, NoTwoAreOneThing) {
     // culls, in viewports that begin elsewhere than scissors do, in pixels that an extra size adds
     // beyond a bounding box.
     const std::set<std::pair<std::string, std::string>> other = {
-        {"alpha_to_one_ignored", "alpha_to_one_multisampled"},
-        {"floor_snapping", "snaps-toward-zero"},
-        {"bounds_ignored", "bounds_of_first_draw"},
+        {"alpha-to-one-ignored", "alpha-to-one-multisampled"},
+        {"floor-snapping", "snaps-toward-zero"},
+        {"bounds-ignored", "bounds-of-first-draw"},
         {"cull-distance-lost", "cull-distance-negated"},
-        {"cull-distance-negated", "cull_distance_ignored"},
-        {"extra_size_ignored", "extra_size_of_box"},
-        {"fragment_grid_at_scissor", "fragment_grid_at_viewport"},
-        {"layer_ignored", "layer_of_viewport"},
-        {"logic_mask_ignored", "write_mask_ignored"},
-        {"stencil_faces_exchanged", "stencil_own_facing"},
-        {"stencil_reference_unmasked", "stencil_stored_unmasked"},
-        {"stencil_saturates", "stencil_wrap_stops_at_zero"},
-        {"write_mask_ignored_blending", "write_mask_of_first_draw"}};
+        {"cull-distance-ignored", "cull-distance-negated"},
+        {"extra-size-ignored", "extra-size-of-box"},
+        {"fragment-grid-at-scissor", "fragment-grid-at-viewport"},
+        {"layer-ignored", "layer-of-viewport"},
+        {"logic-mask-ignored", "write-mask-ignored"},
+        {"stencil-faces-exchanged", "stencil-own-facing"},
+        {"stencil-reference-unmasked", "stencil-stored-unmasked"},
+        {"stencil-saturates", "stencil-wrap-stops-at-zero"},
+        {"write-mask-ignored-blending", "write-mask-of-first-draw"}};
     const std::vector<Hypothesis> all = diagnosis::known_hypotheses(kBits);
     const std::vector<std::string> pictures = pictures_of(all);
     std::map<std::string, std::string> names;

@@ -18,14 +18,14 @@
 namespace fuzz {
 namespace {
 
-using vk_harness::Rendered;
+using capture::Rendered;
 
 // More poses than a hunt has among as many cases: what is valid hangs on the pose.
 constexpr uint64_t kPoses = 1250, kGeometriesOfPose = 8, kSeed = 11;
 
 TEST(Validation, NothingToSayAboutGeneratedCases) {
     const auto share = test_support::share_of(25, kPoses, "EDGECASE_FUZZ_SHARE");
-    vk_harness::Options options;
+    capture::RendererOptions options;
     options.validation = true;
     auto renderer = vk_harness::Renderer::create(options);
     ASSERT_TRUE(renderer) << renderer.error().message;

@@ -16,6 +16,8 @@
 namespace probe {
 namespace {
 
+using cases::operator""_fault;
+
 using testing::HasSubstr;
 
 const Datasheet& usual() {
@@ -39,7 +41,7 @@ TEST(Datasheet, OfTheUsualDeviceTellsEverything) {
 
 TEST(Datasheet, OfADeviceThatDrawsNothingTellsNothing) {
     software::Device device;
-    device.fault = software::Fault::draws_nothing;
+    device.fault = "draws-nothing"_fault;
     const Datasheet sheet = sheet_of(device);
     EXPECT_EQ(sheet.properties.size(), usual().properties.size());
     for (const Property& p : sheet.properties) {
@@ -62,22 +64,22 @@ TEST(Datasheet, OfADeviceThatSupportsNothingSaysWhy) {
 
 // Errors that are no choice are seen as what they are, or not told: never as a choice.
 TEST(Datasheet, OfFaultsIsNoOtherChoice) {
-    using software::Fault;
+    using cases::Fault;
     const auto of = [](Fault fault, std::vector<std::string_view> only) {
         software::Device device;
         device.fault = fault;
         return sheet_of(device, only);
     };
-    EXPECT_EQ(of(Fault::ties_all_inclusive, {"ties"}).answer("ties.rule"), "every edge");
-    EXPECT_EQ(of(Fault::ties_all_exclusive, {"ties"}).answer("ties.rule"), "no edge");
-    EXPECT_EQ(of(Fault::ties_bottom_too, {"ties"}).answer("ties.rule"), kCannotTell);
-    EXPECT_EQ(of(Fault::coarse_snapping, {"grid"}).answer("grid.bits.x"), "4");
-    const Datasheet rough = of(Fault::reciprocal_12_bits, {"precision"});
+    EXPECT_EQ(of("ties-all-inclusive"_fault, {"ties"}).answer("ties.rule"), "every edge");
+    EXPECT_EQ(of("ties-all-exclusive"_fault, {"ties"}).answer("ties.rule"), "no edge");
+    EXPECT_EQ(of("ties-bottom-too"_fault, {"ties"}).answer("ties.rule"), kCannotTell);
+    EXPECT_EQ(of("coarse-snapping"_fault, {"grid"}).answer("grid.bits.x"), "4");
+    const Datasheet rough = of("reciprocal-12-bits"_fault, {"precision"});
     EXPECT_GE(rough.find("precision.smooth")->figures.at(0).value, 11);
     EXPECT_LE(rough.find("precision.smooth")->figures.at(0).value, 13);
     EXPECT_GT(rough.find("precision.smooth")->contradict, 0U);
     EXPECT_EQ(rough.find("precision.noperspective")->contradict, 0U);
-    EXPECT_NE(of(Fault::samples_upside_down, {"locations"}).answer("samples.4"),
+    EXPECT_NE(of("samples-upside-down"_fault, {"locations"}).answer("samples.4"),
               "the standard locations");
 }
 

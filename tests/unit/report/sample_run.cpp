@@ -228,7 +228,7 @@ Run hostile_run() {
     run.started = run.ended = kHostile;
     run.arguments = {kHostile, kHostile};
     run.environment = {{kHostile, kHostile}};
-    Device& d = run.device;
+    capture::DeviceInfo& d = run.device;
     d.name = d.driver_name = d.driver_info = d.uuid = d.type = d.api_version = kHostile;
     for (CaseRecord& r : run.cases) {
         r.id += kHostile;

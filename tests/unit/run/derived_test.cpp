@@ -14,7 +14,7 @@
 namespace run {
 namespace {
 
-using vk_harness::Rendered;
+using capture::Rendered;
 using Alter = std::function<void(capture::Capture&)>;
 
 // A device that draws rightly, after which one picture is altered.
@@ -22,14 +22,14 @@ class Altered : public Backend {
   public:
     Altered(Alter plain, Alter door) : plain_(std::move(plain)), door_(std::move(door)) {
         WorkerOptions options;
-        options.renderer = "software";
+        options.renderer.name = "software";
         inner_ = std::move(*make_backend(options));
     }
-    const vk_harness::DeviceInfo& device() const override { return inner_->device(); }
+    const capture::DeviceInfo& device() const override { return inner_->device(); }
     std::string lacking(const cases::Case&) const override { return ""; }
     std::vector<Rendered> render(const std::vector<cases::Case>& batch,
                                  const std::function<void(std::string_view)>& step,
-                                 const vk_harness::PlaneStore& /*store*/) override {
+                                 const capture::PlaneStore& /*store*/) override {
         std::vector<cases::Case> plain = batch;
         for (cases::Case& c : plain) {
             c.variation = {};
@@ -80,11 +80,11 @@ diff::Consistency judged(const std::string& door, Alter plain, Alter through_doo
 // Draws nothing, and remembers what it was asked for.
 class Asked : public Backend {
   public:
-    const vk_harness::DeviceInfo& device() const override { return device_; }
+    const capture::DeviceInfo& device() const override { return device_; }
     std::string lacking(const cases::Case&) const override { return ""; }
     std::vector<Rendered> render(const std::vector<cases::Case>& batch,
                                  const std::function<void(std::string_view)>& /*step*/,
-                                 const vk_harness::PlaneStore& /*store*/) override {
+                                 const capture::PlaneStore& /*store*/) override {
         for (const cases::Case& c : batch) {
             doors.push_back(c.variation.door != cases::Door::none);
         }
@@ -93,7 +93,7 @@ class Asked : public Backend {
     std::vector<bool> doors;  // whether each picture is one through a door
 
   private:
-    vk_harness::DeviceInfo device_;
+    capture::DeviceInfo device_;
 };
 
 // A submission has few pictures through doors, and what is drawn twice the same is to be in one.
@@ -168,7 +168,7 @@ TEST(Derived, WhatThePlainPictureDoesWrongTooIsNoFaultOfAStage) {
 
 // Whatever a device claims, the reference gets numbers that it can judge by.
 TEST(Limits, AreKeptToWhatTheReferenceKnows) {
-    vk_harness::DeviceInfo device;
+    capture::DeviceInfo device;
     const ref::Limits few = limits_of(device);
     EXPECT_EQ(few.subpixel_bits, 4);
     EXPECT_EQ(few.interpolation_offset_bits, 4);

@@ -13,13 +13,15 @@
 namespace run {
 namespace {
 
+using cases::operator""_fault;
+
 using testing::Contains;
 using testing::HasSubstr;
 using testing::Pair;
 
 // The record of a case of the suite that a device with a fault drew.
 report::CaseRecord drawn_with(const std::string& file, const std::string& leaf,
-                              software::Fault fault) {
+                              cases::Fault fault) {
     const std::string root = test_support::source_dir() + "/cases/suite";
     const auto loaded = cases::load_file(root + "/" + file + ".toml", root);
     for (const cases::Case& c : loaded.value()) {
@@ -37,13 +39,13 @@ report::CaseRecord drawn_with(const std::string& file, const std::string& leaf,
 
 TEST(Evidence, TellsDiscardsTestsAndStencils) {
     const report::CaseRecord discard =
-        drawn_with("discard/fragments", "samples=1", software::Fault::discard_fragment_ignored);
+        drawn_with("discard/fragments", "samples=1", "discard-fragment-ignored"_fault);
     ASSERT_FALSE(discard.evidence.samples.empty());
     EXPECT_THAT(discard.evidence.samples[0].courses,
                 Contains(Pair(testing::EndsWith("of draw 1"), HasSubstr("discards"))));
 
     const report::CaseRecord stencil =
-        drawn_with("stencil/draws", "samples=1", software::Fault::stencil_fail_lost);
+        drawn_with("stencil/draws", "samples=1", "stencil-fail-lost"_fault);
     ASSERT_FALSE(stencil.evidence.samples.empty());
     EXPECT_THAT(stencil.evidence.samples[0].courses,
                 Contains(Pair(testing::StartsWith("triangle "), HasSubstr("the stencil test"))));
@@ -59,7 +61,7 @@ TEST(Evidence, TellsDiscardsTestsAndStencils) {
 
     // Nothing of it where nothing is tested or discarded.
     const report::CaseRecord plain =
-        drawn_with("ties/diagonal-edge", "rotation=0", software::Fault::ties_top_right);
+        drawn_with("ties/diagonal-edge", "rotation=0", "ties-top-right"_fault);
     ASSERT_FALSE(plain.evidence.samples.empty());
     for (const report::SampleEvidence& e : plain.evidence.samples) {
         EXPECT_TRUE(e.courses.empty() && e.stencil.empty());
@@ -67,9 +69,8 @@ TEST(Evidence, TellsDiscardsTestsAndStencils) {
 }
 
 TEST(Evidence, TellsHowAColorComesAbout) {
-    const report::CaseRecord record =
-        drawn_with("logic/operations", "op=and-reverse,format=rgba8-uint",
-                   software::Fault::logic_operands_exchanged);
+    const report::CaseRecord record = drawn_with(
+        "logic/operations", "op=and-reverse,format=rgba8-uint", "logic-operands-exchanged"_fault);
     ASSERT_FALSE(record.evidence.samples.empty());
     EXPECT_TRUE(record.evidence.pictures.is_uncounted);
     bool is_told = false;

@@ -11,8 +11,8 @@ namespace {
 
 using report::Status;
 
-report::Device lavapipe() {
-    report::Device device;
+capture::DeviceInfo lavapipe() {
+    capture::DeviceInfo device;
     device.name = "llvmpipe (LLVM 15.0.6, 256 bits)";
     device.driver_name = "llvmpipe";
     device.driver_info = "Mesa 22.3.6 (LLVM 15.0.6)";

@@ -46,7 +46,7 @@ TEST(Frame, EveryFlippedBitIsSeen) {
 CaseResult small_result() {
     CaseResult result;
     result.index = 3;
-    result.rendered.status = vk_harness::Rendered::Status::drawn;
+    result.rendered.status = capture::Rendered::Status::drawn;
     result.rendered.messages = {"one", ""};
     capture::Capture& c = result.rendered.capture;
     c.target = {2, 1, 1};

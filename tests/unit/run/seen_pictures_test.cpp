@@ -42,7 +42,7 @@ std::pair<Status, bool> judged(const std::string& words, report::CaseRecord reco
                                const std::string& pictures, bool is_strict,
                                const std::string& device = "GPU 1") {
     std::map<std::string, ExpectationLine> expected = {{record.id, known(words)}};
-    report::Device on;
+    capture::DeviceInfo on;
     on.name = device;
     tell_pictures(expected, {parsed(pictures)}, on, is_strict);
     const Status counts = counts_as(expected.at(record.id), record);

@@ -135,7 +135,7 @@ TEST(SharedMemoryDeathTest, LockedWordsCannotBeWrittenTo) {
 TEST(SharedMemory, AResultTellsWhereItsPlanesLie) {
     CaseResult result;
     result.index = 2;
-    result.rendered.status = vk_harness::Rendered::Status::drawn;
+    result.rendered.status = capture::Rendered::Status::drawn;
     result.rendered.capture.target = {4, 2, 1};
     result.rendered.capture.attribute_count = 1;
     result.is_shared = true;

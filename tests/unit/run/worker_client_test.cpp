@@ -96,16 +96,16 @@ constexpr std::array kTypes = {FrameType::configure, FrameType::render,    Frame
 std::string message(FrameType type) {
     switch (type) {
         case FrameType::hello:
-            return encode_frame(type, encode(vk_harness::DeviceInfo{}));
+            return encode_frame(type, encode(capture::DeviceInfo{}));
         case FrameType::no_device:
-            return encode_frame(type, encode(vk_harness::Failure{}));
+            return encode_frame(type, encode(capture::Failure{}));
         case FrameType::devices:
-            return encode_frame(type, encode(std::vector<vk_harness::DeviceInfo>(2)));
+            return encode_frame(type, encode(std::vector<capture::DeviceInfo>(2)));
         case FrameType::step:
             return encode_frame(type, "submit");
         case FrameType::result: {
             CaseResult result;
-            result.rendered.status = vk_harness::Rendered::Status::unsupported;
+            result.rendered.status = capture::Rendered::Status::unsupported;
             result.rendered.reason = "it lacks it";
             return encode_frame(type, encode_result(result));
         }
@@ -294,7 +294,7 @@ TEST(Protocol, ABatchIsDoneWhenAllItsResultsHaveCome) {
 
     CaseResult second;
     second.index = 1;  // of a batch of one
-    second.rendered.status = vk_harness::Rendered::Status::unsupported;
+    second.rendered.status = capture::Rendered::Status::unsupported;
     Reached beyond(ways().back(), Worker::End::stays);
     beyond.says(encode_frame(FrameType::result, encode_result(second)));
     EXPECT_TRUE(is_death(beyond.events(100)));

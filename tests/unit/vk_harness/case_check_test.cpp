@@ -138,14 +138,14 @@ TEST(CaseCheck, SampleLocations) {
         "the device does not promise the standard sample locations, and does not tell its own at "
         "sample count 4 by gl_SamplePosition, in sixteenths of a pixel, alike in every pixel";
     expect_rejected(m, c, unsupported, untold);
-    m.info.sample_locations = {{{4, 4}, {12, 12}}};
+    m.told_locations = {{{4, 4}, {12, 12}}};
     expect_rejected(m, c, unsupported, untold);
     m.info.sample_locations_error = "the device cannot be asked where its samples are: submit";
     expect_rejected(m, c, error, m.info.sample_locations_error);
     c.target.samples = 1;
     EXPECT_FALSE(check_case(m, c).has_value());
     c.target.samples = 4;
-    m.info.sample_locations.push_back({{1, 5}, {9, 2}, {13, 11}, {4, 14}});
+    m.told_locations.push_back({{1, 5}, {9, 2}, {13, 11}, {4, 14}});
     EXPECT_FALSE(check_case(m, c).has_value());
     c.target.sample_locations = {{0, 0}, {15, 0}, {0, 15}};
     expect_rejected(m, c, error, "the target has 3 sample locations for 4 samples");

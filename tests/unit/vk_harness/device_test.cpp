@@ -61,19 +61,21 @@ TEST(Devices, ARunIsPinnedToItsDeviceAndDriver) {
     const DeviceInfo& used = renderer().device();
     Options options;
     EXPECT_TRUE(is_pinned(options, used));
-    options.pinned_uuid = used.uuid;
-    options.pinned_driver = used.driver_id;
+    EXPECT_EQ(used.key, used.uuid + ":" + std::to_string(used.driver_id));
+    options.pinned = used.key;
     EXPECT_TRUE(is_pinned(options, used));
     EXPECT_TRUE(Renderer::create(options));
     DeviceInfo other = used;
-    other.driver_id += 1;  // another driver of the same device
+    other.key =
+        used.uuid + ":" + std::to_string(used.driver_id + 1);  // another driver of the same device
     EXPECT_FALSE(is_pinned(options, other));
-    options.pinned_uuid.back() = options.pinned_uuid.back() == '0' ? '1' : '0';
+    options.pinned.front() = options.pinned.front() == '0' ? '1' : '0';
     const auto chosen = Renderer::create(options);
     ASSERT_FALSE(chosen);
     EXPECT_THAT(chosen.error().message,
                 ::testing::HasSubstr("the device that the run began with (UUID " +
-                                     options.pinned_uuid + ") is not there any more"));
+                                     options.pinned.substr(0, used.uuid.size()) +
+                                     ") is not there any more"));
 }
 
 TEST(Devices, EveryRejectionHasAReason) {
