@@ -10,7 +10,8 @@
 namespace cli {
 
 int version_command() {
-    say(fmt::format("edgecase {}\ncase format 1, results schema 1, expectation format 2\n", kVersion));
+    say(fmt::format("edgecase {}\ncase format 1, results schema 1, expectation format 2\n",
+                    kVersion));
     return report::kExitOk;
 }
 

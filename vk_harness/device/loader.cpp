@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cstdlib>
+#include <cstring>
+#include <vector>
 
 #include "vk_harness/device/api.hpp"
 
@@ -67,6 +70,16 @@ void check(Stage stage, VkResult result, std::string_view call) {
     if (result != VK_SUCCESS) {
         fail(call_failure(stage, result, call));
     }
+}
+
+bool has_device_extension(VkPhysicalDevice physical, const char* name) {
+    uint32_t count = 0;
+    vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> extensions(count);
+    vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
+    return std::any_of(extensions.begin(), extensions.end(), [name](const auto& extension) {
+        return std::strcmp(extension.extensionName, name) == 0;
+    });
 }
 
 void load_vulkan(const Options& options) {
