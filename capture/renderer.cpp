@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "capture/renderer.hpp"
 
+#include <algorithm>
 #include <array>
 
 namespace capture {
@@ -21,6 +22,12 @@ CaptureView view_of(const Rendered& rendered) {
         view_planes(c.target, c.has_primitive, c.attribute_count, rendered.placed.data());
     view.counted = c.counted;
     return view;
+}
+
+const RendererKind* find_renderer(RendererKinds kinds, std::string_view name) {
+    const std::string_view word = name.substr(0, name.find(':'));
+    const auto found = std::ranges::find(kinds, word, &RendererKind::name);
+    return word.empty() ? &kinds.front() : found == kinds.end() ? nullptr : &*found;
 }
 
 }  // namespace capture

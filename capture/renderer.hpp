@@ -6,8 +6,10 @@
 #pragma once
 
 #include <bitset>
+#include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,8 +18,13 @@
 
 #include "capture/capture.hpp"
 #include "cases/model/case.hpp"
+#include "cases/model/door.hpp"
 
 namespace capture {
+
+// Planes by their numbers (capture.hpp).
+using PlaneSet = std::bitset<kPlaneNumbers>;
+inline const PlaneSet kEveryPlane = PlaneSet().set();
 
 // A limit that is not as the renderer's API requires it, as texts: "maxViewports", "at least 16",
 // "8", "of a device with the feature multiViewport".
@@ -124,16 +131,18 @@ using Result = tl::expected<T, Failure>;
 
 // Which renderer, and which of its devices.
 struct RendererOptions {
-    std::string name;         // a row of the table, with choices behind a ':' where it has some
-    std::string device;       // "" = first usable; an index, a part of the name, or a UUID
-    std::string icd_file;     // not empty: the manifest of the driver, and no other
-    bool validation = false;  // what a layer says of the calls ends up in Rendered::messages
-    std::string pinned;       // DeviceInfo::key of the device that the run began with; empty: any
+    std::string renderer;            // a row of the table, with choices behind a ':'; "": the first
+    std::string device;              // "" = first usable; an index, a part of the name, or a UUID
+    std::string icd;                 // not empty: the manifest of the driver, and no other
+    std::string icd_from = "--icd";  // the option or the variable that chose it
+    bool validation = false;         // what a layer says of the calls ends up in Rendered::messages
+    std::string pinned;  // DeviceInfo::key of the device that the run began with; empty: any
     uint64_t longest_wait_ms = 0;  // for what was submitted; 0: without end
     static void fields(auto&& visit, auto&... o) {
-        visit("name", o.name...);
+        visit("renderer", o.renderer...);
         visit("device", o.device...);
-        visit("icd_file", o.icd_file...);
+        visit("icd", o.icd...);
+        visit("icd_from", o.icd_from...);
         visit("validation", o.validation...);
         visit("pinned", o.pinned...);
         visit("longest_wait_ms", o.longest_wait_ms...);
@@ -157,12 +166,80 @@ struct Rendered {
         visit("stray_writes", r.stray_writes...);
     }
 };
+// What came of one case: a picture, or one sentence that says why there is none.
+struct Drawn {
+    std::optional<Capture> picture;
+    std::string why_not;
+};
+// Draws cases with a renderer, wherever that is.
+using Draw = std::function<std::vector<Drawn>(std::vector<cases::Case>)>;
+
 // The capture of a drawn case, wherever its planes lie.
 CaptureView view_of(const Rendered& rendered);
 
 // Memory for the planes of case `slot` of the batch, plane_bytes() long and aligned to 16; empty if
 // they shall lie in Rendered::capture.
 using PlaneStore = std::function<std::span<std::byte>(size_t slot, uint64_t bytes)>;
+
+// Hears the name of each stage of drawing before it starts: "pipeline", "record", "submit",
+// "readback"; again for each part of a batch that is drawn in several.
+using Step = std::function<void(std::string_view)>;
+
+class Renderer {
+  public:
+    Renderer() = default;
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+    virtual ~Renderer() = default;
+
+    virtual const DeviceInfo& device() const = 0;
+
+    // Why the case, through its door, must not be drawn; one sentence, empty if it may be.
+    virtual std::string lacking(const cases::Case& c) const = 0;
+
+    // Draws the cases and reads the planes back, these at least; of no planes the pictures are
+    // drawn and nothing else. Results in the order of the cases: one may be unsupported for a
+    // reason that only drawing tells.
+    virtual std::vector<Rendered> render(std::span<const cases::Case> batch, PlaneSet planes,
+                                         const Step& step, const PlaneStore& store) = 0;
+    std::vector<Rendered> render(std::span<const cases::Case> batch) {
+        return render(batch, kEveryPlane, [](std::string_view) {}, {});
+    }
+};
+
+// A driver on this machine, by its manifest.
+struct Driver {
+    std::string file, library, problem;  // problem: "cannot be read: ..."; empty if there is none
+    std::filesystem::path path;          // of the library, as dlopen takes it
+};
+// What is there before any driver is loaded.
+struct Installed {
+    std::string chosen_by;  // the option or variable that chose the drivers; empty: none did
+    std::vector<Driver> drivers;
+    std::string problem;           // one sentence if the chosen file is no manifest
+    std::string validation_layer;  // its file; empty: it is missing
+};
+
+// A row of the table of renderers.
+struct RendererKind {
+    std::string_view name;  // for --renderer
+    std::string_view help;
+    Result<std::unique_ptr<Renderer>> (*make)(const RendererOptions&);
+    // The devices of the machine; null: it is the only device of its kind.
+    Result<std::vector<DeviceInfo>> (*list)(const RendererOptions&) = nullptr;
+    // Null: it needs no driver.
+    Installed (*find_drivers)(const RendererOptions&) = nullptr;
+    // What a door needs of a device, beyond what every case needs; null: it has no doors.
+    std::string_view (*needs)(cases::Door) = nullptr;
+    // What is wrong with the choices behind the name and a ':', one sentence, or nothing; null: it
+    // takes none.
+    std::string (*wrong_choices)(std::string_view choices) = nullptr;
+};
+using RendererKinds = std::span<const RendererKind>;
+
+// The kind of that name, whatever choices stand behind it; the first one if it is empty. Nullptr:
+// there is none.
+const RendererKind* find_renderer(RendererKinds kinds, std::string_view name);
 
 }  // namespace capture
 

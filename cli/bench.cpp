@@ -26,9 +26,8 @@
 #include "cli/bench/judging.hpp"
 #include "cli/commands.hpp"
 #include "cli/prepare/suite.hpp"
+#include "cli/renderers/renderers.hpp"
 #include "run/order.hpp"
-#include "run/worker/backend.hpp"
-#include "vk_harness/public/harness.hpp"
 
 extern char** environ;
 
@@ -147,22 +146,24 @@ uint64_t sample_count(const std::vector<cases::Case>& cases) {
 constexpr size_t kBatch = 16;  // cases in one submission, as `run` does it
 
 // Draws all cases that the device supports once; seconds.
-capture::Result<double> draw_bare(vk_harness::Renderer& renderer,
+cases::Expected<double> draw_bare(capture::Renderer& renderer,
                                   const std::vector<cases::Case>& cases) {
+    using capture::Rendered;
     const Clock::time_point begin = Clock::now();
     size_t drawn = 0;
     for (size_t k = 0; k < cases.size(); k += kBatch) {
         const size_t count = std::min(kBatch, cases.size() - k);
-        const auto batch = renderer.render_bare(std::span(cases).subspan(k, count));
-        if (!batch) {
-            return tl::unexpected<capture::Failure>(batch.error());
+        for (const Rendered& result : renderer.render(std::span(cases).subspan(k, count),
+                                                      capture::PlaneSet(), [](auto) {}, {})) {
+            if (result.status == Rendered::Status::drawn) {
+                ++drawn;
+            } else if (result.status != Rendered::Status::unsupported) {
+                return cases::failure("{}", result.reason);
+            }
         }
-        drawn += *batch;
     }
     if (drawn == 0) {
-        capture::Failure nothing;
-        nothing.message = "this device supports none of the selected cases; select others";
-        return tl::unexpected<capture::Failure>(std::move(nothing));
+        return cases::failure("this device supports none of the selected cases; select others");
     }
     return seconds_since(begin);
 }
@@ -174,18 +175,15 @@ int bare_command(const Program& program, const BenchOptions& options) {
         return report_stop(suite.error());
     }
     const std::vector<cases::Case> cases = selected_cases(*suite);
-    capture::RendererOptions vulkan;
-    vulkan.device = options.device.device;
-    vulkan.icd_file = options.device.icd;
-    capture::Result<vk_harness::Renderer> renderer = vk_harness::Renderer::create(vulkan);
+    const auto renderer = renderer_of(options.device).make(options.device);
     if (!renderer) {
         complain(renderer.error().message);
         return report::kExitDevice;
     }
-    const capture::Result<double> cold = draw_bare(*renderer, cases);
+    const auto cold = draw_bare(**renderer, cases);
     // A second pass only when asked: the whole process is what the parent times.
     const bool twice = std::getenv("EDGECASE_BENCH_TWICE") != nullptr;
-    const capture::Result<double> warm = twice ? draw_bare(*renderer, cases) : cold;
+    const auto warm = twice ? draw_bare(**renderer, cases) : cold;
     if (!cold || !warm) {
         complain((cold ? warm : cold).error().message);
         return report::kExitAllSkipped;

@@ -11,6 +11,7 @@
 
 #include "cli/options/parse.hpp"
 #include "cli/prepare/outputs.hpp"
+#include "cli/renderers/renderers.hpp"
 #include "run/process/pool.hpp"
 #include "run/worker/worker.hpp"
 
@@ -24,7 +25,7 @@ int edgecase_main(int argc, const char* const* argv) {
     ::mallopt(M_TRIM_THRESHOLD, kKeep);
     const Program program = make_program(argc, argv);
     if (program.arguments.size() == 2 && program.arguments[1] == "worker") {
-        return run::run_worker();
+        return run::run_worker(all_renderers());
     }
     CLI::App app(
         "Edgecase: checks triangle rasterization of Vulkan drivers against an exact reference.",

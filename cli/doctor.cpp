@@ -19,9 +19,10 @@
 #include "cli/prepare/device_answer.hpp"
 #include "cli/prepare/run_plan.hpp"
 #include "cli/prepare/suite.hpp"
+#include "cli/renderers/renderers.hpp"
 #include "report/files/json.hpp"
 #include "report/text/sentences.hpp"
-#include "run/process/manifest.hpp"
+#include "run/process/library.hpp"
 #include "run/worker/lacking.hpp"
 
 namespace cli {
@@ -30,69 +31,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 namespace {
-
-std::string value_of(const char* variable) {
-    const char* value = std::getenv(variable);
-    return value != nullptr ? value : "";
-}
-
-// The manifests that the loader looks at, and the variable that chose them, if any.
-std::vector<run::Manifest> find_manifests(const std::string& icd, const std::string& icd_from,
-                                          std::string& chosen_by) {
-    std::vector<fs::path> places;
-    const auto add_list = [&](const std::string& list, const std::string& below) {
-        std::istringstream in(list);
-        for (std::string item; std::getline(in, item, ':');) {
-            if (!item.empty()) {
-                places.push_back(fs::path(item) / below);
-            }
-        }
-    };
-    if (!icd.empty()) {
-        chosen_by = icd_from;
-        places.emplace_back(icd);
-    } else {
-        for (const char* variable : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"}) {
-            if (places.empty() && !value_of(variable).empty()) {
-                chosen_by = variable;
-                std::istringstream in(value_of(variable));
-                for (std::string item; std::getline(in, item, ':');) {
-                    places.emplace_back(item);
-                }
-            }
-        }
-    }
-    if (chosen_by.empty()) {
-        const std::string home = value_of("HOME");
-        const std::string config = value_of("XDG_CONFIG_HOME");
-        const std::string data = value_of("XDG_DATA_DIRS");
-        add_list(config.empty() ? home + "/.config" : config, "vulkan/icd.d");
-        add_list("/etc/xdg:/etc", "vulkan/icd.d");
-        add_list(home + "/.local/share", "vulkan/icd.d");
-        add_list(data.empty() ? "/usr/local/share:/usr/share" : data, "vulkan/icd.d");
-    }
-    std::vector<run::Manifest> manifests;
-    for (const fs::path& place : places) {
-        std::error_code ignored;
-        if (!fs::is_directory(place, ignored)) {
-            if (!chosen_by.empty()) {
-                manifests.push_back(run::read_manifest(place));
-            }
-            continue;
-        }
-        std::vector<fs::path> files;
-        for (const fs::directory_entry& entry : fs::directory_iterator(place, ignored)) {
-            if (entry.path().extension() == ".json") {
-                files.push_back(entry.path());
-            }
-        }
-        std::sort(files.begin(), files.end());
-        for (const fs::path& file : files) {
-            manifests.push_back(run::read_manifest(file));
-        }
-    }
-    return manifests;
-}
 
 // Something that a command needs beside a driver.
 struct Part {
@@ -110,22 +48,10 @@ std::string find_file(const std::vector<fs::path>& folders, const std::string& n
     return {};
 }
 
-std::vector<Part> find_parts(const Program& program) {
-    std::vector<fs::path> layers;
-    std::istringstream list(value_of("VK_LAYER_PATH"));
-    for (std::string item; std::getline(list, item, ':');) {
-        layers.emplace_back(item);
-    }
-    const std::string data = value_of("XDG_DATA_DIRS");
-    std::istringstream dirs(data.empty() ? "/usr/local/share:/usr/share" : data);
-    for (std::string item; std::getline(dirs, item, ':');) {
-        layers.push_back(fs::path(item) / "vulkan/explicit_layer.d");
-    }
-    layers.insert(layers.end(), {"/etc/vulkan/explicit_layer.d",
-                                 value_of("HOME") + "/.local/share/vulkan/explicit_layer.d"});
+std::vector<Part> find_parts(const Program& program, const capture::Installed& installed) {
     const fs::path folder = fs::path(program.path).parent_path();
     std::vector<Part> parts = {
-        {"validation layer", "'--validation'", find_file(layers, "VkLayer_khronos_validation.json"),
+        {"validation layer", "'--validation'", installed.validation_layer,
          "sudo apt install vulkan-validationlayers"},
         {"image files", "EXR and PNG files",
          find_file({folder / "../lib/edgecase", folder / "../lib", folder}, "edgecase-image-io.so"),
@@ -139,8 +65,7 @@ std::vector<Part> find_parts(const Program& program) {
 struct Diagnosis {
     std::vector<Part> parts;
 
-    std::string chosen_by;
-    std::vector<run::Manifest> manifests;
+    capture::Installed installed;
     std::vector<capture::DeviceInfo> devices;
     std::vector<std::optional<run::SuiteShare>> shares;  // of the devices, as far as known
     std::vector<std::string> problems;
@@ -151,7 +76,8 @@ struct Diagnosis {
 void add_failure(Diagnosis& d, const capture::Failure& failure) {
     d.problems.push_back(failure.message);
     d.problems.insert(d.problems.end(), failure.reasons.begin(), failure.reasons.end());
-    if (!d.devices.empty() || (!d.chosen_by.empty() && failure.stage != capture::Stage::loader)) {
+    if (!d.devices.empty() ||
+        (!d.installed.chosen_by.empty() && failure.stage != capture::Stage::loader)) {
         return;  // the driver works, but is not what was asked for; or another one was chosen
     }
     if (failure.stage == capture::Stage::loader) {
@@ -187,7 +113,7 @@ cases::Expected<void> ask_worker(const Program& program, const DeviceOptions& op
         d.devices = *list;
         if (list->empty()) {
             d.problems.emplace_back("the loader finds no device");
-            if (d.chosen_by.empty()) {
+            if (d.installed.chosen_by.empty()) {
                 d.advice.emplace_back("sudo apt install mesa-vulkan-drivers");
             }
         }
@@ -214,18 +140,17 @@ cases::Expected<void> ask_worker(const Program& program, const DeviceOptions& op
 
 // Every device of the drivers, and whether the chosen one, or the first usable, can run the suite.
 cases::Expected<void> ask(const Program& program, const DeviceOptions& options, Diagnosis& d) {
-    const bool is_driver = options.renderer.empty();
+    const bool is_driver = renderer_of(options).list != nullptr;
     if (is_driver) {
-        for (const run::Manifest& m : d.manifests) {
+        for (const capture::Driver& m : d.installed.drivers) {
             if (!m.problem.empty()) {
                 d.problems.push_back("the driver manifest " + m.file + " " + m.problem);
             }
         }
         const auto listed = ask_worker(program, options, Question::devices, d);
-        for (const run::Manifest& m : d.manifests) {
-            if (const std::string why = d.devices.empty() ? run::load_problem(m) : "";
-                !why.empty()) {
-                d.problems.push_back("the driver library " + m.library + " does not load: " + why);
+        for (const capture::Driver& m : d.installed.drivers) {
+            if (std::string why = d.devices.empty() ? run::load_problem(m) : ""; !why.empty()) {
+                d.problems.push_back(std::move(why));
             }
         }
         if (!listed || d.devices.empty() || options.device.empty()) {
@@ -252,8 +177,8 @@ void ask_shares(const Program& program, const DeviceOptions& options, Diagnosis&
             continue;
         }
         run::WorkerOptions worker = worker_options(options);
-        worker.renderer.device.clear();
-        worker.renderer.pinned = d.devices[k].key;
+        worker.device.device.clear();
+        worker.device.pinned = d.devices[k].key;
         const auto reasons = run::ask_what_is_lacking(
             worker_command(program), worker,
             std::chrono::milliseconds(static_cast<int64_t>(options.timeout * 1000)), asked,
@@ -314,7 +239,7 @@ Json wrong_limits_json(const capture::DeviceInfo& device) {
 
 Json to_json(const Diagnosis& d) {
     Json manifests = Json::array();
-    for (const run::Manifest& m : d.manifests) {
+    for (const capture::Driver& m : d.installed.drivers) {
         manifests.push_back({{"file", m.file}, {"library", m.library}, {"problem", m.problem}});
     }
     Json devices = Json::array();
@@ -347,8 +272,12 @@ Json to_json(const Diagnosis& d) {
                          {"found", part.found},
                          {"advice", part.found.empty() ? part.advice : ""}});
     }
-    return {{"parts", parts},         {"usable", d.usable}, {"manifests_chosen_by", d.chosen_by},
-            {"manifests", manifests}, {"devices", devices}, {"problems", d.problems},
+    return {{"parts", parts},
+            {"usable", d.usable},
+            {"manifests_chosen_by", d.installed.chosen_by},
+            {"manifests", manifests},
+            {"devices", devices},
+            {"problems", d.problems},
             {"advice", d.advice}};
 }
 
@@ -356,13 +285,14 @@ void print(const Diagnosis& d, const DeviceOptions& options) {
     const auto line = [](const std::string& text) {
         std::printf("%s\n", cases::printable(text).c_str());
     };
-    line("Driver manifests" +
-         (d.chosen_by.empty() ? std::string() : " (chosen by " + d.chosen_by + ")"));
-    for (const run::Manifest& m : d.manifests) {
+    line("Driver manifests" + (d.installed.chosen_by.empty()
+                                   ? std::string()
+                                   : " (chosen by " + d.installed.chosen_by + ")"));
+    for (const capture::Driver& m : d.installed.drivers) {
         line("  " + m.file + (m.library.empty() ? "" : " -> " + m.library) +
              (m.problem.empty() ? "" : ": " + m.problem));
     }
-    if (d.manifests.empty()) {
+    if (d.installed.drivers.empty()) {
         line("  none");
     }
     line("Devices");
@@ -423,8 +353,8 @@ void print(const Diagnosis& d, const DeviceOptions& options) {
 
 int doctor_command(const Program& program, const DoctorOptions& options) {
     Diagnosis d;
-    d.parts = find_parts(program);
-    d.manifests = find_manifests(options.device.icd, options.device.icd_from, d.chosen_by);
+    d.installed = all_renderers().front().find_drivers(options.device);
+    d.parts = find_parts(program, d.installed);
     if (const auto asked = ask(program, options.device, d); !asked) {
         return report_stop({report::kExitInternal, {asked.error().message}});
     }

@@ -6,17 +6,19 @@
 #include "cli/commands.hpp"
 #include "cli/options/stop.hpp"
 #include "cli/prepare/outputs.hpp"
+#include "cli/renderers/renderers.hpp"
 #include "report/record/run.hpp"
 
 namespace cli {
 
 int doors_command() {
     for (const cases::DoorRow& row : cases::all_doors()) {
+        const std::string_view needs = all_renderers().front().needs(row.door);
         say(fmt::format("{}\n", row.word));
         say_wrapped(fmt::format("    {}\n", row.does));
         say_wrapped(fmt::format("    group: {}; rule: {}; takes {}{}\n", to_string(row.group),
                                 row.rule, row.takes,
-                                row.needs.empty() ? "" : fmt::format("; needs {}", row.needs)));
+                                needs.empty() ? "" : fmt::format("; needs {}", needs)));
     }
     return report::kExitOk;
 }

@@ -338,8 +338,8 @@ class FuzzCommand {
             return !entry.is_reduced;
         });
         hunt.left = ledger_.left;
-        const Hunt::Draw draw = [&session](std::vector<cases::Case> cases,
-                                           const auto& on_progress) {
+        const run::DrawAndJudge draw = [&session](std::vector<cases::Case> cases,
+                                                  const auto& on_progress) {
             return session.draw(std::move(cases), on_progress);
         };
         Hunt hunter(hunt, draw, std::move(ledger_.entries), ledger_.waiting,

@@ -54,19 +54,14 @@ OrStop<probe::Datasheet> measure(const Program& program, const ProbeOptions& opt
     bool is_interrupted = false;
     std::string failure;
     Progress progress(ProgressStyle::automatic, 0);
-    const probe::Draw draw = [&](std::vector<cases::Case> cases) {
-        std::vector<probe::Drawn> out(cases.size(), {{}, "it was not drawn"});
+    const capture::Draw draw = [&](std::vector<cases::Case> cases) {
         if (is_interrupted || !failure.empty()) {
-            return out;
+            return std::vector<capture::Drawn>(cases.size(), {{}, "it was not drawn"});
         }
         run::Session::Pictures pictures = session.pictures(std::move(cases));
         is_interrupted = pictures.interrupted;
         failure = pictures.failure;
-        for (size_t k = 0; k < out.size(); ++k) {
-            out[k] = {std::move(pictures.pictures[k].capture),
-                      std::move(pictures.pictures[k].why_not)};
-        }
-        return out;
+        return std::move(pictures.pictures);
     };
     probe::Datasheet sheet =
         probe::measure(draw, {config.limits, device.max_target_size, device.has_primitive_id},

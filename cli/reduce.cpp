@@ -43,18 +43,17 @@ OrStop<run::Session> start_session(const Program& program, const RunOptions& opt
 }
 
 // What draws cases: workers on a device, or a command.
-using Drawer = std::function<run::Session::Results(const std::vector<cases::Case>&)>;
-
-OrStop<Drawer> make_drawer(const Program& program, const ReduceOptions& options,
-                           run::SignalFd& signals, const std::function<void()>& on_wait) {
+OrStop<run::DrawAndJudge> make_drawer(const Program& program, const ReduceOptions& options,
+                                      run::SignalFd& signals,
+                                      const std::function<void()>& on_wait) {
     if (options.captures_command.empty()) {
         OrStop<run::Session> session = start_session(program, options.run, signals);
         if (!session) {
             return tl::unexpected(session.error());
         }
-        return [all = std::make_shared<run::Session>(std::move(*session)),
-                on_wait](const std::vector<cases::Case>& cases) {
-            return all->draw(cases, [&on_wait](size_t) {
+        return [all = std::make_shared<run::Session>(std::move(*session)), on_wait](
+                   std::vector<cases::Case> cases, const auto&) {
+            return all->draw(std::move(cases), [&on_wait](size_t) {
                 on_wait();
                 return true;
             });
@@ -68,7 +67,7 @@ OrStop<Drawer> make_drawer(const Program& program, const ReduceOptions& options,
         return tl::unexpected(command.error());
     }
     return [all = std::make_shared<CapturesCommand>(std::move(*command))](
-               const std::vector<cases::Case>& cases) {
+               std::vector<cases::Case> cases, const auto&) {
         run::Session::Results results;
         results.records = all->draw(cases);
         results.interrupted = all->is_interrupted();
@@ -140,7 +139,7 @@ int reduce_command(const Program& program, const ReduceOptions& options) {
     run::SignalFd signals;
     size_t drawn = 0;
     Progress progress(options.run.quiet ? ProgressStyle::none : ProgressStyle::automatic, 0);
-    OrStop<Drawer> drawer = make_drawer(program, options, signals, [&] {
+    OrStop<run::DrawAndJudge> drawer = make_drawer(program, options, signals, [&] {
         progress.show_words(fmt::format("reducing: {} drawn", cases::counted(drawn, "case")));
     });
     if (!drawer) {
@@ -153,20 +152,20 @@ int reduce_command(const Program& program, const ReduceOptions& options) {
         is_interrupted = is_interrupted || signals.has_come();
         return is_interrupted || !failure.empty();
     };
-    const fuzz::Draw draw = [&](const std::vector<cases::Case>& cases) {
+    const run::DrawAndJudge draw = [&](std::vector<cases::Case> cases, const auto& on_progress) {
         if (is_over()) {
-            return std::vector<CaseRecord>(cases.size());
+            return run::Session::Results{std::vector<CaseRecord>(cases.size()), false, ""};
         }
         drawn += cases.size();
-        run::Session::Results results = (*drawer)(cases);
+        run::Session::Results results = (*drawer)(std::move(cases), on_progress);
         is_interrupted = results.interrupted;
         failure = results.failure;
         unsure += static_cast<size_t>(
             std::count_if(results.records.begin(), results.records.end(), is_unsure));
-        return std::move(results.records);
+        return results;
     };
     cases::Case one = *loaded;
-    const CaseRecord record = draw({one}).front();
+    const CaseRecord record = draw({one}, {}).records.front();
     const std::optional<fuzz::Symptom> symptom = fuzz::symptom_of(record);
     if (!failure.empty()) {
         return report_stop(stop_with(report::kExitInternal, failure));

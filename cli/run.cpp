@@ -20,13 +20,14 @@
 #include "cli/prepare/loop_config.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/prepare_run.hpp"
+#include "cli/renderers/renderers.hpp"
 #include "cli/reproducer/reproducer.hpp"
 #include "report/files/ci.hpp"
 #include "report/journal/journal.hpp"
 #include "report/record/levels.hpp"
 #include "report/text/sentences.hpp"
 #include "report/text/unexpected.hpp"
-#include "run/process/manifest.hpp"
+#include "run/process/library.hpp"
 #include "run/process/pool.hpp"
 
 namespace cli {
@@ -87,7 +88,7 @@ OrStop<std::monostate> set_debugger(const Program& program, const RunOptions& op
     plan.front().alone = true;
     config.command = std::move(*command);
     config.timeout = std::chrono::hours(24 * 365);
-    config.worker.renderer.longest_wait_ms = 0;
+    config.worker.device.longest_wait_ms = 0;
     config.schedule.lanes = 1;
     config.schedule.repeat = 1;
     config.schedule.retries = 0;
@@ -114,11 +115,11 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
     OrStop<ReadyWorker> first = await_first_worker(std::move(worker), config, signals);
     if (!first) {
         Stop stop = first.error();
-        const std::string& icd = options.device.icd;
-        const run::Manifest manifest = icd.empty() ? run::Manifest{} : run::read_manifest(icd);
-        if (const std::string why = run::load_problem(manifest); !why.empty()) {
-            stop.lines.push_back("  the driver library '" + manifest.library +
-                                 "' does not load: " + why);
+        const auto drivers = find_drivers(options.device).drivers;
+        if (!options.device.icd.empty() && !drivers.empty()) {
+            if (const std::string why = run::load_problem(drivers.front()); !why.empty()) {
+                stop.lines.push_back("  " + why);
+            }
         }
         return stopped(options, stop);
     }

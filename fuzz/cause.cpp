@@ -5,11 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string_view>
 #include <vector>
 
+#include "cases/key/key.hpp"
 #include "cases/model/triangle.hpp"
 
 namespace fuzz {
@@ -24,24 +24,9 @@ bool is_failure(Status status) {
     return status >= Status::flake && status <= Status::crash;
 }
 
-// Keys that say nothing of what is drawn, or that every case has, or that are another way to write
-// the same.
-constexpr std::array<std::string_view, 10> kPlain = {"format",  "description", "rules", "links",
-                                                     "catches", "size",        "name",  "vertices",
-                                                     "values",  "half_space"};
-// Keys whose word does not matter: a cause that needs one format or comparison is mostly met with
-// others, too, and attributes may have any name.
-constexpr std::array<std::string_view, 9> kAnyWord = {"format",      "depth",      "compare",
-                                                      "blend",       "op",         "source",
-                                                      "destination", "write_mask", "attribute"};
 // The corners of a triangle go to the device's grid, of 1/16 pixel or finer, each by up to half a
 // step in x and y. One less high than this, in pixels, may lose its area there, or turn over.
 constexpr double kThin = 1.0 / 8;
-
-template <size_t N>
-bool is_one_of(const std::array<std::string_view, N>& list, std::string_view word) {
-    return std::find(list.begin(), list.end(), word) != list.end();
-}
 
 double number_of(const TomlValue& value) {
     return value.is(TomlValue::Kind::integer) ? static_cast<double>(value.integer) : value.floating;
@@ -85,19 +70,22 @@ bool is_far(const TomlValue& rectangle) {
             number_of(n[0]) + number_of(n[2]) > kFar || number_of(n[1]) + number_of(n[3]) > kFar);
 }
 
-void add_keys(const TomlValue& table, const std::string& path, std::set<std::string>& words) {
+void add_keys(const TomlValue& table, const std::string& path, const cases::KeyTable* keys,
+              std::set<std::string>& words) {
     for (const TomlEntry& entry : table.table) {
         const TomlValue& value = entry.value;
         const bool is_top = path.empty();
         const std::string name = is_top || path == "target" ? entry.key : path + "." + entry.key;
-        if (is_one_of(kPlain, entry.key)) {
+        const cases::Key* row = cases::find_key(keys, entry.key);
+        const cases::KeyTable* inner = cases::keys_in(keys, entry.key);
+        if (row != nullptr && row->has(cases::Key::kSilent)) {
             continue;
         }
         if (value.is(TomlValue::Kind::table)) {
             if (entry.key == "color") {
                 words.insert("color");
             }
-            add_keys(value, is_top ? entry.key : name, words);
+            add_keys(value, is_top ? entry.key : name, inner, words);
         } else if (entry.key == "relations") {
             for (const TomlValue& relation : value.array) {
                 words.insert("relation " + (relation.table.empty() ? relation.string
@@ -114,9 +102,10 @@ void add_keys(const TomlValue& table, const std::string& path, std::set<std::str
                 if (entry.key == "draw") {
                     add_depths(element, words);
                 }
-                add_keys(element, name, words);
+                add_keys(element, name, inner, words);
             }
-        } else if (value.is(TomlValue::Kind::string) && !is_one_of(kAnyWord, entry.key)) {
+        } else if (value.is(TomlValue::Kind::string) &&
+                   (row == nullptr || !row->has(cases::Key::kAnyWord))) {
             words.insert(name + "=" + value.string);
         } else if (entry.key == "samples" || value.is(TomlValue::Kind::boolean)) {
             words.insert(entry.key == "samples" ? "several samples"
@@ -233,7 +222,7 @@ std::optional<Symptom> parse_symptom(const std::string& text) {
 
 std::set<std::string> essentials(const TomlValue& document) {
     std::set<std::string> words;
-    add_keys(document, "", words);
+    add_keys(document, "", &cases::kFileKeys, words);
     return words;
 }
 

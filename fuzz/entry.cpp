@@ -68,19 +68,22 @@ std::pair<std::vector<cases::Case>, std::vector<size_t>> load_all(
     return all;
 }
 
+std::vector<CaseRecord> records_of(const run::DrawAndJudge& draw, std::vector<cases::Case> cases) {
+    return cases.empty() ? std::vector<CaseRecord>() : draw(std::move(cases), {}).records;
+}
+
 // The reduced case once more, now by whichever rule it fails and with what only a suite wants of it
 // left out: a clamped depth is told by another rule than one that is not, and a triangle that must
 // be covered is a second one.
-Document like_failure(const Document& document, const Symptom& symptom, const Draw& draw,
-                      const ReduceOptions& options) {
+Document like_failure(const Document& document, const Symptom& symptom,
+                      const run::DrawAndJudge& draw, const ReduceOptions& options) {
     if (symptom.status != Status::fail) {
         return document;
     }
     const Shows shown = [&](const std::vector<std::string>& texts) {
         std::vector<bool> out(texts.size(), false);
         const auto [cases, of] = load_all(texts);
-        const std::vector<CaseRecord> records =
-            cases.empty() ? std::vector<CaseRecord>() : draw(cases);
+        const std::vector<CaseRecord> records = records_of(draw, cases);
         for (size_t k = 0; k < of.size(); ++k) {
             out[of[k]] = shows_like(records[k], symptom);
         }
@@ -114,7 +117,7 @@ Document described(Document document, const Symptom& symptom) {
 }
 
 // What of a document's neighbours passes, in sentences.
-std::vector<std::string> passing(const Document& document, const Draw& draw) {
+std::vector<std::string> passing(const Document& document, const run::DrawAndJudge& draw) {
     constexpr size_t kAtOnce = 64;
     const std::vector<Neighbour> all = neighbours(document);
     std::vector<bool> judged(all.size(), false), passes(all.size(), false);
@@ -127,8 +130,7 @@ std::vector<std::string> passing(const Document& document, const Draw& draw) {
                 of.push_back(k);
             }
         }
-        const std::vector<CaseRecord> records =
-            cases.empty() ? std::vector<CaseRecord>() : draw(cases);
+        const std::vector<CaseRecord> records = records_of(draw, cases);
         for (size_t k = 0; k < of.size(); ++k) {
             passes[of[k]] = records[k].status == Status::pass;
             judged[of[k]] = passes[of[k]] || symptom_of(records[k]).has_value();
@@ -222,8 +224,9 @@ std::string described(const std::string& text, const Symptom& symptom) {
     return document ? to_text(described(*document, symptom)) : text;
 }
 
-std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom, const Draw& draw,
-                                 size_t most_rounds, const std::function<bool()>& is_over) {
+std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom,
+                                 const run::DrawAndJudge& draw, size_t most_rounds,
+                                 const std::function<bool()>& is_over) {
     const auto document = cases::read_toml(text, "reduced");
     const std::optional<cases::Case> original = load_one(text, "original");
     if (!document || !original) {
@@ -237,8 +240,7 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
     const Shows shown = [&](const std::vector<std::string>& texts) {
         std::vector<bool> out(texts.size(), false);
         const auto [cases, of] = load_all(texts);
-        const std::vector<CaseRecord> records =
-            cases.empty() ? std::vector<CaseRecord>() : draw(cases);
+        const std::vector<CaseRecord> records = records_of(draw, cases);
         for (size_t k = 0; k < of.size() && !is_at_end(); ++k) {
             if (records[k].status == Status::unsupported) {
                 unsupported.insert(texts[of[k]]);
@@ -269,7 +271,7 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
     }
     // Once more, for what it shows is told.
     const std::optional<cases::Case> smallest = load_one(to_text(reduced.document), "reduced");
-    const CaseRecord last = smallest ? draw({*smallest}).front() : CaseRecord();
+    const CaseRecord last = smallest ? records_of(draw, {*smallest}).front() : CaseRecord();
     Entry entry;
     entry.symptom = symptom;
     // What the reducer brought in, as a constant for values, is no need of the cause.

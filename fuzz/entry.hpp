@@ -15,6 +15,7 @@
 #include "cases/model/case.hpp"
 #include "fuzz/cause.hpp"
 #include "fuzz/generate/source.hpp"
+#include "run/session.hpp"
 
 namespace fuzz {
 
@@ -44,14 +45,12 @@ struct Entry {
     uint64_t count = 0;       // failing cases that it explains
 };
 
-// Draws and judges cases, whose ids differ.
-using Draw = std::function<std::vector<report::CaseRecord>(const std::vector<cases::Case>&)>;
-
 // Makes a case file of one leaf as small as it can be while it shows a symptom. Nothing if it does
 // not show it, or is no case. Where `is_over` is true, from some time on, it ends with a case that
 // shows the symptom, and says nothing else of it.
-std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom, const Draw& draw,
-                                 size_t most_rounds, const std::function<bool()>& is_over = {});
+std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom,
+                                 const run::DrawAndJudge& draw, size_t most_rounds,
+                                 const std::function<bool()>& is_over = {});
 
 // The comment lines that say what an entry needs and what passes.
 std::string need_text(const Entry& entry);

@@ -53,7 +53,7 @@ std::string text_of_case(Source& source, uint64_t number) {
     return source.make(number).text;
 }
 
-Hunt::Hunt(HuntOptions options, Draw draw, std::vector<Entry> known,
+Hunt::Hunt(HuntOptions options, run::DrawAndJudge draw, std::vector<Entry> known,
            const std::vector<Waiting>& waiting, OnProgress on_progress)
     : options_(std::move(options)),
       draw_(std::move(draw)),
@@ -379,15 +379,15 @@ void Hunt::reduce_one(Open& open) {
     };
     std::optional<Entry> fresh = reduce_case(
         open.text, symptom,
-        [&](const std::vector<cases::Case>& cases) {
+        [&](std::vector<cases::Case> cases, const auto&) {
             is_cut = is_cut || is_over();
             if (is_at_end()) {
-                return std::vector<CaseRecord>(cases.size());
+                return run::Session::Results{std::vector<CaseRecord>(cases.size()), false, ""};
             }
             counts_.reduction_cases += cases.size();
-            std::vector<CaseRecord> records = draw(cases).records;
-            is_cut = std::any_of(records.begin(), records.end(), is_left);
-            return records;
+            run::Session::Results results = draw(std::move(cases));
+            is_cut = std::ranges::any_of(results.records, is_left);
+            return results;
         },
         options_.most_rounds, is_at_end);
     if (is_at_end()) {

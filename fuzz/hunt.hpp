@@ -66,11 +66,8 @@ class Hunt {
   public:
     // Called at least five times a second.
     using OnProgress = std::function<void(const HuntCounts&, size_t entries)>;
-    // As run::Session::draw.
-    using Draw = std::function<run::Session::Results(std::vector<cases::Case> cases,
-                                                     const std::function<bool(size_t done)>&)>;
     // `known`: entries of earlier hunts, and of this one if it goes on, as is what waits.
-    Hunt(HuntOptions options, Draw draw, std::vector<Entry> known,
+    Hunt(HuntOptions options, run::DrawAndJudge draw, std::vector<Entry> known,
          const std::vector<Waiting>& waiting, OnProgress on_progress);
 
     enum class State { goes_on, done, interrupted, failed };
@@ -131,7 +128,7 @@ class Hunt {
     run::Session::Results draw(std::vector<cases::Case> cases);
 
     HuntOptions options_;
-    Draw draw_;
+    run::DrawAndJudge draw_;
     OnProgress on_progress_;
     std::unique_ptr<Source> source_;
     uint64_t next_case_ = 0;  // of the source, which is a chunk ahead

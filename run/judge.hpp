@@ -4,6 +4,7 @@
 // From a case and what was drawn of it to the record that the reports show.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,6 +37,11 @@ struct WorkerFindings {
 void judge(report::CaseRecord& record, const cases::Case& c, const capture::CaptureView& capture,
            const WorkerFindings& found, const ref::Limits& limits, cases::Profile profile,
            KeepPictures pictures);
+
+// What becomes of a drawn case: a status, and what else its record is to hold. Called on any
+// thread.
+using Judge = std::function<void(report::CaseRecord&, const cases::Case&,
+                                 const capture::CaptureView&, const WorkerFindings&)>;
 
 // The same of what another program delivered: at least one plane, sizes as the case's target.
 void judge_delivered(report::CaseRecord& record, const cases::Case& c,

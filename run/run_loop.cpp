@@ -73,11 +73,18 @@ RunLoop::RunLoop(LoopConfig config, Plan plan, report::Journal* journal, SignalF
       on_progress_(std::move(on_progress)),
       schedule_(all_bytes(cases_), config_.schedule),
       pool_(cases::cores()),
-      is_finished_(cases_.size(), false) {}
+      is_finished_(cases_.size(), false) {
+    if (!config_.judge) {
+        config_.judge = [limits = config_.limits, profile = config_.profile,
+                         pictures = config_.pictures](auto& record, const auto&... drawn) {
+            judge(record, drawn..., limits, profile, pictures);
+        };
+    }
+}
 
 RunLoop::End RunLoop::run(std::vector<WorkerClient> workers, const capture::DeviceInfo& device) {
     device_ = device;
-    config_.worker.renderer.pinned = device.key;
+    config_.worker.device.pinned = device.key;
     if (config_.gpu_budget) {
         schedule_.set_batch_bytes(0);  // until it is known how long they take, one case each
     }
@@ -320,11 +327,6 @@ void RunLoop::on_result(Slot& slot, CaseResult& result) {
                                                         encode_findings(result));
     switch (schedule_.drawn(k, bits)) {
         case Schedule::Drawn::judge: {
-            if (config_.take_drawn) {
-                config_.take_drawn(k, result.view);
-                on_judged(k, fresh_record(k, Status::pass));
-                break;
-            }
             auto record = std::make_shared<CaseRecord>(fresh_record(k, Status::not_run));
             record->drawn.messages = rendered.messages;
             record->drawn.bits = cases::hex(result.bits);
@@ -333,10 +335,8 @@ void RunLoop::on_result(Slot& slot, CaseResult& result) {
             // It may outlive the loop (abandon_judgements), so all that it uses is its own.
             pool_.submit(
                 [plan = plan_, k, view = result.view, consistency = std::move(result.consistency),
-                 strays = std::move(rendered.stray_writes), record, limits = config_.limits,
-                 profile = config_.profile, pictures = config_.pictures] {
-                    judge(*record, (*plan)[k].data, view, {consistency, strays}, limits, profile,
-                          pictures);
+                 strays = std::move(rendered.stray_writes), record, judge = config_.judge] {
+                    judge(*record, (*plan)[k].data, view, {consistency, strays});
                     cases::give_back_memory();
                 },
                 [this, k, bytes, record, keep = result.keep] {

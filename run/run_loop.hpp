@@ -44,7 +44,6 @@ struct PlannedCase {
 struct LoopConfig {
     Command command;  // starts a worker
     WorkerOptions worker;
-    std::string icd_from = "--icd";  // what chose worker.vulkan.icd_file
     std::chrono::milliseconds timeout{30000};
     Schedule::Options schedule;  // its lanes: workers
     // How long the device may work on one submission; what the batches before took decides how
@@ -55,9 +54,7 @@ struct LoopConfig {
     bool keeps_workers = false;     // take_workers() is asked for
     ref::Limits limits;
     KeepPictures pictures = KeepPictures::failed;
-    // If set, what was drawn of case k of the plan is handed over instead of being judged, and the
-    // case passes.
-    std::function<void(size_t k, const capture::CaptureView& drawn)> take_drawn = {};
+    Judge judge = {};  // empty: run::judge with these limits, profile and pictures
 };
 
 class RunLoop {

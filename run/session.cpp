@@ -49,23 +49,29 @@ Session::Results Session::draw(std::vector<cases::Case> cases,
 }
 
 Session::Pictures Session::pictures(std::vector<cases::Case> cases) {
-    Pictures out;
-    out.pictures.resize(cases.size());
-    config_.take_drawn = [&out](size_t k, const capture::CaptureView& drawn) {
-        out.pictures.at(k).capture = capture::copy_of(drawn);
+    // Shared with what is drawn yet when a signal ends the call.
+    const auto drawn = std::make_shared<std::map<std::string, capture::Drawn>>();
+    for (const cases::Case& c : cases) {
+        drawn->emplace(c.id, capture::Drawn());
+    }
+    config_.judge = [drawn](report::CaseRecord& record, const cases::Case& c,
+                            const capture::CaptureView& view, const auto&) {
+        drawn->at(c.id).picture = capture::copy_of(view);
+        record.status = report::Status::pass;
     };
-    const Results results = draw(std::move(cases));
-    config_.take_drawn = {};
-    for (size_t k = 0; k < out.pictures.size(); ++k) {
-        const report::CaseRecord& record = results.records[k];
-        if (!out.pictures[k].capture) {
-            out.pictures[k].why_not = record.reason.empty()
-                                          ? "it ended as " + std::string(to_string(record.status))
-                                          : record.reason;
+    Results results = draw(std::move(cases));
+    config_.judge = {};
+    Pictures out{{}, results.interrupted, std::move(results.failure)};
+    for (const report::CaseRecord& record : results.records) {
+        if (record.status == report::Status::pass) {
+            out.pictures.push_back(std::move(drawn->at(record.id)));
+        } else {
+            out.pictures.push_back({{},
+                                    record.reason.empty()
+                                        ? "it ended as " + std::string(to_string(record.status))
+                                        : record.reason});
         }
     }
-    out.interrupted = results.interrupted;
-    out.failure = results.failure;
     return out;
 }
 

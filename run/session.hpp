@@ -33,13 +33,9 @@ class Session {
     Results draw(std::vector<cases::Case> cases,
                  const std::function<bool(size_t done)>& on_progress = {});
 
-    // Draws cases without judging them.
+    // Draws cases whose ids differ, without judging them.
     struct Pictures {
-        struct Picture {
-            std::optional<capture::Capture> capture;
-            std::string why_not;  // one sentence, if there is none
-        };
-        std::vector<Picture> pictures;  // of the cases, in their order
+        std::vector<capture::Drawn> pictures;  // of the cases, in their order
         bool interrupted = false;
         std::string failure;
     };
@@ -51,5 +47,9 @@ class Session {
     capture::DeviceInfo device_;
     SignalFd& signals_;
 };
+
+// As Session::draw, by whatever draws.
+using DrawAndJudge = std::function<Session::Results(
+    std::vector<cases::Case> cases, const std::function<bool(size_t done)>& on_progress)>;
 
 }  // namespace run

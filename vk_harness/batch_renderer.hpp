@@ -14,9 +14,6 @@
 
 namespace vk_harness {
 
-// Hears the name of each stage before it starts.
-using Step = std::function<void(std::string_view)>;
-
 class BatchRenderer {
   public:
     // Throws Failure.
@@ -25,11 +22,12 @@ class BatchRenderer {
     BatchRenderer& operator=(const BatchRenderer&) = delete;
     ~BatchRenderer();
 
-    // As Renderer::render, or render_bare if not `read_back`.
+    // As Renderer::render; of bare drawing nothing is read back.
     std::vector<Rendered> render(std::span<const cases::Case> batch, bool read_back,
                                  const Step& step, const PlaneStore& store = {});
 
     Device& device() { return device_; }
+    const Device& device() const { return device_; }
 
   private:
     // As render(), of renderings: results in their order.

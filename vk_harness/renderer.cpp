@@ -5,50 +5,33 @@
 
 namespace vk_harness {
 
-struct Renderer::Impl {
-    explicit Impl(const Options& options) : body(options) {}
-    BatchRenderer body;
+namespace {
+
+class VulkanRenderer : public capture::Renderer {
+  public:
+    explicit VulkanRenderer(const Options& options) : body_(options) {
+        ask_sample_locations(body_);
+    }
+    const DeviceInfo& device() const override { return body_.device().capabilities().info; }
+    std::string lacking(const cases::Case& c) const override {
+        const auto rejection = check_renderings(body_.device().capabilities(), c);
+        return rejection ? rejection->reason : std::string();
+    }
+    std::vector<Rendered> render(std::span<const cases::Case> batch, capture::PlaneSet planes,
+                                 const Step& step, const PlaneStore& store) override {
+        return body_.render(batch, planes.any(), step, store);
+    }
+
+  private:
+    BatchRenderer body_;
 };
 
-Renderer::Renderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-Renderer::~Renderer() = default;
-Renderer::Renderer(Renderer&&) noexcept = default;
+}  // namespace
 
-Result<Renderer> Renderer::create(const Options& options) {
-    return attempt([&] {
-        auto impl = std::make_unique<Impl>(options);
-        ask_sample_locations(impl->body);
-        return Renderer(std::move(impl));
+Result<std::unique_ptr<capture::Renderer>> make_renderer(const Options& options) {
+    return attempt([&]() -> std::unique_ptr<capture::Renderer> {
+        return std::make_unique<VulkanRenderer>(options);
     });
-}
-
-const DeviceInfo& Renderer::device() const {
-    return impl_->body.device().capabilities().info;
-}
-
-std::string Renderer::lacking(const cases::Case& c) const {
-    const std::optional<Rejection> rejection =
-        check_renderings(impl_->body.device().capabilities(), c);
-    return rejection ? rejection->reason : std::string();
-}
-
-std::vector<Rendered> Renderer::render(std::span<const cases::Case> batch,
-                                       const std::function<void(std::string_view)>& step,
-                                       const PlaneStore& store) {
-    return impl_->body.render(
-        batch, true, step ? step : [](std::string_view) {}, store);
-}
-
-Result<size_t> Renderer::render_bare(std::span<const cases::Case> batch) {
-    size_t drawn = 0;
-    for (const Rendered& result : impl_->body.render(batch, false, [](std::string_view) {}, {})) {
-        if (result.status == Rendered::Status::drawn) {
-            ++drawn;
-        } else if (result.status != Rendered::Status::unsupported) {
-            return tl::unexpected(Failure{Stage::loader, result.reason, {}, {}});
-        }
-    }
-    return drawn;
 }
 
 }  // namespace vk_harness

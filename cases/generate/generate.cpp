@@ -8,13 +8,30 @@
 #include <array>
 
 #include "cases/generate/generator_keys.hpp"
+#include "cases/model/words.hpp"
 
 namespace cases {
 
 namespace {
 
-constexpr std::array<std::string_view, 6> kKinds = {"grid", "fan",       "strip",
-                                                    "mesh", "triangles", "surface"};
+struct Generator {
+    std::string_view word;
+    std::optional<Generated> (*make)(GeneratorKeys&);
+    std::vector<std::string_view> keys;
+};
+const std::array<Generator, 6> kGenerators = {{
+    {"grid",
+     generate_grid,
+     {"kind", "seed", "columns", "rows", "from", "to", "jitter", "grid", "diagonal", "w",
+      "shuffle"}},
+    {"fan", generate_fan, {"kind", "seed", "center", "radius", "count", "grid", "w"}},
+    {"strip", generate_strip, {"kind", "seed", "from", "to", "count", "grid", "jitter", "w"}},
+    {"mesh", generate_mesh, {"kind", "seed", "points", "from", "to", "grid", "w", "shuffle"}},
+    {"triangles",
+     generate_triangles,
+     {"kind", "seed", "count", "class", "from", "to", "grid", "w"}},
+    {"surface", generate_surface, {"kind", "seed", "shape", "columns", "rows", "center", "radius"}},
+}};
 
 }  // namespace
 
@@ -163,42 +180,19 @@ std::optional<Generated> generate(LeafContext& context, const TomlValue& table,
         return std::nullopt;
     }
     const TomlValue* kind = table.find("kind");
+    const auto kinds = detail::words_in(kGenerators);
     if (kind == nullptr) {
-        context.error(table.where, "generate has no kind; write " + alternatives(kKinds));
+        context.error(table.where, "generate has no kind; write " + alternatives(kinds));
         return std::nullopt;
     }
-    const std::optional<size_t> which = context.word(*kind, "kind", kKinds);
+    const std::optional<size_t> which = context.word(*kind, "kind", kinds);
     if (!which) {
         return std::nullopt;
     }
+    const Generator& generator = kGenerators.at(*which);
+    context.known_keys(table, fmt::format("the generator \"{}\"", generator.word), generator.keys);
     GeneratorKeys keys(context, table, target);
-    switch (*which) {
-        case 0:
-            context.known_keys(table, "the generator \"grid\"",
-                               {"kind", "seed", "columns", "rows", "from", "to", "jitter", "grid",
-                                "diagonal", "w", "shuffle"});
-            return generate_grid(keys);
-        case 1:
-            context.known_keys(table, "the generator \"fan\"",
-                               {"kind", "seed", "center", "radius", "count", "grid", "w"});
-            return generate_fan(keys);
-        case 2:
-            context.known_keys(table, "the generator \"strip\"",
-                               {"kind", "seed", "from", "to", "count", "grid", "jitter", "w"});
-            return generate_strip(keys);
-        case 3:
-            context.known_keys(table, "the generator \"mesh\"",
-                               {"kind", "seed", "points", "from", "to", "grid", "w", "shuffle"});
-            return generate_mesh(keys);
-        case 5:
-            context.known_keys(table, "the generator \"surface\"",
-                               {"kind", "seed", "shape", "columns", "rows", "center", "radius"});
-            return generate_surface(keys);
-        default:
-            context.known_keys(table, "the generator \"triangles\"",
-                               {"kind", "seed", "count", "class", "from", "to", "grid", "w"});
-            return generate_triangles(keys);
-    }
+    return generator.make(keys);
 }
 
 }  // namespace cases

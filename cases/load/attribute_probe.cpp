@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "cases/model/words.hpp"
+
 namespace cases {
 
 namespace {
@@ -82,12 +84,6 @@ bool belongs(LeafContext& context, const TomlValue& table, const char* key, bool
 bool read_source(LeafContext& context, const TomlValue& table, const Target& target,
                  Attribute& attribute) {
     const TomlValue* value = table.find("source");
-    if (value == nullptr) {
-        return true;
-    }
-    if (!context.read(table, "source", attribute.source)) {
-        return false;
-    }
     if (attribute.source == Source::vertex) {
         return true;
     }
@@ -133,9 +129,7 @@ bool read_probe(LeafContext& context, const TomlValue& table, uint32_t samples,
         }
         return !is_flat || is_usual;
     };
-    if (!context.read(table, "auxiliary", attribute.auxiliary) ||
-        !goes_with_flat("auxiliary", attribute.auxiliary == Auxiliary::none) ||
-        !context.read(table, "probe", attribute.probe) ||
+    if (!goes_with_flat("auxiliary", attribute.auxiliary == Auxiliary::none) ||
         !goes_with_flat("probe", attribute.probe == Probe::value)) {
         return false;
     }
@@ -148,7 +142,8 @@ bool read_probe(LeafContext& context, const TomlValue& table, uint32_t samples,
     if (probe == Probe::at_offset && !read_offset(context, *table.find("offset"), attribute)) {
         return false;
     }
-    if (!context.read(table, "sample", attribute.probe_sample, 0, int64_t{samples} - 1)) {
+    if (!context.read(table, kAttributeKeys, "sample", attribute.probe_sample,
+                      int64_t{samples} - 1)) {
         return false;
     }
     if (probe == Probe::lod) {

@@ -16,8 +16,6 @@ namespace cases {
 
 namespace {
 
-constexpr std::array<std::string_view, 2> kFrom = {"barycentric", "random"};
-
 class AttributeReader {
   public:
     AttributeReader(LeafContext& context, const TomlValue& table, const AttributeSource& source,
@@ -27,18 +25,17 @@ class AttributeReader {
     }
 
     std::optional<Attribute> read() {
-        context_.known_keys(
-            table_, "[[draw.attribute]]",
-            {"name", "interpolation", "values", "constant", "plane", "from", "seed", "components",
-             "auxiliary", "source", "probe", "offset", "sample", "texture"});
+        context_.known_keys(table_, kAttributeKeys);
         if (const TomlValue* value = table_.find("name")) {
             attribute_.name = context_.text(*value, "name").value_or(attribute_.name);
             if (attribute_.name.empty()) {
                 context_.error(value->where, "name is empty; leave it out or write a word");
             }
         }
-        context_.read(table_, "interpolation", attribute_.interpolation);
-        if (!read_source(context_, table_, source_.target, attribute_) ||
+        const size_t errors = context_.errors().size();
+        context_.read_all(table_, kAttributeKeys, attribute_);
+        if (context_.errors().size() > errors ||
+            !read_source(context_, table_, source_.target, attribute_) ||
             (attribute_.source == Source::vertex && !read_vertex_values()) ||
             !read_probe(context_, table_, source_.target.samples, attribute_)) {
             return std::nullopt;
@@ -60,8 +57,11 @@ class AttributeReader {
             return false;
         }
         const TomlValue* from = table_.find("from");
-        const size_t kind =
-            from != nullptr ? context_.word(*from, "from", kFrom).value_or(SIZE_MAX) : SIZE_MAX;
+        uint32_t kind = 0;  // of the words of from; behind them without it
+        if (!context_.read(table_, kAttributeKeys, "from", kind)) {
+            return false;
+        }
+        kind = from == nullptr ? UINT32_MAX : kind;
         if (const TomlValue* seed = table_.find("seed"); seed != nullptr && kind != 1) {
             context_.error(seed->where, "seed goes with from = \"random\" only");
             return false;
@@ -82,7 +82,7 @@ class AttributeReader {
         if (const TomlValue* value = table_.find("plane")) {
             return read_plane(*value);
         }
-        return kind != SIZE_MAX && (kind == 0 ? barycentric(*from) : random());
+        return kind == 0 ? barycentric(*from) : random();
     }
 
     // Components of one vertex: a number or an array of 1 to 4.
@@ -204,7 +204,7 @@ class AttributeReader {
             return false;
         }
         attribute_.components = 3;
-        if (!context_.read(table_, "components", attribute_.components, 1, 3)) {
+        if (!context_.read(table_, kAttributeKeys, "components", attribute_.components, 3)) {
             return false;
         }
         for (size_t v = 0; v < source_.vertices.size(); ++v) {
@@ -217,8 +217,9 @@ class AttributeReader {
 
     bool random() {
         uint64_t seed = 1;
-        const bool has_seed = context_.read(table_, "seed", seed, 0, INT64_MAX);
-        if (!context_.read(table_, "components", attribute_.components, 1, 4) || !has_seed) {
+        const bool has_seed = context_.read(table_, kAttributeKeys, "seed", seed);
+        if (!context_.read(table_, kAttributeKeys, "components", attribute_.components) ||
+            !has_seed) {
             return false;
         }
         Random draw(seed);

@@ -44,26 +44,17 @@ std::optional<glm::vec4> read_color(LeafContext& context, const TomlValue& value
     return color;
 }
 
-BlendEquation read_equation(LeafContext& context, const TomlValue& table) {
-    BlendEquation out;
-    context.read(table, "source", out.source, "the blend factor source");
-    context.read(table, "destination", out.destination, "the blend factor destination");
-    context.read(table, "op", out.op, "the blend op");
-    return out;
-}
-
 std::optional<Blend> read_blend(LeafContext& context, const TomlValue& value,
                                 const ColorTarget& target) {
     std::optional<Blend> out;
     if (value.is(Kind::table)) {
-        context.known_keys(value, "blend", {"source", "destination", "op", "alpha"});
-        out.emplace();
-        out->color = read_equation(context, value);
+        context.known_keys(value, kBlendKeys);
+        context.read_all(value, kBlendAlphaKeys, out.emplace().color);
         out->alpha = out->color;
         if (const TomlValue* alpha = value.find("alpha");
             alpha != nullptr && context.table(*alpha, "alpha")) {
-            context.known_keys(*alpha, "blend.alpha", {"source", "destination", "op"});
-            out->alpha = read_equation(context, *alpha);
+            context.known_keys(*alpha, kBlendAlphaKeys);
+            context.read_all(*alpha, kBlendAlphaKeys, out->alpha = {});
         }
     } else if (const auto word = context.word(value, "blend", kBlendWords); word && *word > 0) {
         out = blend_of_word(*word);
@@ -181,23 +172,18 @@ std::optional<ColorTarget> read_color_target(LeafContext& context, const TomlVal
     if (!context.table(value, "color")) {
         return std::nullopt;
     }
-    context.known_keys(value, "[target.color]", {"format", "clear"});
+    context.known_keys(value, kTargetColorKeys);
     ColorTarget out;
-    const TomlValue* format = value.find("format");
-    if (format == nullptr) {
+    context.read_all(value, kTargetColorKeys, out);
+    if (value.find("format") == nullptr) {
         context.error(value.where, fmt::format("[target.color] has no format; write {}",
                                                alternatives(kWords<ColorFormat>)));
         return std::nullopt;
     }
-    out.format = read_format(context, *format).value_or(ColorFormat::rgba8_unorm);
     if (const TomlValue* clear = value.find("clear")) {
         out.clear = read_color(context, *clear, "clear", out.format).value_or(glm::vec4(0));
     }
     return out;
-}
-
-std::optional<ColorFormat> read_format(LeafContext& context, const TomlValue& value) {
-    return context.enumerator<ColorFormat>(value, "the colour format");
 }
 
 namespace {
@@ -208,9 +194,8 @@ ColorOutput read_color_output(LeafContext& context, const TomlValue& value, cons
     if (!context.table(value, "color")) {
         return out;
     }
-    context.known_keys(value, "color",
-                       {"value", "attribute", "blend", "constants", "second", "logic",
-                        "alpha_to_one", "alpha_to_coverage", "write_mask"});
+    context.known_keys(value, kColorKeys);
+    context.read_all(value, kColorKeys, out);
     const TomlValue* constant = value.find("value");
     const TomlValue* attribute = value.find("attribute");
     if ((constant != nullptr) == (attribute != nullptr)) {
@@ -237,30 +222,20 @@ ColorOutput read_color_output(LeafContext& context, const TomlValue& value, cons
         }
     }
     read_second(context, value, target, color, out);
-    if (const TomlValue* logic = value.find("logic")) {
-        out.logic = context.enumerator<LogicOp>(*logic, "the logical operation");
-        if (target.has_instruments) {
-            context.error(logic->where,
-                          "a logical operation switches off the blending that counts hits; write "
-                          "attachments = \"color\" or \"color+depth\" in [target]");
+    const auto needs_no_instruments = [&](const char* key, bool is_on, std::string_view why) {
+        if (is_on && target.has_instruments) {
+            context.error(value.find(key)->where,
+                          fmt::format("{}; write attachments = \"color\" or \"color+depth\" in "
+                                      "[target]",
+                                      why));
         }
-    }
-    if (const TomlValue* one = value.find("alpha_to_one")) {
-        out.alpha_to_one = context.boolean(*one, "alpha_to_one").value_or(false);
-        if (out.alpha_to_one && target.has_instruments) {
-            context.error(one->where,
-                          "alpha to one changes the attachments that tell of fragments; write "
-                          "attachments = \"color\" or \"color+depth\" in [target]");
-        }
-    }
-    if (const TomlValue* coverage = value.find("alpha_to_coverage")) {
-        out.alpha_to_coverage = context.boolean(*coverage, "alpha_to_coverage").value_or(false);
-        if (out.alpha_to_coverage && target.has_instruments) {
-            context.error(coverage->where,
-                          "alpha to coverage takes the alpha of what tells of fragments; write "
-                          "attachments = \"color\" or \"color+depth\" in [target]");
-        }
-    }
+    };
+    needs_no_instruments("logic", out.logic.has_value(),
+                         "a logical operation switches off the blending that counts hits");
+    needs_no_instruments("alpha_to_one", out.alpha_to_one,
+                         "alpha to one changes the attachments that tell of fragments");
+    needs_no_instruments("alpha_to_coverage", out.alpha_to_coverage,
+                         "alpha to coverage takes the alpha of what tells of fragments");
     if (const TomlValue* mask = value.find("write_mask")) {
         out.write_mask = read_write_mask(context, *mask);
     }

@@ -10,18 +10,13 @@
 #include <vector>
 
 #include "cases/model/case.hpp"
+#include "cases/model/words.hpp"
 #include "cases/toml/field_reader.hpp"
 
 namespace cases {
 
-// What `blend` may be instead of a table; the first word turns blending off.
-inline constexpr std::array<std::string_view, 8> kBlendWords = {
-    "none", "alpha", "premultiplied", "additive", "multiply", "reverse-subtract", "min", "max"};
-// The equations of a word, by its index from 1; the constants are 0.
+// The equations of a word of kBlendWords, by its index from 1; the constants are 0.
 Blend blend_of_word(size_t index);
-
-// The word of a format.
-std::optional<ColorFormat> read_format(LeafContext& context, const TomlValue& value);
 
 // The table [target.color].
 std::optional<ColorTarget> read_color_target(LeafContext& context, const TomlValue& value);

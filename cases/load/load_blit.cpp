@@ -22,13 +22,10 @@ class BlitLoader {
         : context_(context), table_(table), target_(target) {}
 
     std::optional<Blit> load() {
-        context_.known_keys(table_, "[blit]",
-                            {"format", "size", "pattern", "seed", "filter", "from", "to", "clip"});
+        context_.known_keys(table_, kBlitKeys);
         read_formats();
         read_size();
-        context_.read(table_, "pattern", blit_.pattern);
-        context_.read(table_, "seed", blit_.seed, 0, 0x7fffffff);
-        read_filter();
+        check_filter();
         if (context_.errors().empty()) {
             read_regions();
         }
@@ -47,10 +44,7 @@ class BlitLoader {
                            "a blit writes to one colour target; write a table [target.color]");
         }
         blit_.source_format = target_.color->format;
-        if (const TomlValue* value = table_.find("format")) {
-            const std::optional<ColorFormat> format = read_format(context_, *value);
-            blit_.source_format = format.value_or(blit_.source_format);
-        }
+        context_.read_all(table_, kBlitKeys, blit_);
         if (is_integer(blit_.source_format) != is_integer(target_.color->format)) {
             context_.error(
                 table_.where,
@@ -77,8 +71,7 @@ class BlitLoader {
         }
     }
 
-    void read_filter() {
-        context_.read(table_, "filter", blit_.filter);
+    void check_filter() {
         if (blit_.filter == BlitFilter::linear && target_.color &&
             is_integer(blit_.source_format)) {
             context_.error(table_.find("filter")->where,
@@ -112,7 +105,7 @@ class BlitLoader {
         const auto right = static_cast<int32_t>(target_.width);
         const auto bottom = static_cast<int32_t>(target_.height);
         bool clip = false;
-        context_.read(table_, "clip", clip);
+        context_.read(table_, kBlitKeys, "clip", clip);
         blit_.source = read_corners("from", {0, 0, width, height}, 0, width, height);
         blit_.destination =
             clip ? read_corners("to", {0, 0, right, bottom}, -kFar, right + kFar, bottom + kFar)

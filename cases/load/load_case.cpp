@@ -32,9 +32,7 @@ class CaseLoader {
 
     Case load() {
         c_.where = {root_.where.file, 1, 1};
-        context_.known_keys(root_, "a case file",
-                            {"format", "description", "catches", "rules", "links", "leaves",
-                             "matrix", "fuzz", "target", "draw", "blit", "expect", "relations"});
+        context_.known_keys(root_, kFileKeys);
         if (const TomlValue* format = required("format", "write format = 1")) {
             const std::optional<Number> n = context_.number(*format, "format");
             if (n && n->value != 1) {
@@ -265,7 +263,7 @@ bool read_picture(LeafContext& context, const TomlValue& value, const std::strin
 
 std::optional<ExpectedHits> read_hits(LeafContext& context, const TomlValue& table,
                                       const std::string& what, const Target& target) {
-    context.known_keys(table, what, {"hits"});
+    context.known_keys(table, kExpectKeys, what);
     const TomlValue* hits = table.find("hits");
     if (hits == nullptr) {
         context.error(table.where, what + " has no hits; draw one row a pixel row");

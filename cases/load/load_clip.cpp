@@ -29,10 +29,9 @@ class DistanceReader {
 
     bool read(std::vector<float>& out) {
         const size_t before = context_.errors().size();
-        context_.known_keys(table_, "[[draw." + name_ + "]]",
-                            {"values", "constant", "plane", "half_space", "negate"});
+        context_.known_keys(table_, kDistanceKeys, "[[draw." + name_ + "]]");
         bool is_negated = false;
-        context_.read(table_, "negate", is_negated);
+        context_.read(table_, kDistanceKeys, "negate", is_negated);
         const TomlValue* found = nullptr;
         for (const char* key : {"values", "constant", "plane", "half_space"}) {
             const TomlValue* value = table_.find(key);

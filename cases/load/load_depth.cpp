@@ -15,20 +15,6 @@ namespace cases {
 
 namespace {
 
-DepthBias read_bias(LeafContext& context, const TomlValue& value) {
-    DepthBias bias;
-    if (!context.table(value, "bias")) {
-        return bias;
-    }
-    context.known_keys(value, "bias", {"constant", "slope", "clamp", "representation", "exact"});
-    context.read(value, "constant", bias.constant);
-    context.read(value, "slope", bias.slope);
-    context.read(value, "clamp", bias.clamp);
-    context.read(value, "representation", bias.representation);
-    context.read(value, "exact", bias.is_exact);
-    return bias;
-}
-
 // "minDepthBounds must be between 0.0 and 1.0, inclusive" (Vulkan specification,
 // vkCmdSetDepthBounds), as maxDepthBounds must.
 std::optional<DepthBounds> read_bounds(LeafContext& context, const TomlValue& value) {
@@ -53,41 +39,20 @@ std::optional<DepthBounds> read_bounds(LeafContext& context, const TomlValue& va
     return out;
 }
 
-// Masks may have more bits than the attachment, which count for nothing. "The reference value used
-// by stencil comparison must be within the range [0,2^s-1] ..., otherwise the reference value is
-// considered undefined" (Vulkan specification, VkStencilOpState).
-void read_face(LeafContext& context, const TomlValue& table, StencilFace& face) {
-    context.read(table, "compare", face.compare);
-    context.read(table, "fail", face.fail);
-    context.read(table, "depth_fail", face.depth_fail);
-    context.read(table, "pass", face.pass);
-    context.read(table, "compare_mask", face.compare_mask, 0, UINT32_MAX);
-    context.read(table, "write_mask", face.write_mask, 0, UINT32_MAX);
-    context.read(table, "reference", face.reference, 0, kStencilBits);
-}
-
 }  // namespace
-
-void read_depth_target(LeafContext& context, const TomlValue& table, Target& target) {
-    context.read(table, "depth", target.depth_format);
-    target.names_depth = table.find("depth") != nullptr;
-    context.read_fraction(table, "depth_clear", target.depth_clear,
-                          ", which Vulkan does not allow");
-}
 
 DepthState read_depth_state(LeafContext& context, const TomlValue& value) {
     DepthState state;
     if (!context.table(value, "depth")) {
         return state;
     }
-    context.known_keys(value, "depth", {"compare", "write", "bias", "clamp", "clip", "bounds"});
-    context.read(value, "compare", state.compare);
-    context.read(value, "write", state.write);
-    if (const TomlValue* bias = value.find("bias")) {
-        state.bias = read_bias(context, *bias);
+    context.known_keys(value, kDepthKeys);
+    context.read_all(value, kDepthKeys, state);
+    if (const TomlValue* bias = value.find("bias");
+        bias != nullptr && context.table(*bias, "bias")) {
+        context.known_keys(*bias, kBiasKeys);
+        context.read_all(*bias, kBiasKeys, state.bias.emplace());
     }
-    context.read(value, "clamp", state.clamp);
-    context.read(value, "clip", state.clip);
     if (const TomlValue* bounds = value.find("bounds")) {
         state.bounds = read_bounds(context, *bounds);
     }
@@ -103,11 +68,9 @@ StencilState read_stencil_state(LeafContext& context, const TomlValue& value,
     if (!context.table(value, "stencil")) {
         return {};
     }
-    context.known_keys(value, "stencil",
-                       {"compare", "fail", "depth_fail", "pass", "compare_mask", "write_mask",
-                        "reference", "front", "back"});
+    context.known_keys(value, kStencilKeys);
     StencilState state{{}, {}};
-    read_face(context, value, state.front);
+    context.read_all(value, kStencilFaceKeys, state.front);
     state.back = state.front;
     for (const auto& [key, face] :
          {std::pair("front", &state.front), std::pair("back", &state.back)}) {
@@ -115,20 +78,15 @@ StencilState read_stencil_state(LeafContext& context, const TomlValue& value,
         if (own == nullptr || !context.table(*own, key)) {
             continue;
         }
-        context.known_keys(
-            *own, key,
-            {"compare", "fail", "depth_fail", "pass", "compare_mask", "write_mask", "reference"});
-        read_face(context, *own, *face);
+        context.known_keys(*own, kStencilFaceKeys, key);
+        context.read_all(*own, kStencilFaceKeys, *face);
     }
     return state;
 }
 
 namespace {
 
-constexpr std::array<std::string_view, 1> kFragDepthSources = {"frag-coord"};
-
-void read_written(LeafContext& context, const TomlValue& table, const char* key, float& out) {
-    context.read(table, key, out);
+void check_written(LeafContext& context, const TomlValue& table, const char* key, float out) {
     if (const TomlValue* value = table.find(key)) {
         if (!std::isfinite(out)) {
             context.error(
@@ -213,23 +171,16 @@ FragDepth read_frag_depth(LeafContext& context, const TomlValue& value) {
     if (!context.table(value, "frag_depth")) {
         return d;
     }
-    context.known_keys(value, "frag_depth", {"value", "other", "where", "from", "layout"});
-    read_written(context, value, "value", d.value);
-    read_written(context, value, "other", d.other);
-    if (const TomlValue* where = value.find("where")) {
-        // A depth is written by the pixel, not by the face.
-        const std::span<const std::string_view> words(kWords<Discard>);
-        const auto pattern =
-            context.word(*where, "where", words.first(static_cast<size_t>(Discard::front)));
-        if (!pattern) {
-            return d;
-        }
-        d.where = static_cast<Discard>(*pattern);
-    }
-    context.read(value, "layout", d.layout);
-    if (const TomlValue* from = value.find("from")) {
-        d.is_coord = true;
-        context.word(*from, "from", kFragDepthSources);
+    context.known_keys(value, kFragDepthKeys);
+    const size_t errors = context.errors().size();
+    context.read_all(value, kFragDepthKeys, d);
+    check_written(context, value, "value", d.value);
+    check_written(context, value, "other", d.other);
+    uint32_t from = 0;
+    context.read(value, kFragDepthKeys, "from", from);
+    d.is_coord = value.find("from") != nullptr;
+    if (context.errors().size() > errors) {
+        return d;
     }
     const bool has_value = value.find("value") != nullptr;
     const bool has_other = value.find("other") != nullptr;

@@ -15,6 +15,7 @@
 #include "cases/load/parts.hpp"
 #include "cases/load/transform.hpp"
 #include "cases/model/sample.hpp"
+#include "cases/model/words.hpp"
 
 namespace cases {
 
@@ -22,9 +23,7 @@ namespace {
 
 using Kind = TomlValue::Kind;
 
-constexpr std::array<std::string_view, 3> kSpace = {"pixels", "ndc", "clip"};
-constexpr float kViewportLow = -32768;     // pixels; what common devices take
-constexpr int64_t kMaxViewportIndex = 15;  // maxViewports is at least 16 with multiViewport
+constexpr float kViewportLow = -32768;  // pixels; what common devices take
 constexpr float kViewportHigh = 32767;
 
 class DrawLoader {
@@ -34,51 +33,25 @@ class DrawLoader {
 
     // Once: what is loaded is moved out.
     Draw load(const std::string& name, std::vector<std::string>& notes) {
-        context_.known_keys(table_, "[[draw]]", {"topology",      "space",
-                                                 "vertices",      "generate",
-                                                 "indices",       "viewport",
-                                                 "scissor",       "viewport_index",
-                                                 "layer",         "cull",
-                                                 "front_face",    "rasterizer_discard",
-                                                 "provoking",     "depth",
-                                                 "depth_volume",  "clip_distance",
-                                                 "cull_distance", "attribute",
-                                                 "mirror",        "rotate",
-                                                 "offset",        "winding",
-                                                 "first",         "order",
-                                                 "color",         "sample_mask",
-                                                 "shader_mask",   "min_sample_shading",
-                                                 "stencil",       "discard",
-                                                 "early_tests",   "frag_depth",
-                                                 "query",         "discard_by",
-                                                 "conservative",  "conservative_extra",
-                                                 "fragment_size", "discard_attribute"});
+        context_.known_keys(table_, kDrawKeys);
         draw_.where = table_.where;
-        context_.read(table_, "topology", draw_.topology);
-        context_.read(table_, "cull", draw_.cull);
-        context_.read(table_, "front_face", draw_.front_face);
-        space_ = static_cast<Space>(word("space", kSpace));
-        draw_.multisample = load_multisample(context_, table_);
-        context_.read(table_, "rasterizer_discard", draw_.rasterizer_discard);
-        context_.read(table_, "discard", draw_.discard);
-        context_.read(table_, "discard_by", draw_.discard_by);
+        context_.read_all(table_, kDrawKeys, draw_);
+        context_.read(table_, kDrawKeys, "space", space_);
         if (const TomlValue* by = table_.find("discard_by");
             by != nullptr && draw_.discard == Discard::none) {
             context_.error(by->where, "discard_by without discard means nothing; leave it out");
         }
-        context_.read(table_, "early_tests", draw_.early_tests);
         if (draw_.early_tests && draw_.multisample.shader_mask) {
             context_.error(table_.find("early_tests")->where,
                            "a shader with early tests writes no gl_SampleMask here; leave out "
                            "early_tests or shader_mask");
         }
-        read_query();
-        read_conservative();
+        check_query();
+        check_extra();
         read_fragment_size(context_, table_, draw_);
         read_viewport();
         read_scissor();
-        context_.read(table_, "viewport_index", draw_.viewport_index, 0, kMaxViewportIndex);
-        read_layer();
+        check_layer();
         if (const TomlValue* depth = table_.find("depth")) {
             draw_.depth = read_depth_state(context_, *depth);
         }
@@ -135,12 +108,6 @@ class DrawLoader {
     }
 
   private:
-    // The first word is that of a missing key.
-    size_t word(const char* key, std::span<const std::string_view> words) {
-        const TomlValue* value = table_.find(key);
-        return value == nullptr ? 0 : context_.word(*value, key, words).value_or(0);
-    }
-
     // By the value of which attribute the shader discards: by default of the first one.
     void read_discard_attribute() {
         const TomlValue* value = table_.find("discard_attribute");
@@ -173,8 +140,7 @@ class DrawLoader {
     // Every fragment that is counted must show, or "some implementations may kill" it ("Occlusion
     // Queries"): it adds to the hits. With early tests the sample mask "should" be tested before
     // samples are counted, "but may instead be performed after" ("Fragment Operations").
-    void read_query() {
-        context_.read(table_, "query", draw_.query);
+    void check_query() {
         if (draw_.query == Query::none) {
             return;
         }
@@ -190,15 +156,12 @@ class DrawLoader {
         }
     }
 
-    void read_conservative() {
-        context_.read(table_, "conservative", draw_.conservative);
+    void check_extra() {
         const TomlValue* extra = table_.find("conservative_extra");
         if (extra == nullptr) {
             return;
         }
-        const bool is_read = context_.read(table_, "conservative_extra", draw_.conservative_extra);
-        if (is_read &&
-            !(draw_.conservative_extra >= 0 && draw_.conservative_extra <= kMaxConservativeExtra)) {
+        if (!(draw_.conservative_extra >= 0 && draw_.conservative_extra <= kMaxConservativeExtra)) {
             context_.error(extra->where,
                            "conservative_extra is outside 0..4; write by how many pixels the "
                            "triangles are enlarged");
@@ -293,8 +256,7 @@ class DrawLoader {
     // What a draw says of clipping and of its provoking vertices.
     void read_clipping(const AttributeSource& source, const std::vector<glm::vec4>& positions,
                        const std::vector<uint32_t>& order) {
-        context_.read(table_, "provoking", draw_.provoking);
-        draw_.depth.negative_one_to_one = word("depth_volume", kVolumeWords) != 0;
+        context_.read(table_, kDrawKeys, "depth_volume", draw_.depth.negative_one_to_one);
         draw_.distances = read_distances(context_, table_, source, positions);
         draw_.distances.clip = ordered(std::move(draw_.distances.clip), order);
         draw_.distances.cull = ordered(std::move(draw_.distances.cull), order);
@@ -309,7 +271,7 @@ class DrawLoader {
         }
         const TomlValue* rect = value;
         if (value->is(Kind::table)) {
-            context_.known_keys(*value, "viewport", {"rect", "depth"});
+            context_.known_keys(*value, kViewportKeys);
             rect = value->find("rect");
             if (const TomlValue* depth = value->find("depth")) {
                 read_depth(*depth);
@@ -334,19 +296,15 @@ class DrawLoader {
     // "If the Layer value is ... greater than or equal to the number of layers in the framebuffer,
     // then ... the framebuffer values for all layers are undefined" (Vulkan specification,
     // "Built-In Variables", Layer).
-    void read_layer() {
-        uint32_t layer = 0;
-        context_.read(table_, "layer", layer, 0, kMaxLayers - 1);
-        if (layer >= target_.layers) {
+    void check_layer() {
+        if (draw_.layer >= target_.layers) {
             context_.error(table_.find("layer")->where,
                            target_.layers == 1
                                ? std::string("the target has one layer; write layers = N in "
                                              "[target]")
                                : fmt::format("the target has {} layers, 0 to {}", target_.layers,
                                              target_.layers - 1));
-            return;
         }
-        draw_.layer = layer;
     }
 
     void read_depth(const TomlValue& depth) {

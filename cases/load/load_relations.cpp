@@ -141,10 +141,10 @@ std::vector<Relation> load_relations(LeafContext& context, const TomlValue& valu
         Relation relation;
         std::vector<Relation> found;
         if (element.is(TomlValue::Kind::table) && element.find("doors") != nullptr) {
-            context.known_keys(element, "a relation", {"scissor-tiles", "doors"});
+            context.known_keys(element, kRelationKeys);
             found = load_doors(context, *element.find("doors"));
         } else if (element.is(TomlValue::Kind::table)) {
-            context.known_keys(element, "a relation", {"scissor-tiles", "doors"});
+            context.known_keys(element, kRelationKeys);
             const TomlValue* tile = element.find("scissor-tiles");
             if (tile == nullptr ||
                 !context.array_of(*tile, "scissor-tiles", 2, "[width, height]")) {

@@ -20,11 +20,9 @@ namespace {
 
 // Of all layers. A run takes some 320 bytes a sample, so 5 GiB for the most.
 constexpr uint64_t kMaxTargetSamples = uint64_t{1} << 24;
-constexpr uint32_t kMaxSamples = 16;
 constexpr int64_t kSixteenths = 16;  // the standard grid of sample locations, a pixel
 
-void read_samples(LeafContext& context, const TomlValue& table, Target& target) {
-    context.read(table, "samples", target.samples, 1, kMaxSamples);
+void check_samples(LeafContext& context, const TomlValue& table, const Target& target) {
     if ((target.samples & (target.samples - 1)) != 0) {
         context.error(table.find("samples")->where,
                       fmt::format("{} samples have no standard locations; write 1, 2, 4, 8 or 16",
@@ -86,44 +84,32 @@ void read_color_targets(LeafContext& context, const TomlValue& table, Target& ta
     for (const TomlValue& value : color->array) {
         all.push_back(read_color_target(context, value).value_or(ColorTarget{}));
     }
-    context.read(table, "judged", target.judged_color, 0, static_cast<int64_t>(all.size()) - 1);
+    context.read(table, kTargetKeys, "judged", target.judged_color,
+                 static_cast<int64_t>(all.size()) - 1);
     target.color = all[target.judged_color];
     all.erase(all.begin() + target.judged_color);
     target.other_colors = std::move(all);
 }
 
 void read_attachments(LeafContext& context, const TomlValue& table, Target& target) {
-    constexpr std::array<std::string_view, 3> kAttachments = {"all", "color", "color+depth"};
-    const TomlValue* value = table.find("attachments");
-    if (value == nullptr) {
-        return;
-    }
-    const std::optional<size_t> word = context.word(*value, "attachments", kAttachments);
-    if (!word) {
-        return;
-    }
-    target.has_instruments = *word == 0;
-    target.has_depth = *word != 1;
-    if (*word != 0 && !target.color) {
-        context.error(value->where, "attachments leaves nothing to draw to; write [target.color]");
+    uint32_t word = 0;
+    context.read(table, kTargetKeys, "attachments", word);
+    target.has_instruments = word == 0;
+    target.has_depth = word != 1;
+    if (word != 0 && !target.color) {
+        context.error(table.find("attachments")->where,
+                      "attachments leaves nothing to draw to; write [target.color]");
     }
 }
 
-void read_resolve(LeafContext& context, const TomlValue& table, const char* key, uint32_t samples,
-                  Resolve& to) {
-    context.read(table, key, to);
-    if (to != Resolve::none && samples < 2) {
-        context.error(table.find(key)->where,
-                      fmt::format("{} needs several samples; write samples = 4", key));
-    }
-}
-
-void read_resolves(LeafContext& context, const TomlValue& table, Target& target) {
-    read_resolve(context, table, "resolve", target.samples, target.color_resolve);
-    read_resolve(context, table, "depth_resolve", target.samples, target.depth_resolve);
+void check_resolves(LeafContext& context, const TomlValue& table, const Target& target) {
     for (const char* key : {"resolve", "depth_resolve"}) {
         const bool is_on =
             (key[0] == 'r' ? target.color_resolve : target.depth_resolve) != Resolve::none;
+        if (is_on && target.samples < 2) {
+            context.error(table.find(key)->where,
+                          fmt::format("{} needs several samples; write samples = 4", key));
+        }
         if (is_on && target.layers > 1) {
             context.error(table.find(key)->where,
                           fmt::format("{} does not go with several layers; leave out layers", key));
@@ -146,9 +132,7 @@ void read_resolves(LeafContext& context, const TomlValue& table, Target& target)
     }
 }
 
-void read_stencil(LeafContext& context, const TomlValue& table, Target& target) {
-    context.read(table, "stencil", target.has_stencil);
-    context.read(table, "stencil_clear", target.stencil_clear, 0, kStencilBits);
+void check_stencil(LeafContext& context, const TomlValue& table, const Target& target) {
     if (const TomlValue* clear = table.find("stencil_clear"); clear && !target.has_stencil) {
         context.error(clear->where, "the target has no stencil; write stencil = true");
     }
@@ -158,18 +142,15 @@ void read_stencil(LeafContext& context, const TomlValue& table, Target& target) 
 
 Target load_target(LeafContext& context, const TomlValue& table) {
     Target target;
-    context.known_keys(
-        table, "[target]",
-        {"size", "samples", "layers", "sample_locations", "depth", "depth_clear", "color", "judged",
-         "attachments", "resolve", "depth_resolve", "stencil", "stencil_clear"});
-    read_depth_target(context, table, target);
-    read_samples(context, table, target);
-    context.read(table, "layers", target.layers, 1, kMaxLayers);
+    context.known_keys(table, kTargetKeys);
+    context.read_all(table, kTargetKeys, target);
+    target.names_depth = table.find("depth") != nullptr;
+    check_samples(context, table, target);
     read_locations(context, table, target);
     read_color_targets(context, table, target);
     read_attachments(context, table, target);
-    read_resolves(context, table, target);
-    read_stencil(context, table, target);
+    check_resolves(context, table, target);
+    check_stencil(context, table, target);
     const auto size = context.read_size(table, "[target]", "the target", kMaxTargetSize);
     if (!size) {
         return target;
@@ -182,15 +163,6 @@ Target load_target(LeafContext& context, const TomlValue& table) {
                       "the target has more than 2^24 samples; make it smaller");
     }
     return target;
-}
-
-Multisample load_multisample(LeafContext& context, const TomlValue& draw) {
-    Multisample state;
-    context.read(draw, "sample_mask", state.sample_mask, 0, UINT32_MAX);
-    context.read(draw, "shader_mask", state.shader_mask, 0, UINT32_MAX);
-    context.read_fraction(draw, "min_sample_shading", state.min_sample_shading,
-                          "; write the fraction of the samples that is shaded at least");
-    return state;
 }
 
 namespace {

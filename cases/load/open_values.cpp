@@ -87,7 +87,7 @@ class OpenReader {
 
     void read_range(const TomlEntry& entry) {
         const std::string what = fmt::format("the [fuzz] key {}", entry.key);
-        context_.known_keys(entry.value, what, {"from", "to", "step", "nominal"});
+        context_.known_keys(entry.value, kOpenRangeKeys, what);
         OpenName name{entry.key, entry.where, {}, {}, 1, 0, 0};
         const TomlValue* from = entry.value.find("from");
         const TomlValue* to = entry.value.find("to");

@@ -20,12 +20,6 @@ namespace cases {
 // Mistakes end up in the context; the target then has no width.
 Target load_target(LeafContext& context, const TomlValue& table);
 
-// sample_mask, shader_mask and min_sample_shading of a [[draw]].
-Multisample load_multisample(LeafContext& context, const TomlValue& draw);
-
-// Reads `depth` and `depth_clear` of [target]; mistakes go to the context.
-void read_depth_target(LeafContext& context, const TomlValue& table, Target& target);
-
 // Reads the table `depth` of a draw.
 DepthState read_depth_state(LeafContext& context, const TomlValue& value);
 

@@ -11,9 +11,6 @@ namespace cases {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> kMirror = {"none", "x", "y", "xy"};
-constexpr std::array<std::string_view, 2> kDirection = {"given", "reversed"};
-
 void set(Number& n, mpq_class value) {
     n = {std::move(value), false};
 }
@@ -55,8 +52,9 @@ void move_vertices(LeafContext& context, const TomlValue& draw, Space space, con
         cx.canonicalize();
         cy.canonicalize();
     }
-    if (const TomlValue* value = draw.find("mirror")) {
-        const size_t axes = context.word(*value, "mirror", kMirror).value_or(0);
+    uint32_t axes = 0;
+    context.read(draw, kDrawKeys, "mirror", axes);
+    if (axes != 0) {
         for (ExactVertex& v : vertices) {
             mirror(v, (axes & 1U) != 0, (axes & 2U) != 0, cx, cy);
         }
@@ -101,18 +99,9 @@ std::optional<std::vector<uint32_t>> vertex_order(LeafContext& context, const To
     bool reversed_winding = false;
     bool reversed_order = false;
     int64_t first = 0;
-    bool good = true;
-    const auto direction = [&](const char* key, bool& reversed) {
-        if (const TomlValue* value = draw.find(key)) {
-            const std::optional<size_t> word = context.word(*value, key, kDirection);
-            good = good && word.has_value();
-            reversed = word.value_or(0) == 1;
-        }
-    };
-    direction("winding", reversed_winding);
-    good = context.read(draw, "first", first, 0, 2) && good;
-    direction("order", reversed_order);
-    if (!good) {
+    if (!context.read(draw, kDrawKeys, "winding", reversed_winding) ||
+        !context.read(draw, kDrawKeys, "first", first) ||
+        !context.read(draw, kDrawKeys, "order", reversed_order)) {
         return std::nullopt;
     }
     if (!reversed_winding && !reversed_order && first == 0) {

@@ -120,7 +120,6 @@ struct DoorRow {
     DoorPromise promise;
     std::string_view rule;   // what a finding names
     std::string_view does;   // one sentence
-    std::string_view needs;  // of the device, beyond what every case needs; may be empty
     std::string_view takes;  // which cases can go through it
     bool (*can_take)(const Case&);
 };

@@ -126,6 +126,9 @@ inline constexpr WordList<7> kWords<RelationKind> = {
     "fewer-attributes", "more-attributes", "doors"};
 // DepthState::negative_one_to_one.
 inline constexpr WordList<2> kVolumeWords = {"zero-to-one", "negative-one-to-one"};
+// Of equations with names; the first one turns blending off.
+inline constexpr WordList<8> kBlendWords = {
+    "none", "alpha", "premultiplied", "additive", "multiply", "reverse-subtract", "min", "max"};
 
 template <class Enum>
     requires(kWords<Enum>.size() > 0)

@@ -23,7 +23,7 @@ Number from_double(double value) {
 
 }  // namespace
 
-std::string alternatives(std::span<const std::string_view> words) {
+std::string alternatives(Words words) {
     std::string text;
     for (size_t i = 0; i < words.size(); ++i) {
         text += i == 0 ? "" : i + 1 == words.size() ? " or " : ", ";
@@ -155,6 +155,15 @@ std::optional<Number> LeafContext::any_binary32(const TomlValue& value, const st
     return number(value, what);
 }
 
+std::optional<float> LeafContext::share(const TomlValue& value, const Key& key) {
+    const std::optional<Number> n = number(value, std::string(key.name));
+    if (n && (n->value < 0 || n->value > 1)) {
+        error(value.where, fmt::format("{} is outside 0..1{}", key.name, key.advice));
+        return std::nullopt;
+    }
+    return n ? std::optional(round_to_binary32(*n).value) : std::nullopt;
+}
+
 std::optional<int64_t> LeafContext::integer(const TomlValue& value, const std::string& what,
                                             int64_t low, int64_t high) {
     const std::optional<Number> n = number(value, what);
@@ -192,7 +201,7 @@ std::optional<std::string> LeafContext::text(const TomlValue& value, const std::
 }
 
 std::optional<size_t> LeafContext::word(const TomlValue& value, const std::string& what,
-                                        std::span<const std::string_view> words) {
+                                        Words words) {
     const std::optional<std::string> given = text(value, what);
     if (!given) {
         return std::nullopt;
@@ -308,8 +317,16 @@ std::string LeafContext::named_text(const std::string& text) {
     return named != nullptr && named->is(Kind::string) ? named->string : text;
 }
 
-void LeafContext::known_keys(const TomlValue& table, const std::string& what,
-                             std::initializer_list<std::string_view> keys) {
+void LeafContext::known_keys(const TomlValue& table, const KeyTable& keys,
+                             const std::string& what) {
+    std::vector<std::string_view> names;
+    for (const Key& key : keys.keys) {
+        names.push_back(key.name);
+    }
+    known_keys(table, what.empty() ? std::string(keys.name) : what, names);
+}
+
+void LeafContext::known_keys(const TomlValue& table, const std::string& what, Words keys) {
     for (const TomlEntry& entry : table.table) {
         if (std::find(keys.begin(), keys.end(), entry.key) != keys.end()) {
             continue;

@@ -8,7 +8,6 @@
 
 #include <array>
 #include <cstdint>
-#include <initializer_list>
 #include <optional>
 #include <set>
 #include <span>
@@ -17,7 +16,8 @@
 #include <utility>
 #include <vector>
 
-#include "cases/model/words.hpp"
+#include "cases/base/fields.hpp"
+#include "cases/key/key.hpp"
 #include "cases/toml/binary32.hpp"
 #include "cases/toml/expression.hpp"
 #include "cases/toml/toml_reader.hpp"
@@ -48,68 +48,67 @@ class LeafContext {
                                  const Names& names);
     // Reads numbers and what no rational is: nan, inf (as words or TOML floats), "bits(0x...)".
     std::optional<Number> any_binary32(const TomlValue& value, const std::string& what);
+    // A number of 0..1; the key's advice ends the sentence about any other.
+    std::optional<float> share(const TomlValue& value, const Key& key);
     // An integer in [low, high].
     std::optional<int64_t> integer(const TomlValue& value, const std::string& what, int64_t low,
                                    int64_t high);
     std::optional<bool> boolean(const TomlValue& value, const std::string& what);
     std::optional<std::string> text(const TomlValue& value, const std::string& what);
     // The index of a word in a list; a matrix key may stand for it.
-    std::optional<size_t> word(const TomlValue& value, const std::string& what,
-                               std::span<const std::string_view> words);
-    // The value whose word (words.hpp) this is.
-    template <class Enum>
-    std::optional<Enum> enumerator(const TomlValue& value, const std::string& what) {
-        const std::optional<size_t> index = word(value, what, kWords<Enum>);
-        return index ? std::optional(static_cast<Enum>(*index)) : std::nullopt;
-    }
-    // What the key of a table says, if it is there, read by the member's type: a word of its
-    // enumeration, true or false, a binary32. `what` names it in errors, if not the key does. A
-    // mistake leaves the member as it is, and the result is false.
+    std::optional<size_t> word(const TomlValue& value, const std::string& what, Words words);
+    // What a table says under a key, if it is there, read as the key's row has it. A mistake leaves
+    // the member as it is, and the result is false. `most` is for a range that ends early.
     template <class T>
-    bool read(const TomlValue& table, const char* key, T& member, const std::string& what = {}) {
-        const TomlValue* value = table.find(key);
-        if (value != nullptr) {
-            using Plain = typename Unwrapped<T>::type;
-            const auto read_as = [&](const std::string& name) -> std::optional<Plain> {
-                if constexpr (std::is_enum_v<Plain>) {
-                    return enumerator<Plain>(*value, name);
-                } else if constexpr (std::is_same_v<Plain, bool>) {
-                    return boolean(*value, name);
-                } else {
-                    static_assert(std::is_same_v<Plain, float>);
-                    return binary32(*value, name);
+    bool read(const TomlValue& table, const Key& key, T& member,
+              std::optional<int64_t> most = std::nullopt) {
+        using Plain = typename Unwrapped<T>::type;
+        const TomlValue* value = table.find(key.name);
+        if (value == nullptr) {
+            return true;
+        }
+        const std::string what(key.called.empty() ? key.name : key.called);
+        const auto take = [&](const auto& given) {
+            if (given) {
+                member = static_cast<Plain>(*given);
+            }
+            return given.has_value();
+        };
+        if constexpr (std::is_floating_point_v<Plain>) {
+            return take(key.kind == KeyKind::share ? share(*value, key) : binary32(*value, what));
+        } else if (key.kind == KeyKind::word) {
+            return take(word(*value, what, key.words));
+        } else if (key.kind == KeyKind::flag) {
+            return take(boolean(*value, what));
+        } else {
+            return take(integer(*value, what, key.least, most.value_or(key.most)));
+        }
+    }
+    template <class T>
+    bool read(const TomlValue& table, const KeyTable& keys, std::string_view name, T& member,
+              std::optional<int64_t> most = std::nullopt) {
+        const Key* key = keys.find(name);
+        return key == nullptr || read(table, *key, member, most);
+    }
+    // The same of all words, flags and numbers that the structure has members for, and those of
+    // structures in it that are no table of their own.
+    template <class T>
+    void read_all(const TomlValue& table, const KeyTable& keys, T& out) {
+        T::fields(
+            [&](const Field& field, auto& member) {
+                using Member = std::remove_cvref_t<decltype(member)>;
+                const Key* key = keys.find_field(field.name);
+                if constexpr (HasFields<Member>) {
+                    if (key == nullptr) {
+                        read_all(table, keys, member);
+                    }
+                } else if constexpr (is_simple_member<Member>) {
+                    if (key != nullptr && key->is_simple()) {
+                        read(table, *key, member);
+                    }
                 }
-            };
-            const std::optional<Plain> given = read_as(what.empty() ? key : what);
-            if (!given) {
-                return false;
-            }
-            member = *given;
-        }
-        return true;
-    }
-    // The same of an integer in [low, high].
-    template <class T>
-    bool read(const TomlValue& table, const char* key, T& member, int64_t low, int64_t high) {
-        if (const TomlValue* value = table.find(key)) {
-            const std::optional<int64_t> given = integer(*value, key, low, high);
-            if (!given) {
-                return false;
-            }
-            member = static_cast<typename Unwrapped<T>::type>(*given);
-        }
-        return true;
-    }
-    // The same of a number in 0..1; `why` is the rest of the sentence for any other.
-    template <class T>
-    void read_fraction(const TomlValue& table, const char* key, T& member, const char* why) {
-        const TomlValue* value = table.find(key);
-        const std::optional<Number> given = value != nullptr ? number(*value, key) : std::nullopt;
-        if (given && (given->value < 0 || given->value > 1)) {
-            error(value->where, std::string(key) + " is outside 0..1" + why);
-        } else if (given) {
-            member = round_to_binary32(*given).value;
-        }
+            },
+            out);
     }
     // True for an array of `count` elements; complains otherwise. `form` is what to write.
     bool array_of(const TomlValue& value, const std::string& what, size_t count, const char* form);
@@ -130,9 +129,10 @@ class LeafContext {
     // True if value is a table; complains otherwise.
     bool table(const TomlValue& value, const std::string& what);
     bool array(const TomlValue& value, const std::string& what);
-    // Complains about every key of the table that is not in the list.
-    void known_keys(const TomlValue& table, const std::string& what,
-                    std::initializer_list<std::string_view> keys);
+    // Complains about every key of the table that is not in the list. `what` is the table in
+    // errors, if not by its name.
+    void known_keys(const TomlValue& table, const std::string& what, Words keys);
+    void known_keys(const TomlValue& table, const KeyTable& keys, const std::string& what = {});
 
   private:
     template <class T>
@@ -150,6 +150,6 @@ class LeafContext {
 };
 
 // Lists words as "a, b or c", each in quotes.
-std::string alternatives(std::span<const std::string_view> words);
+std::string alternatives(Words words);
 
 }  // namespace cases

@@ -19,20 +19,6 @@ namespace cases {
 
 namespace {
 
-// Adds the word of an enumeration, if the value is not the default.
-template <class Enum>
-void add_word(TableText& table, const char* key, Enum value, Enum otherwise) {
-    if (value != otherwise) {
-        table.add(key, string_toml(word_of(value)));
-    }
-}
-
-void add_number(TableText& table, const char* key, float value, float otherwise) {
-    if (!same_bits(value, otherwise)) {
-        table.add(key, number_toml(value, Reading::nearest));
-    }
-}
-
 std::string numbers(std::initializer_list<float> values) {
     std::vector<std::string> items;
     for (const float value : values) {
@@ -91,12 +77,12 @@ void add_viewport(TableText& table, const Viewport& v, const Target& target) {
         }
         return;
     }
-    TableText viewport;
+    TableText viewport(kViewportKeys);
     if (!is_whole) {
         viewport.add("rect", rect);
     }
     viewport.add("depth", numbers({v.min_depth, v.max_depth}));
-    table.add("viewport", viewport.in_line());
+    table.add("viewport", viewport);
 }
 
 void add_scissor(TableText& table, const Rect& s, const Target& target) {
@@ -105,46 +91,29 @@ void add_scissor(TableText& table, const Rect& s, const Target& target) {
     }
 }
 
-std::string bias_text(const DepthBias& bias) {
-    const DepthBias usual;
-    TableText table;
-    add_number(table, "constant", bias.constant, usual.constant);
-    add_number(table, "slope", bias.slope, usual.slope);
-    add_number(table, "clamp", bias.clamp, usual.clamp);
-    add_word(table, "representation", bias.representation, usual.representation);
-    table.add_flag("exact", bias.is_exact, usual.is_exact);
-    if (table.is_empty()) {
-        table.add("constant", "0");  // enabled, and of no effect
-    }
-    return table.in_line();
-}
-
 void add_depth(TableText& table, const DepthState& depth) {
-    const DepthState usual;
-    TableText inner;
-    add_word(inner, "compare", depth.compare, usual.compare);
-    inner.add_flag("write", depth.write, usual.write);
+    TableText inner(kDepthKeys);
+    inner.add_all(depth);
     if (depth.bias) {
-        inner.add("bias", bias_text(*depth.bias));
-    }
-    inner.add_flag("clamp", depth.clamp, usual.clamp);
-    if (depth.clip) {
-        inner.add_flag("clip", *depth.clip, !*depth.clip);
+        TableText bias(kBiasKeys);
+        bias.add_all(*depth.bias);
+        if (bias.is_empty()) {
+            bias.add("constant", "0");  // enabled, and of no effect
+        }
+        inner.add("bias", bias);
     }
     if (depth.bounds) {
         inner.add("bounds", numbers({depth.bounds->min, depth.bounds->max}));
     }
     if (!inner.is_empty()) {
-        table.add("depth", inner.in_line());
+        table.add("depth", inner);
     }
-    if (depth.negative_one_to_one) {
-        table.add("depth_volume", string_toml(kVolumeWords[1]));
-    }
+    table.add_all(depth);
 }
 
-std::string frag_depth_text(const FragDepth& d) {
-    const FragDepth usual;
-    TableText table;
+TableText frag_depth_text(const FragDepth& d) {
+    TableText table(kFragDepthKeys);
+    table.add_all(d);
     if (d.is_coord) {
         table.add("from", string_toml("frag-coord"));
     } else {
@@ -152,34 +121,15 @@ std::string frag_depth_text(const FragDepth& d) {
     }
     if (d.where != Discard::none) {
         table.add("other", number_toml(d.other, Reading::nearest));
-        add_word(table, "where", d.where, usual.where);
     }
-    add_word(table, "layout", d.layout, usual.layout);
-    return table.in_line();
-}
-
-// A bit mask; hexadecimal digits show the bits of a large one.
-std::string mask_text(uint32_t mask) {
-    return mask < 10 ? std::to_string(mask) : fmt::format("{:#x}", mask);
+    return table;
 }
 
 TableText face_text(const StencilFace& face) {
-    const StencilFace usual;
-    TableText table;
-    add_word(table, "compare", face.compare, usual.compare);
-    add_word(table, "fail", face.fail, usual.fail);
-    add_word(table, "depth_fail", face.depth_fail, usual.depth_fail);
-    add_word(table, "pass", face.pass, usual.pass);
-    const auto add_bits = [&](const char* key, uint32_t bits, uint32_t otherwise) {
-        if (bits != otherwise) {
-            table.add(key, mask_text(bits));
-        }
-    };
-    add_bits("compare_mask", face.compare_mask, usual.compare_mask);
-    add_bits("write_mask", face.write_mask, usual.write_mask);
-    add_bits("reference", face.reference, usual.reference);
+    TableText table(kStencilFaceKeys);
+    table.add_all(face);
     if (table.is_empty()) {
-        table.add("pass", string_toml(word_of(usual.pass)));  // a state of its own all the same
+        table.add("pass", string_toml(word_of(face.pass)));  // a state of its own all the same
     }
     return table;
 }
@@ -189,35 +139,20 @@ void add_stencil(TableText& table, const StencilState& state) {
         return;
     }
     if (state.front == state.back) {
-        table.add("stencil", face_text(state.front).in_line());
+        table.add("stencil", face_text(state.front));
         return;
     }
-    TableText faces;
-    faces.add("front", face_text(state.front).in_line());
-    faces.add("back", face_text(state.back).in_line());
-    table.add("stencil", faces.in_line());
+    TableText faces(kStencilKeys);
+    faces.add("front", face_text(state.front));
+    faces.add("back", face_text(state.back));
+    table.add("stencil", faces);
 }
 
-void add_multisample(TableText& table, const Multisample& state) {
-    if (state.sample_mask != Multisample().sample_mask) {
-        table.add("sample_mask", mask_text(state.sample_mask));
-    }
-    if (state.shader_mask) {
-        table.add("shader_mask", mask_text(*state.shader_mask));
-    }
-    if (state.min_sample_shading) {
-        table.add("min_sample_shading", number_toml(*state.min_sample_shading, Reading::nearest));
-    }
-}
-
-TableText equation_text(const BlendEquation& equation) {
-    const BlendEquation usual;
-    TableText table;
-    add_word(table, "source", equation.source, usual.source);
-    add_word(table, "destination", equation.destination, usual.destination);
-    add_word(table, "op", equation.op, usual.op);
+TableText equation_text(const BlendEquation& equation, const KeyTable& keys) {
+    TableText table(keys);
+    table.add_all(equation);
     if (table.is_empty()) {
-        table.add("source", string_toml(word_of(usual.source)));
+        table.add("source", string_toml(word_of(equation.source)));
     }
     return table;
 }
@@ -229,15 +164,16 @@ std::string blend_text(const Blend& blend) {
             return string_toml(kBlendWords.at(k));
         }
     }
-    TableText table = equation_text(blend.color);
+    TableText table = equation_text(blend.color, kBlendKeys);
     if (!(blend.alpha == blend.color)) {
-        table.add("alpha", equation_text(blend.alpha).in_line());
+        table.add("alpha", equation_text(blend.alpha, kBlendAlphaKeys));
     }
     return table.in_line();
 }
 
 std::string color_output_text(const Draw& draw, const ColorOutput& color) {
-    TableText table;
+    TableText table(kColorKeys);
+    table.add_all(color);
     if (color.attribute >= 0 && static_cast<size_t>(color.attribute) < draw.attributes.size()) {
         table.add("attribute",
                   string_toml(draw.attributes[static_cast<size_t>(color.attribute)].name));
@@ -252,15 +188,6 @@ std::string color_output_text(const Draw& draw, const ColorOutput& color) {
         if (takes_second(*color.blend)) {
             table.add("second", color_text(color.blend->second));
         }
-    }
-    if (color.logic) {
-        table.add("logic", string_toml(std::string(word_of(*color.logic))));
-    }
-    if (color.alpha_to_one) {
-        table.add("alpha_to_one", "true");
-    }
-    if (color.alpha_to_coverage) {
-        table.add("alpha_to_coverage", "true");
     }
     if (color.write_mask != ColorOutput().write_mask) {
         std::string letters;
@@ -295,7 +222,7 @@ std::string distances_text(const char* name, const std::vector<glm::vec4>& dista
         for (const glm::vec4& distance : distances) {
             values.push_back({distance[static_cast<glm::vec4::length_type>(k)]});
         }
-        TableText table;
+        TableText table(kDistanceKeys);
         add_values(table, values, group);
         out += fmt::format("[[draw.{}]]\n{}", name, table.lines());
     }
@@ -303,14 +230,11 @@ std::string distances_text(const char* name, const std::vector<glm::vec4>& dista
 }
 
 std::string attribute_text(const Attribute& attribute, size_t index, size_t group) {
-    const Attribute usual;
-    TableText table;
+    TableText table(kAttributeKeys);
+    table.add_all(attribute);
     if (attribute.name != fmt::format("attribute{}", index)) {
         table.add("name", string_toml(attribute.name));
     }
-    add_word(table, "source", attribute.source, usual.source);
-    add_word(table, "interpolation", attribute.interpolation, usual.interpolation);
-    add_word(table, "auxiliary", attribute.auxiliary, usual.auxiliary);
     if (attribute.source == Source::vertex) {
         std::vector<std::vector<float>> values;
         for (const glm::vec4& value : attribute.values) {
@@ -321,7 +245,6 @@ std::string attribute_text(const Attribute& attribute, size_t index, size_t grou
         }
         add_values(table, values, group);
     }
-    add_word(table, "probe", attribute.probe, usual.probe);
     if (attribute.probe == Probe::at_sample) {
         table.add("sample", std::to_string(attribute.probe_sample));
     }
@@ -342,10 +265,9 @@ std::string color_text(const glm::vec4& color) {
 }
 
 std::string draw_text(const Draw& draw, const Target& target) {
-    const Draw usual;
     const size_t group = group_of(draw);
-    TableText table;
-    add_word(table, "topology", draw.topology, usual.topology);
+    TableText table(kDrawKeys);
+    table.add_all(draw);
     const VertexText vertices = vertex_text(draw);
     if (!vertices.is_pixels) {
         table.add("space", string_toml("clip"));
@@ -356,36 +278,19 @@ std::string draw_text(const Draw& draw, const Target& target) {
     }
     add_viewport(table, draw.viewport, target);
     add_scissor(table, draw.scissor, target);
-    if (draw.viewport_index != usual.viewport_index) {
-        table.add("viewport_index", std::to_string(draw.viewport_index));
-    }
-    if (draw.layer != usual.layer) {
-        table.add("layer", std::to_string(draw.layer));
-    }
-    add_word(table, "cull", draw.cull, usual.cull);
-    add_word(table, "front_face", draw.front_face, usual.front_face);
-    add_word(table, "provoking", draw.provoking, usual.provoking);
-    table.add_flag("rasterizer_discard", draw.rasterizer_discard, usual.rasterizer_discard);
-    add_word(table, "conservative", draw.conservative, usual.conservative);
-    add_number(table, "conservative_extra", draw.conservative_extra, usual.conservative_extra);
-    if (draw.fragment_size != usual.fragment_size) {
+    if (draw.fragment_size != Draw().fragment_size) {
         table.add("fragment_size",
                   fmt::format("[{}, {}]", draw.fragment_size[0], draw.fragment_size[1]));
     }
-    add_word(table, "discard", draw.discard, usual.discard);
-    if (discards_by_value(draw) && draw.discard_attribute != usual.discard_attribute) {
+    if (discards_by_value(draw) && draw.discard_attribute != 0) {
         table.add("discard_attribute",
                   string_toml(draw.attributes.at(draw.discard_attribute).name));
     }
-    add_word(table, "discard_by", draw.discard_by, usual.discard_by);
-    table.add_flag("early_tests", draw.early_tests, usual.early_tests);
     if (draw.frag_depth) {
         table.add("frag_depth", frag_depth_text(*draw.frag_depth));
     }
-    add_word(table, "query", draw.query, usual.query);
     add_depth(table, draw.depth);
     add_stencil(table, draw.stencil);
-    add_multisample(table, draw.multisample);
     if (target.color) {
         table.add("color", colors_text(draw, target));
     }

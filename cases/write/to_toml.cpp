@@ -44,7 +44,7 @@ std::string relations_text(const std::vector<Relation>& relations) {
 }
 
 std::string head_text(const Case& c) {
-    TableText table;
+    TableText table(kFileKeys);
     table.add("format", "1");
     table.add("description", string_toml(c.description));
     if (!c.catches.empty()) {
@@ -69,7 +69,7 @@ std::string locations_text(const std::vector<std::array<uint8_t, 2>>& locations)
 }
 
 TableText color_target_text(const ColorTarget& target) {
-    TableText color;
+    TableText color(kTargetColorKeys);
     color.add("format", string_toml(word_of(target.format)));
     const std::string clear = color_text(target.clear);
     if (clear != color_text(ColorTarget().clear)) {
@@ -79,34 +79,15 @@ TableText color_target_text(const ColorTarget& target) {
 }
 
 std::string target_text(const Target& t) {
-    const Target usual;
-    TableText table;
-    const auto add_number = [&](const char* key, uint32_t value, uint32_t otherwise) {
-        if (value != otherwise) {
-            table.add(key, std::to_string(value));
-        }
-    };
-    const auto add_word = [&](const char* key, auto value, auto otherwise) {
-        if (value != otherwise) {
-            table.add(key, string_toml(word_of(value)));
-        }
-    };
+    TableText table(kTargetKeys);
+    table.add_all(t);
     table.add("size", fmt::format("[{}, {}]", t.width, t.height));
-    add_number("samples", t.samples, usual.samples);
-    add_number("layers", t.layers, usual.layers);
-    if (t.names_depth || t.depth_format != usual.depth_format) {
+    if (t.names_depth) {
         table.add("depth", string_toml(word_of(t.depth_format)));
-    }
-    if (!same_bits(t.depth_clear, usual.depth_clear)) {
-        table.add("depth_clear", number_toml(t.depth_clear, Reading::nearest));
     }
     if (!t.sample_locations.empty()) {
         table.add("sample_locations", locations_text(t.sample_locations));
     }
-    add_word("resolve", t.color_resolve, usual.color_resolve);
-    add_word("depth_resolve", t.depth_resolve, usual.depth_resolve);
-    table.add_flag("stencil", t.has_stencil, usual.has_stencil);
-    add_number("stencil_clear", t.stencil_clear, usual.stencil_clear);
     if (!t.has_instruments) {
         table.add("attachments", string_toml(t.has_depth ? "color+depth" : "color"));
     }
@@ -116,7 +97,9 @@ std::string target_text(const Target& t) {
             colors.push_back(color_target_text(t.color_at(k)).in_line());
         }
         table.add("color", list_toml(colors));
-        add_number("judged", t.judged_color, usual.judged_color);
+        if (t.judged_color != 0) {
+            table.add("judged", std::to_string(t.judged_color));
+        }
         return "\n[target]\n" + table.lines();
     }
     std::string out = "\n[target]\n" + table.lines();
@@ -131,24 +114,14 @@ std::string corners_text(const Corners& c) {
 }
 
 std::string blit_text(const Blit& b, const Target& t) {
-    const Blit usual;
     const auto whole = [](uint32_t width, uint32_t height) {
         return Corners{0, 0, static_cast<int32_t>(width), static_cast<int32_t>(height)};
     };
-    TableText table;
+    TableText table(kBlitKeys);
+    Blit usual;
+    usual.source_format = t.color ? t.color->format : usual.source_format;
+    table.add_all(b, usual);
     table.add("size", fmt::format("[{}, {}]", b.source_width, b.source_height));
-    if (!t.color || b.source_format != t.color->format) {
-        table.add("format", string_toml(word_of(b.source_format)));
-    }
-    if (b.pattern != usual.pattern) {
-        table.add("pattern", string_toml(word_of(b.pattern)));
-    }
-    if (b.seed != usual.seed) {
-        table.add("seed", std::to_string(b.seed));
-    }
-    if (b.filter != usual.filter) {
-        table.add("filter", string_toml(word_of(b.filter)));
-    }
     if (b.source != whole(b.source_width, b.source_height)) {
         table.add("from", corners_text(b.source));
     }

@@ -114,28 +114,40 @@ std::string array_toml(const std::vector<std::string>& items, size_t group) {
     return out + "\n  " + line + ",\n]";
 }
 
-void TableText::add_flag(std::string_view key, bool value, bool otherwise) {
-    if (value != otherwise) {
-        add(key, value ? "true" : "false");
+std::string mask_toml(uint32_t mask) {
+    return mask < 10 ? std::to_string(mask) : fmt::format("{:#x}", mask);
+}
+
+void TableText::add(std::string_view key, std::string value) {
+    const Key* row = keys_.find(key);
+    if (row == nullptr) {
+        return;  // no file has it
+    }
+    const auto at =
+        std::ranges::lower_bound(lines_, row, {}, &std::pair<const Key*, std::string>::first);
+    if (at != lines_.end() && at->first == row) {
+        at->second = std::move(value);
+    } else {
+        lines_.emplace(at, row, std::move(value));
     }
 }
 
 std::string TableText::lines() const {
     size_t width = 0;
-    for (const auto& [key, value] : keys_) {
-        width = std::max(width, key.size());
+    for (const auto& [key, value] : lines_) {
+        width = std::max(width, key->name.size());
     }
     std::string out;
-    for (const auto& [key, value] : keys_) {
-        out += fmt::format("{:<{}} = {}\n", key, width, value);
+    for (const auto& [key, value] : lines_) {
+        out += fmt::format("{:<{}} = {}\n", key->name, width, value);
     }
     return out;
 }
 
 std::string TableText::in_line() const {
     std::string out;
-    for (const auto& [key, value] : keys_) {
-        out += fmt::format("{}{} = {}", out.empty() ? "" : ", ", key, value);
+    for (const auto& [key, value] : lines_) {
+        out += fmt::format("{}{} = {}", out.empty() ? "" : ", ", key->name, value);
     }
     return "{ " + out + " }";
 }

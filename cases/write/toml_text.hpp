@@ -8,8 +8,12 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
+
+#include "cases/base/fields.hpp"
+#include "cases/key/key.hpp"
 
 namespace cases {
 
@@ -29,20 +33,67 @@ std::string list_toml(const std::vector<std::string>& items, std::string_view se
 // with as many items as fit, and items of a group (0: none) never divided.
 std::string array_toml(const std::vector<std::string>& items, size_t group);
 
-// The keys of one table in the order of their adding.
+// A bit mask; hexadecimal digits show the bits of a large one.
+std::string mask_toml(uint32_t mask);
+
+// Some keys of one table, written in the order of its rows.
 class TableText {
   public:
-    void add(std::string_view key, std::string value) { keys_.emplace_back(key, std::move(value)); }
-    // The same for true and false, if the value is not the default.
-    void add_flag(std::string_view key, bool value, bool otherwise);
-    bool is_empty() const { return keys_.empty(); }
+    explicit TableText(const KeyTable& keys) : keys_(keys) {}
+    // Replaces what the key had.
+    void add(std::string_view key, std::string value);
+    void add(std::string_view key, const TableText& table) { add(key, table.in_line()); }
+    // Each word, flag and number of a structure that is not as usual, and those of structures in it
+    // that are no table of their own.
+    template <class T>
+    void add_all(const T& value, const T& usual = {}) {
+        T::fields(
+            [&](const Field& field, const auto& member, const auto& plain) {
+                using Member = std::remove_cvref_t<decltype(member)>;
+                const Key* key = keys_.find_field(field.name);
+                if constexpr (HasFields<Member>) {
+                    if (key == nullptr) {
+                        add_all(member, plain);
+                    }
+                } else if constexpr (is_simple_member<Member>) {
+                    if (key != nullptr && key->is_simple()) {
+                        add_simple(*key, member, plain);
+                    }
+                }
+            },
+            value, usual);
+    }
+    bool is_empty() const { return lines_.empty(); }
     // "key = value" a line, the signs aligned.
     std::string lines() const;
     // "{ key = value, key = value }".
     std::string in_line() const;
 
   private:
-    std::vector<std::pair<std::string, std::string>> keys_;
+    template <class T>
+    void add_simple(const Key& key, const T& value, const T& usual) {
+        if constexpr (is_optional<T>) {
+            if (value) {
+                add(key.name, text_of(key, *value));
+            }
+        } else if (text_of(key, value) != text_of(key, usual)) {
+            add(key.name, text_of(key, value));
+        }
+    }
+    template <class T>
+    static std::string text_of(const Key& key, const T& value) {
+        if constexpr (std::is_same_v<T, float>) {
+            return number_toml(value, Reading::nearest);
+        } else {
+            return key.kind == KeyKind::word   ? string_toml(key.words[static_cast<size_t>(value)])
+                   : key.kind == KeyKind::flag ? std::string(value != T{} ? "true" : "false")
+                   : key.kind == KeyKind::bits ? mask_toml(static_cast<uint32_t>(value))
+                                               : std::to_string(static_cast<int64_t>(value));
+        }
+    }
+
+    const KeyTable& keys_;
+    std::vector<std::pair<const Key*, std::string>> lines_;  // in the order of the rows
 };
 
 }  // namespace cases

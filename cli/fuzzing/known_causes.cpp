@@ -49,11 +49,11 @@ class Reducer {
     Reducer(run::Session& session, KnownCauses& out, const std::function<void()>& on_progress)
         : session_(session), out_(out), on_progress_(on_progress) {}
 
-    std::vector<CaseRecord> draw(const std::vector<cases::Case>& cases) {
+    run::Session::Results draw(std::vector<cases::Case> cases) {
         if (is_over()) {
-            return std::vector<CaseRecord>(cases.size());
+            return {std::vector<CaseRecord>(cases.size()), false, ""};
         }
-        run::Session::Results results = session_.draw(cases, [this](size_t) {
+        run::Session::Results results = session_.draw(std::move(cases), [this](size_t) {
             on_progress_();
             return true;
         });
@@ -61,7 +61,7 @@ class Reducer {
         if (out_.failure.empty()) {
             out_.failure = results.failure;
         }
-        return std::move(results.records);
+        return results;
     }
     bool is_over() const {
         out_.is_interrupted = out_.is_interrupted || run::SignalFd::has_come();
@@ -71,8 +71,8 @@ class Reducer {
     std::optional<Entry> reduce(const Open& open, const Symptom& symptom) {
         return fuzz::reduce_case(
             open.text, symptom,
-            [this](const std::vector<cases::Case>& cases) { return draw(cases); }, kMostRounds,
-            [this] { return is_over(); });
+            [this](std::vector<cases::Case> cases, const auto&) { return draw(std::move(cases)); },
+            kMostRounds, [this] { return is_over(); });
     }
 
   private:
@@ -87,7 +87,7 @@ std::vector<Open> failing_cases(const ExpectedFailures& expected, Reducer& reduc
     for (const ExpectedFailures::Failing& one : expected.cases) {
         cases.push_back(one.data);
     }
-    const std::vector<CaseRecord> records = reducer.draw(cases);
+    const std::vector<CaseRecord> records = reducer.draw(cases).records;
     std::vector<Open> all;
     for (size_t k = 0; k < records.size() && !reducer.is_over(); ++k) {
         CaseRecord record = records[k];

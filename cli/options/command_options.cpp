@@ -7,8 +7,6 @@
 
 #include "cli/options/command_examples.hpp"
 #include "cli/options/shared_options.hpp"
-#include "rasterizers/software/choice/choice.hpp"
-#include "run/worker/backend.hpp"
 
 namespace cli {
 
@@ -282,35 +280,10 @@ void define_diagnose(CLI::App& app, DiagnoseOptions& o) {
               "Selection");
 }
 
-// Why the renderer is none; "" if it is one: those of all commands, or the software rasterizer with
-// choices.
-std::string check_renderer(const std::string& name) {
-    if (renderer_names().contains(name)) {
-        return {};
-    }
-    std::string_view words = name;
-    if (words != run::kSoftware && !words.starts_with(std::string(run::kSoftware) + ":")) {
-        std::string all(run::kSoftware);
-        for (const auto& [other, value] : renderer_names()) {
-            all += ", " + other;
-        }
-        return "'" + name + "' is no renderer; there are " + all;
-    }
-    words.remove_prefix(std::min(words.size(), run::kSoftware.size() + 1));
-    software::Device device;
-    return software::set_choices(device, words);
-}
-
 void define_probe(CLI::App& app, ProbeOptions& o) {
     CLI::App* probe =
         app.add_subcommand("probe", "measure what a rasterizer does where it may choose");
-    add_driver(probe, o.device);
-    add_value(
-        probe, "--renderer", o.device.renderer,
-        "what draws: a driver, an algorithm of docs/algorithms.md, or software:KEY=VALUE,..., "
-        "the software rasterizer with such choices [vulkan]",
-        "NAME", "Device")
-        ->check(CLI::Validator([](const std::string& name) { return check_renderer(name); }, ""));
+    add_device(probe, o.device);
     probe
         ->add_option("--compare", o.compared,
                      "two files of 'probe --json', or names of devices: say what differs")

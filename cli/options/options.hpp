@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "capture/renderer.hpp"
 #include "cases/base/parallel.hpp"
 #include "cases/model/profile.hpp"
 #include "run/judge.hpp"
@@ -33,13 +34,8 @@ struct SuiteOptions {
     std::string carried = {};
 };
 
-struct DeviceOptions {
-    std::string device;
-    std::string icd;
-    std::string icd_from = "--icd";  // or the variable that holds it
-    bool validation = false;
-    std::string renderer;  // "": a driver; "reference"; a device of rasterizers/algorithms
-    double timeout = 30;   // seconds without a sign of life
+struct DeviceOptions : capture::RendererOptions {
+    double timeout = 30;  // seconds without a sign of life
 };
 
 struct Shard {
@@ -112,7 +108,7 @@ struct DiagnoseOptions {
 };
 
 struct ProbeOptions {
-    DeviceOptions device;               // its renderer may be "software:CHOICES", too
+    DeviceOptions device;
     std::vector<std::string> compared;  // none, or two: files of an earlier probe, or devices
     std::string json, html;
     bool verbose = false;

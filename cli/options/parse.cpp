@@ -319,9 +319,6 @@ OrStop<std::string> parse(CLI::App& app, AllOptions& all, std::vector<std::strin
             return tl::unexpected(checked.error());
         }
     }
-    if (all.probe.device.renderer == "vulkan") {
-        all.probe.device.renderer.clear();  // a driver
-    }
     for (const auto& [name, device] :
          {std::pair("run", &all.run.device), std::pair("gtest", &all.gtest.run.device),
           std::pair("fuzz", &all.fuzz.run.device), std::pair("reduce", &all.reduce.run.device),

@@ -3,7 +3,7 @@
 #include "cli/options/shared_options.hpp"
 
 #include "cases/model/device.hpp"
-#include "rasterizers/algorithms/device.hpp"
+#include "cli/renderers/renderers.hpp"
 
 namespace cli {
 
@@ -37,14 +37,32 @@ const std::map<std::string, When>& when_names() {
 
 const std::map<std::string, std::string>& renderer_names() {
     static const std::map<std::string, std::string> kNames = [] {
-        std::map<std::string, std::string> names = {{"vulkan", ""}, {"reference", "reference"}};
-        for (const rasterizers::Device& device : rasterizers::all_devices()) {
-            names.emplace(device.name, device.name);
+        std::map<std::string, std::string> names;
+        for (const capture::RendererKind& kind : all_renderers()) {
+            names.emplace(kind.name, names.empty() ? "" : kind.name);  // the first needs no name
         }
         return names;
     }();
     return kNames;
 }
+
+namespace {
+
+// A renderer with choices: "software:ties=top-right".
+bool takes_choices(const std::string& words, std::string& renderer) {
+    const capture::RendererKind* const kind = capture::find_renderer(all_renderers(), words);
+    if (kind == nullptr || kind->wrong_choices == nullptr) {
+        return false;
+    }
+    const std::string_view choices = std::string_view(words).substr(words.find(':') + 1);
+    if (const std::string wrong = kind->wrong_choices(choices); !wrong.empty()) {
+        throw CLI::ValidationError("--renderer", wrong);
+    }
+    renderer = words;
+    return true;
+}
+
+}  // namespace
 
 bool parse_pair(const std::string& text, char separator, uint32_t& a, uint32_t& b) {
     const size_t at = text.find(separator);
@@ -99,7 +117,7 @@ void add_judged_device(CLI::App* app, JudgedDevice& device) {
         ->group("Judging");
 }
 
-void add_driver(CLI::App* app, DeviceOptions& o) {
+void add_device(CLI::App* app, DeviceOptions& o) {
     add_value(app, "--device", o.device, "a part of its name, its index or its UUID", "DEVICE",
               "Device")
         ->envname("EDGECASE_DEVICE");
@@ -111,12 +129,11 @@ void add_driver(CLI::App* app, DeviceOptions& o) {
               "SECONDS", "Isolation")
         ->envname("EDGECASE_TIMEOUT")
         ->check(in_range(0.01, 86400.0));
-}
-
-void add_device(CLI::App* app, DeviceOptions& o) {
-    add_driver(app, o);
-    add_choice(app, "--renderer", o.renderer, renderer_names(),
-               "what draws: a driver, or an algorithm of docs/algorithms.md")
+    add_choice(
+        app, "--renderer", o.renderer, renderer_names(),
+        "what draws: a driver, an algorithm of docs/algorithms.md, or software:KEY=VALUE,..., "
+        "the software rasterizer with such choices",
+        takes_choices)
         ->group("Device");
 }
 

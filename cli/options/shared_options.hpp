@@ -26,17 +26,21 @@ CLI::Option* add_value(CLI::App* app, const std::string& name, T& target, const 
     return app->add_option(name, target, what)->type_name(type)->group(group);
 }
 
-// An option whose value is one of a few words.
+// An option whose value is one of a few words, or another that `takes_other` takes.
 template <class T>
 CLI::Option* add_choice(CLI::App* app, const std::string& name, T& target,
-                        const std::map<std::string, T>& names, const std::string& what) {
+                        const std::map<std::string, T>& names, const std::string& what,
+                        bool (*takes_other)(const std::string& word, T& target) = nullptr) {
     std::vector<std::string> words;
     for (const auto& [word, value] : names) {
         words.push_back(word);
     }
-    const auto parse = [&target, &names, words, name](const CLI::results_t& results) {
+    const auto parse = [&target, &names, words, name, takes_other](const CLI::results_t& results) {
         const auto found = names.find(results.back());
         if (found == names.end()) {
+            if (takes_other != nullptr && takes_other(results.back(), target)) {
+                return true;
+            }
             std::string all;
             for (const std::string& word : words) {
                 all += (all.empty() ? "" : ", ") + word;
@@ -91,8 +95,6 @@ void add_case(CLI::App* app, SuiteOptions& o);
 void add_profile(CLI::App* app, cases::Profile& profile);
 void add_fail_at(CLI::App* app, std::optional<cases::Profile>& level);
 void add_judged_device(CLI::App* app, JudgedDevice& device);
-// What add_device adds but for the renderer.
-void add_driver(CLI::App* app, DeviceOptions& o);
 void add_device(CLI::App* app, DeviceOptions& o);
 void add_terminal(CLI::App* app, bool& quiet, bool& verbose, When& color);
 void add_report_files(CLI::App* app, std::string& json, std::string& junit, std::string& html);

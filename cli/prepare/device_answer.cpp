@@ -10,17 +10,12 @@
 
 #include "cases/base/limits.hpp"
 #include "cases/base/printable.hpp"
-#include "run/process/manifest.hpp"
+#include "cli/renderers/renderers.hpp"
 
 namespace cli {
 
 run::WorkerOptions worker_options(const DeviceOptions& options) {
-    run::WorkerOptions worker;
-    worker.renderer.name = options.renderer;
-    worker.renderer.device = options.device;
-    worker.renderer.icd_file = options.icd;
-    worker.renderer.validation = options.validation;
-    return worker;
+    return {options};
 }
 
 namespace {
@@ -70,11 +65,9 @@ Stop explain_death(const run::Death& death) {
 }
 
 OrStop<run::WorkerClient> start_first_worker(const run::LoopConfig& config) {
-    const std::string& icd = config.worker.renderer.icd_file;
-    if (!icd.empty() && config.worker.renderer.name.empty()) {
-        if (const std::string wrong = run::check_manifest(icd, config.icd_from); !wrong.empty()) {
-            return tl::unexpected(Stop{report::kExitDevice, {wrong}});
-        }
+    if (const capture::Installed installed = find_drivers(config.worker.device);
+        !installed.problem.empty()) {
+        return tl::unexpected(Stop{report::kExitDevice, {installed.problem}});
     }
     cases::Expected<run::WorkerClient> client =
         run::WorkerClient::start(config.command, config.worker, config.timeout);

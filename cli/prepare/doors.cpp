@@ -15,6 +15,7 @@
 #include "capture/checksum.hpp"
 #include "cases/model/door.hpp"
 #include "cases/select/selector.hpp"
+#include "cli/renderers/renderers.hpp"
 #include "report/record/run.hpp"
 
 namespace cli {
@@ -195,7 +196,7 @@ std::string doors_of(const RunOptions& options) {
     const char* other = std::getenv("EDGECASE_SUITE");
     const bool is_own = suite.suite.empty() && (other == nullptr || *other == '\0');
     const bool is_whole = is_own && suite.selectors.empty() && !options.quick &&
-                          options.failed_in.empty() && options.device.renderer.empty();
+                          options.failed_in.empty() && renderer_of(options.device).needs != nullptr;
     return is_whole ? "default" : "none";
 }
 

@@ -15,10 +15,10 @@
 #include "cases/format/color_format.hpp"
 #include "cases/model/derive.hpp"
 #include "cases/model/sample.hpp"
+#include "cli/renderers/renderers.hpp"
 #include "ref/blit/blit.hpp"
 #include "ref/color/component.hpp"
 #include "report/record/run.hpp"
-#include "run/worker/backend.hpp"
 
 namespace cli {
 
@@ -214,16 +214,18 @@ OrStop<Drawing> draw_picture(const cases::Case& c, const std::string& renderer) 
     cases::Case whole = c;
     whole.target.has_instruments = true;
     whole.target.has_depth = true;
-    const rasterizers::Device* algorithm = rasterizers::find_device(renderer);
-    if (algorithm != nullptr) {
-        if (const std::string reason = rasterizers::unsupported_reason(c); !reason.empty()) {
-            return tl::unexpected(
-                Stop{report::kExitUsage, {"'" + renderer + "' cannot draw the case: " + reason}});
-        }
+    capture::RendererOptions options;
+    options.renderer = renderer;
+    const auto made = renderer_of(options).make(options);
+    if (!made) {
+        return tl::unexpected(Stop{report::kExitUsage, {made.error().message}});
     }
-    const auto capture = std::make_shared<const capture::Capture>(
-        algorithm != nullptr ? rasterizers::draw_by_algorithm(whole, *algorithm)
-                             : rasterizers::draw_by_reference(whole));
+    capture::Rendered drawn = std::move((*made)->render({&whole, 1}).front());
+    if (drawn.status != capture::Rendered::Status::drawn) {
+        return tl::unexpected(
+            Stop{report::kExitUsage, {"'" + renderer + "' cannot draw the case: " + drawn.reason}});
+    }
+    const auto capture = std::make_shared<const capture::Capture>(std::move(drawn.capture));
     return Drawing{[&c, capture, renderer](const cases::Put& put) {
                        drawing_json(c, *capture, renderer, put);
                    },

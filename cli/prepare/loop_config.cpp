@@ -15,10 +15,9 @@ run::LoopConfig loop_config(const Program& program, const RunOptions& options) {
     run::LoopConfig config;
     config.command = worker_command(program);
     config.worker = worker_options(options.device);
-    config.icd_from = options.device.icd_from;
     config.timeout = std::chrono::milliseconds(static_cast<int64_t>(options.device.timeout * 1000));
     // A worker that has lost its parent ends by itself, though later than one that has not.
-    config.worker.renderer.longest_wait_ms = static_cast<uint64_t>(config.timeout.count()) * 2;
+    config.worker.device.longest_wait_ms = static_cast<uint64_t>(config.timeout.count()) * 2;
     if (options.gpu_budget > 0) {
         config.gpu_budget = std::chrono::milliseconds(options.gpu_budget);
     }

@@ -19,6 +19,7 @@
 #include "cases/base/checksum.hpp"
 #include "cases/base/counted.hpp"
 #include "cases/model/device.hpp"
+#include "cli/renderers/renderers.hpp"
 #include "report/journal/journal.hpp"
 #include "run/order.hpp"
 
@@ -138,7 +139,8 @@ OrStop<Selection> select_cases(const Program& program, const RunOptions& options
     for (size_t k = suite->outside; k < suite->cases.size(); ++k) {
         selection.own_files.insert(suite->cases[k].where.file);
     }
-    if (!options.doors.empty() && options.doors != "none" && !options.device.renderer.empty()) {
+    if (!options.doors.empty() && options.doors != "none" &&
+        renderer_of(options.device).needs == nullptr) {
         return tl::unexpected(
             stop_with(report::kExitUsage,
                       "--doors needs a Vulkan driver, and --renderer names another; "

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "cases/key/key.hpp"
 #include "fuzz/document/document.hpp"
 #include "fuzz/generate/dice.hpp"
 
@@ -38,9 +39,11 @@ Words change_blit(Document& document, Dice& dice);
 // --- what the parts share ---
 // A draw of the document, or nullptr; its words are "draw 2 ", or nothing if it is the only one.
 Document* any_draw(Document& document, Dice& dice, Words& words);
-inline std::string_view any_of(std::span<const std::string_view> words, Dice& dice) {
+inline std::string_view any_of(cases::Words words, Dice& dice) {
     return words[dice.below(words.size())];
 }
+// Gives a key any of the values that its row has to try; "key = value", or nothing without a row.
+Words set_any(Document& table, const cases::KeyTable& keys, std::string_view name, Dice& dice);
 // Another number, near to a value or simpler.
 double other_number(double value, Dice& dice);
 // Replaces a number by another one; false if it is none. `is_binary32`: it has to be one.

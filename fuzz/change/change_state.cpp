@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "cases/load/matrix.hpp"
 #include "cases/model/words.hpp"
 #include "fuzz/change/change.hpp"
 
@@ -14,50 +15,29 @@ namespace fuzz {
 
 namespace {
 
-using WordSpan = std::span<const std::string_view>;
+constexpr std::array kTables = {&cases::kTargetKeys, &cases::kTargetColorKeys,
+                                &cases::kDrawKeys,   &cases::kDepthKeys,
+                                &cases::kColorKeys,  &cases::kAttributeKeys};
 
-// A key whose value is one of some words, and the table that it stands in: "target", "color" (of
-// the target), "draw", and of a draw "depth", "draw color" and "attribute".
-struct WordKey {
-    std::string_view table, key;
-    WordSpan words;
+// A row of one of these tables that costs a pipeline.
+struct Place {
+    const cases::KeyTable* table;
+    const cases::Key* key;
 };
-
-constexpr std::array<std::string_view, 3> kAttachments = {"all", "color", "color+depth"};
-constexpr std::array<std::string_view, 8> kBlends = {
-    "none", "alpha", "premultiplied", "additive", "multiply", "reverse-subtract", "min", "max"};
-constexpr std::array<std::string_view, 6> kMasks = {"rgba", "rgb", "r", "g", "ba", "a"};
-constexpr std::array<std::string_view, 2> kFlags = {"false", "true"};
-
-constexpr std::array<WordKey, 27> kWordKeys = {{
-    {"target", "depth", cases::kWords<cases::DepthFormat>},
-    {"target", "resolve", cases::kWords<cases::Resolve>},
-    {"target", "depth_resolve", cases::kWords<cases::Resolve>},
-    {"target", "attachments", kAttachments},
-    {"target", "stencil", kFlags},
-    {"color", "format", cases::kWords<cases::ColorFormat>},
-    {"color", "format", cases::kWords<cases::ColorFormat>},
-    {"draw", "topology", cases::kWords<cases::Topology>},
-    {"draw", "cull", cases::kWords<cases::CullMode>},
-    {"draw", "front_face", cases::kWords<cases::FrontFace>},
-    {"draw", "provoking", cases::kWords<cases::ProvokingVertex>},
-    {"draw", "depth_volume", cases::kVolumeWords},
-    {"draw", "discard", cases::kWords<cases::Discard>},
-    {"draw", "discard_by", cases::kWords<cases::DiscardBy>},
-    {"draw", "early_tests", kFlags},
-    {"draw", "conservative", cases::kWords<cases::Conservative>},
-    {"draw", "rasterizer_discard", kFlags},
-    {"depth", "compare", cases::kWords<cases::CompareOp>},
-    {"depth", "write", kFlags},
-    {"depth", "clamp", kFlags},
-    {"depth", "clip", kFlags},
-    {"draw color", "blend", kBlends},
-    {"draw color", "write_mask", kMasks},
-    {"attribute", "interpolation", cases::kWords<cases::Interpolation>},
-    {"attribute", "auxiliary", cases::kWords<cases::Auxiliary>},
-    {"attribute", "probe", cases::kWords<cases::Probe>},
-    {"attribute", "source", cases::kWords<cases::Source>},
-}};
+const std::vector<Place>& places() {
+    static const std::vector<Place> kAll = [] {
+        std::vector<Place> all;
+        for (const cases::KeyTable* table : kTables) {
+            for (const cases::Key& key : table->keys) {
+                if (key.has(cases::Key::kPipeline)) {
+                    all.push_back({table, &key});
+                }
+            }
+        }
+        return all;
+    }();
+    return kAll;
+}
 
 // The colour, unless it is a list of several.
 Document* color_table(Document& table) {
@@ -65,24 +45,25 @@ Document* color_table(Document& table) {
     return color != nullptr && color->is(Document::Kind::table) ? color : nullptr;
 }
 
-// The table of that name, made where it may be missing; nullptr if there is none. Its words end in
-// a blank, if there are any.
-Document* table_of(Document& document, std::string_view name, Dice& dice, Words& words) {
+// The table with these keys, made where it may be missing; nullptr if there is none. Its words end
+// in a blank, if there are any.
+Document* table_of(Document& document, const cases::KeyTable* keys, Dice& dice, Words& words) {
     Document* target = find(document, "target");
-    if (name == "target" || name == "color") {
-        words = fmt::format("{} ", name == "color" ? "target colour" : "target");
-        return target == nullptr || name == "target" ? target : color_table(*target);
+    const bool is_color = keys == &cases::kTargetColorKeys;
+    if (keys == &cases::kTargetKeys || is_color) {
+        words = fmt::format("{} ", is_color ? "target colour" : "target");
+        return target == nullptr || !is_color ? target : color_table(*target);
     }
     Document* draw = any_draw(document, dice, words);
-    if (draw == nullptr || name == "draw") {
+    if (draw == nullptr || keys == &cases::kDrawKeys) {
         return draw;
     }
-    if (name == "depth") {
+    if (keys == &cases::kDepthKeys) {
         words += "depth ";
         Document* depth = find(*draw, "depth");
         return depth != nullptr ? depth : &set(*draw, "depth", table());
     }
-    if (name == "draw color") {
+    if (keys == &cases::kColorKeys) {
         words += "colour ";
         return color_table(*draw);
     }
@@ -95,22 +76,24 @@ Document* table_of(Document& document, std::string_view name, Dice& dice, Words&
     return &attributes->array[k];
 }
 
-Words change_word(Document& document, Dice& dice) {
-    const WordKey& key = dice.of(kWordKeys);
+Words change_key(Document& document, Dice& dice) {
+    const Place& place = places()[dice.below(places().size())];
     Words words;
-    Document* in = table_of(document, key.table, dice, words);
+    Document* in = table_of(document, place.table, dice, words);
     if (in == nullptr) {
         return {};
     }
-    const std::string_view word = any_of(key.words, dice);
-    const Document* now = find(*in, key.key);
-    const bool is_flag = key.words.data() == kFlags.data();
-    Document value = is_flag ? boolean(word == "true") : text(std::string(word));
-    if (now != nullptr && is_same(*now, value)) {
+    const std::string_view key = place.key->name;
+    const Document* given = find(*in, key);
+    const Document before = given == nullptr ? table() : *given;  // no key here is a table
+    const Words set_to = set_any(*in, *place.table, key, dice);
+    const Document& now = *find(*in, key);
+    if (is_same(before, now)) {
         return {};
     }
     // What a value needs beside it, and what means nothing without it.
-    if (key.key == "probe") {
+    if (key == "probe") {
+        const std::string word = now.string;
         for (const char* other : {"sample", "offset", "texture"}) {
             erase(*in, other);
         }
@@ -125,61 +108,16 @@ Words change_word(Document& document, Dice& dice) {
                 numbers({static_cast<double>(1U << dice.below(9)),
                          static_cast<double>(1U << dice.below(9))}));
         }
-    }
-    if (key.key == "source" && word != "vertex") {
+    } else if (key == "source" && now.string != "vertex") {
         for (const char* other : {"values", "constant", "plane", "from", "seed", "components"}) {
             erase(*in, other);
         }
-    }
-    if (key.key == "blend") {
+    } else if (key == "blend") {
         erase(*in, "constants");
+    } else if (key == "samples") {
+        erase(*in, "sample_locations");
     }
-    set(*in, key.key, std::move(value));
-    return fmt::format("{}{} = {}", words, key.key, word);
-}
-
-// Keys whose values are numbers.
-Words change_count(Document& document, Dice& dice) {
-    static constexpr std::array<double, 5> kSamples = {1, 2, 4, 8, 16};
-    static constexpr std::array<double, 5> kDepths = {0, 0.125, 0.375, 0.5, 1};
-    static constexpr std::array<double, 4> kShares = {0, 0.25, 0.5, 1};
-    Document* target = find(document, "target");
-    if (target == nullptr) {
-        return {};
-    }
-    Words words = "target ";
-    Document* in = target;
-    std::string key;
-    Document value;
-    const uint64_t kind = dice.below(10);
-    if (kind < 3) {
-        key = "samples";
-        value = number(dice.of(kSamples));
-        erase(*target, "sample_locations");
-    } else if (kind == 3) {
-        key = "layers";
-        value = number(static_cast<double>(dice.between(1, 3)));
-    } else if (kind == 4) {
-        key = "depth_clear";
-        value = number(dice.of(kDepths));
-    } else {
-        in = any_draw(document, dice, words);
-        if (in == nullptr) {
-            return {};
-        }
-        key = kind == 5   ? "sample_mask"
-              : kind == 6 ? "shader_mask"
-              : kind == 7 ? "min_sample_shading"
-              : kind == 8 ? "layer"
-                          : "viewport_index";
-        value = number(kind < 7    ? static_cast<double>(dice.between(0, 15))
-                       : kind == 7 ? dice.of(kShares)
-                                   : static_cast<double>(dice.below(3)));
-    }
-    set(*in, key, value);
-    return fmt::format(
-        "{}{} = {}", words, key,
-        value.is(Kind::integer) ? static_cast<double>(value.integer) : value.floating);
+    return words + set_to;
 }
 
 Words change_bias(Document& document, Dice& dice) {
@@ -208,8 +146,6 @@ Words change_bias(Document& document, Dice& dice) {
 
 // A key that goes, which then has its default.
 Words remove_key(Document& document, Dice& dice) {
-    static constexpr std::array<std::string_view, 6> kTables = {
-        "target", "color", "draw", "depth", "draw color", "attribute"};
     Words words;
     Document* in = table_of(document, dice.of(kTables), dice, words);
     if (in == nullptr || in->table.empty()) {
@@ -255,11 +191,11 @@ Words add_color(Document& document, Dice& dice) {
         Document& of_draw = set(draw, "color", table());
         set(of_draw, "value", numbers(value));
         if (!is_integer && dice.one_in(2)) {
-            set(of_draw, "blend", text(std::string(dice.of(kBlends))));
+            set(of_draw, "blend", text(std::string(any_of(cases::kBlendWords, dice))));
         }
     }
     if (dice.one_in(3)) {
-        set(*target, "attachments", text(std::string(dice.of(kAttachments))));
+        set_any(*target, cases::kTargetKeys, "attachments", dice);
     }
     return fmt::format("a colour target of {}", format);
 }
@@ -362,13 +298,25 @@ Words change_draws(Document& document, Dice& dice, const Document* other) {
 
 }  // namespace
 
+Words set_any(Document& table, const cases::KeyTable& keys, std::string_view name, Dice& dice) {
+    const cases::Key* row = keys.find(name);
+    if (row == nullptr) {
+        return {};
+    }
+    const cases::Key& key = *row;
+    Document value = key.kind == cases::KeyKind::flag ? boolean(dice.one_in(2))
+                     : key.words.empty() ? number(key.numbers[dice.below(key.numbers.size())])
+                                         : text(std::string(any_of(key.words, dice)));
+    const auto told = cases::value_text(set(table, key.name, std::move(value)));
+    return fmt::format("{} = {}", key.name, told.value_or("?"));
+}
+
 Words change_state(Document& document, Dice& dice, const Document* other) {
     if (document.find("blit") != nullptr) {
         return change_blit(document, dice);
     }
     const uint64_t kind = dice.below(28);
-    return kind < 8    ? change_word(document, dice)
-           : kind < 12 ? change_count(document, dice)
+    return kind < 12   ? change_key(document, dice)
            : kind < 13 ? change_bias(document, dice)
            : kind < 14 ? remove_key(document, dice)
            : kind < 15 ? add_color(document, dice)

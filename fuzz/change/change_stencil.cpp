@@ -8,37 +8,23 @@
 #include <utility>
 #include <vector>
 
-#include "cases/model/words.hpp"
 #include "fuzz/change/change.hpp"
 
 namespace fuzz {
 
 namespace {
 
-// Where operations end or begin anew, and where a mask takes bits away.
-constexpr std::array<double, 8> kValues = {0, 1, 2, 127, 128, 170, 254, 255};
 constexpr std::array<std::string_view, 3> kOutcomes = {"fail", "depth_fail", "pass"};
-constexpr std::array<std::string_view, 3> kNumbers = {"reference", "compare_mask", "write_mask"};
 
-Words set_word(Document& face, std::string_view key, std::string_view word) {
-    set(face, key, text(std::string(word)));
-    return fmt::format("{} {}", key, word);
-}
-
-// One key of a face.
-Words change_face(Document& face, Dice& dice) {
-    const uint64_t kind = dice.below(7);
-    if (kind == 0) {
-        return set_word(face, "compare", any_of(cases::kWords<cases::CompareOp>, dice));
+// One of the keys that have values to try.
+Words change_any(Document& table, const cases::KeyTable& keys, Dice& dice) {
+    std::vector<std::string_view> some;
+    for (const cases::Key& key : keys.keys) {
+        if (key.has_values()) {
+            some.push_back(key.name);
+        }
     }
-    if (kind < 4) {
-        const std::string_view outcome = dice.of(kOutcomes);
-        return set_word(face, outcome, any_of(cases::kWords<cases::StencilOp>, dice));
-    }
-    const std::string_view key = dice.of(kNumbers);
-    const double value = dice.of(kValues);
-    set(face, key, number(value));
-    return fmt::format("{} {}", key, value);
+    return set_any(table, keys, any_of(some, dice), dice);
 }
 
 // Each face gets a table of its own.
@@ -66,17 +52,15 @@ Words change_stencil(Document& document, Dice& dice) {
     }
     set(*target, "stencil", boolean(true));
     if (dice.one_in(4)) {
-        const double clear = dice.of(kValues);
-        set(*target, "stencil_clear", number(clear));
-        return fmt::format("the stencil cleared to {}", clear);
+        return "target " + set_any(*target, cases::kTargetKeys, "stencil_clear", dice);
     }
     Document* stencil = find(*draw, "stencil");
     if (stencil == nullptr) {
         stencil = &set(*draw, "stencil", table());
         for (const std::string_view outcome : kOutcomes) {
-            set_word(*stencil, outcome, any_of(cases::kWords<cases::StencilOp>, dice));
+            set_any(*stencil, cases::kStencilKeys, outcome, dice);
         }
-        set(*stencil, "reference", number(dice.of(kValues)));
+        set_any(*stencil, cases::kStencilKeys, "reference", dice);
     }
     const uint64_t which = dice.below(4);
     if (which < 2) {
@@ -85,11 +69,11 @@ Words change_stencil(Document& document, Dice& dice) {
     Document* front = find(*stencil, "front");
     Document* back = find(*stencil, "back");
     if (front == nullptr && back == nullptr) {
-        return words + "stencil " + change_face(*stencil, dice);
+        return words + "stencil " + change_any(*stencil, cases::kStencilFaceKeys, dice);
     }
     const bool is_front = back == nullptr || (front != nullptr && which % 2 == 0);
     return fmt::format("{}stencil {} {}", words, is_front ? "front" : "back",
-                       change_face(is_front ? *front : *back, dice));
+                       change_any(is_front ? *front : *back, cases::kStencilFaceKeys, dice));
 }
 
 Words change_blit(Document& document, Dice& dice) {
@@ -100,18 +84,13 @@ Words change_blit(Document& document, Dice& dice) {
     if (blit == nullptr || color == nullptr) {
         return {};
     }
-    const std::string_view format = any_of(cases::kWords<cases::ColorFormat>, dice);
     switch (dice.below(6)) {
         case 0:
-            return "blit " +
-                   set_word(*blit, "filter", any_of(cases::kWords<cases::BlitFilter>, dice));
+            return "target colour " + change_any(*color, cases::kTargetColorKeys, dice);
         case 1:
-            return "blit " +
-                   set_word(*blit, "pattern", any_of(cases::kWords<cases::BlitPattern>, dice));
         case 2:
-            return "target colour " + set_word(*color, "format", format);
         case 3:
-            return "blit " + set_word(*blit, "format", format);
+            return "blit " + change_any(*blit, cases::kBlitKeys, dice);
         default: {
             const std::string_view name = dice.of(kRegions);
             Document* region = find(*blit, name);

@@ -37,9 +37,9 @@ bool erase(Document& table, std::string_view key);
 // keys, in any order. Where they stand in files does not matter.
 bool is_same(const Document& a, const Document& b);
 
-// The document as a readable case file. Reading it gives the same tree. Keys stand in an order of
-// their own: those of a file as docs/cases.md has them, vertices after the state of a draw. Floats
-// have the fewest digits that read back as the same binary64.
+// The document as a readable case file. Reading it gives the same tree. Keys stand in the order of
+// their rows (cases/key/key.hpp), vertices after the state of a draw. Floats have the fewest digits
+// that read back as the same binary64.
 std::string to_text(const Document& document);
 
 }  // namespace fuzz

@@ -6,8 +6,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <span>
+#include <utility>
 
+#include "cases/key/key.hpp"
 #include "fuzz/document/document.hpp"
 
 namespace fuzz {
@@ -16,34 +19,19 @@ namespace {
 
 constexpr size_t kColumns = 100;  // of a line, where values allow it
 
-// The order in which docs/cases.md tells the keys of a table; all others follow.
-constexpr std::array<std::string_view, 62> kOrder = {
-    // a file
-    "format", "description", "catches", "rules", "links", "leaves", "relations", "matrix", "target",
-    "blit",
-    // [target], [target.color], [blit]
-    "size", "samples", "sample_locations", "layers", "resolve", "depth_resolve", "stencil",
-    "stencil_clear", "attachments", "clear",
-    // [[draw]]; what its triangles are stands last
-    "name", "source", "probe", "interpolation", "auxiliary", "topology", "space", "viewport",
-    "scissor", "viewport_index", "layer", "cull", "front_face", "rasterizer_discard",
-    "conservative", "conservative_extra", "fragment_size", "discard", "discard_attribute",
-    "early_tests", "frag_depth", "query", "provoking", "sample_mask", "shader_mask",
-    "min_sample_shading", "depth", "depth_volume", "depth_clear", "color", "generate", "vertices",
-    "indices", "mirror", "rotate", "offset", "winding", "first", "order", "draw", "attribute",
-    "expect"};
-
-size_t rank(const cases::TomlEntry& entry) {
-    return static_cast<size_t>(std::find(kOrder.begin(), kOrder.end(), entry.key) - kOrder.begin());
-}
-
-std::vector<const cases::TomlEntry*> ordered(const Document& table) {
-    std::vector<const cases::TomlEntry*> entries;
+// Keys stand as their rows do, those of triangles behind the others, and last what no row has.
+std::vector<const cases::TomlEntry*> ordered(const Document& table, const cases::KeyTable* keys) {
+    std::vector<std::pair<std::pair<int, const cases::Key*>, const cases::TomlEntry*>> entries;
     for (const cases::TomlEntry& entry : table.table) {
-        entries.push_back(&entry);
+        const cases::Key* row = cases::find_key(keys, entry.key);
+        const int group = row == nullptr ? 2 : row->has(cases::Key::kShape) ? 1 : 0;
+        entries.push_back({{group, row}, &entry});
     }
-    std::ranges::stable_sort(entries, {}, [](const cases::TomlEntry* e) { return rank(*e); });
-    return entries;
+    std::ranges::stable_sort(entries, {}, [](const auto& e) { return e.first; });
+    std::vector<const cases::TomlEntry*> out;
+    std::ranges::transform(entries, std::back_inserter(out),
+                           [](const auto& e) { return e.second; });
+    return out;
 }
 
 std::string float_text(double value) {
@@ -90,17 +78,17 @@ std::string key_text(const std::string& key) {
                                                                              : quoted(key, true);
 }
 
-std::string inline_text(const Document& value);
+std::string inline_text(const Document& value, const cases::KeyTable* keys);
 
-std::string array_text(const Document& value) {
+std::string array_text(const Document& value, const cases::KeyTable* keys) {
     std::string out = "[";
     for (const Document& element : value.array) {
-        out += (out.size() > 1 ? ", " : "") + inline_text(element);
+        out += (out.size() > 1 ? ", " : "") + inline_text(element, keys);
     }
     return out + "]";
 }
 
-std::string inline_text(const Document& value) {
+std::string inline_text(const Document& value, const cases::KeyTable* keys) {
     switch (value.kind) {
         case Kind::boolean:
             return value.boolean ? "true" : "false";
@@ -111,12 +99,12 @@ std::string inline_text(const Document& value) {
         case Kind::string:
             return quoted(value.string);
         case Kind::array:
-            return array_text(value);
+            return array_text(value, keys);
         case Kind::table: {
             std::string out;
-            for (const cases::TomlEntry* entry : ordered(value)) {
+            for (const cases::TomlEntry* entry : ordered(value, keys)) {
                 out += fmt::format("{}{} = {}", out.empty() ? "" : ", ", key_text(entry->key),
-                                   inline_text(entry->value));
+                                   inline_text(entry->value, cases::keys_in(keys, entry->key)));
             }
             return out.empty() ? "{}" : "{ " + out + " }";
         }
@@ -127,11 +115,11 @@ std::string inline_text(const Document& value) {
 }
 
 // An array over several lines: one element a line if they are arrays, as many as fit otherwise.
-std::string wrapped(const Document& value) {
+std::string wrapped(const Document& value, const cases::KeyTable* keys) {
     std::string out = "[";
     std::string line;
     for (const Document& element : value.array) {
-        const std::string next = inline_text(element) + ",";
+        const std::string next = inline_text(element, keys) + ",";
         if (!line.empty() &&
             (element.is(Kind::array) || line.size() + 1 + next.size() > kColumns)) {
             out += "\n" + line;
@@ -159,17 +147,19 @@ bool has_header(const std::string& parent, const cases::TomlEntry& entry) {
            entry.key != "relations";
 }
 
-void write_entries(const std::string& parent, const Document& table, std::string& out) {
-    const std::vector<const cases::TomlEntry*> entries = ordered(table);
+void write_entries(const std::string& parent, const Document& table, const cases::KeyTable* keys,
+                   std::string& out) {
+    const std::vector<const cases::TomlEntry*> entries = ordered(table, keys);
     for (const cases::TomlEntry* entry : entries) {
         if (has_header(parent, *entry)) {
             continue;
         }
         const std::string line = key_text(entry->key) + " = ";
-        const std::string plain = inline_text(entry->value);
+        const cases::KeyTable* inner = cases::keys_in(keys, entry->key);
+        const std::string plain = inline_text(entry->value, inner);
         const bool is_long = entry->value.is(Kind::array) && !entry->value.array.empty() &&
                              (entry->key == "vertices" || line.size() + plain.size() > kColumns);
-        out += line + (is_long ? wrapped(entry->value) : plain) + "\n";
+        out += line + (is_long ? wrapped(entry->value, inner) : plain) + "\n";
     }
     for (const cases::TomlEntry* entry : entries) {
         if (!has_header(parent, *entry)) {
@@ -181,7 +171,7 @@ void write_entries(const std::string& parent, const Document& table, std::string
             is_list ? std::span(entry->value.array) : std::span(&entry->value, 1);
         for (const Document& one : tables) {
             out += is_list ? fmt::format("\n[[{}]]\n", name) : fmt::format("\n[{}]\n", name);
-            write_entries(name, one, out);
+            write_entries(name, one, cases::keys_in(keys, entry->key), out);
         }
     }
 }
@@ -190,7 +180,7 @@ void write_entries(const std::string& parent, const Document& table, std::string
 
 std::string to_text(const Document& document) {
     std::string out;
-    write_entries("", document, out);
+    write_entries("", document, &cases::kFileKeys, out);
     return out;
 }
 

@@ -1,8 +1,26 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
+#include "cases/key/key.hpp"
 #include "fuzz/generate/pose.hpp"
 
 namespace fuzz {
+
+namespace {
+
+// The words of a key behind what stands for its absence, if no word does.
+std::vector<std::string_view> words(const cases::KeyTable& keys, std::string_view name,
+                                    std::string_view absent = {}) {
+    std::vector<std::string_view> all;
+    if (!absent.empty()) {
+        all.push_back(absent);
+    }
+    if (const cases::Key* key = keys.find(name)) {
+        all.insert(all.end(), key->words.begin(), key->words.end());
+    }
+    return all;
+}
+
+}  // namespace
 
 const std::vector<Feature>& features() {
     static const std::vector<Feature> kAll = {
@@ -11,11 +29,8 @@ const std::vector<Feature>& features() {
         {"size", {"16", "odd", "wide", "high", "64", "tiny", "large"}},
         {"layers", {"1", "2", "3"}},
         {"depth", {"d32-float", "d16-unorm", "d24-unorm"}},
-        {"attachments", {"all", "color", "color+depth"}},
-        {"color",
-         {"none", "rgba8-unorm", "bgra8-unorm", "rgba8-srgb", "rgb10a2-unorm", "r5g6b5-unorm",
-          "rgba16-unorm", "rgba16-float", "rg16-float", "rgba32-float", "r32-float", "r32-uint",
-          "rgba8-uint"}},
+        {"attachments", words(cases::kTargetKeys, "attachments")},
+        {"color", words(cases::kTargetColorKeys, "format", "none")},
         {"blend",
          {"none", "additive", "alpha", "premultiplied", "multiply", "reverse-subtract", "min",
           "max", "factors"}},
@@ -23,10 +38,7 @@ const std::vector<Feature>& features() {
         {"alpha-to-one", {"false", "true"}},
         {"color-from", {"value", "attribute"}},
         {"write-mask", {"rgba", "rgb", "r", "gb", "ra"}},
-        {"logic",
-         {"none", "clear", "and", "and-reverse", "copy", "and-inverted", "no-op", "xor", "or",
-          "nor", "equivalent", "invert", "or-reverse", "copy-inverted", "or-inverted", "nand",
-          "set"}},
+        {"logic", words(cases::kColorKeys, "logic", "none")},
         {"query", {"none", "occlusion", "occlusion-precise", "statistics"}},
         {"stencil", {"false", "true"}},
         {"stencil-clear", {"0", "given"}},
@@ -39,20 +51,20 @@ const std::vector<Feature>& features() {
         {"depth-resolve", {"none", "sample-zero", "min", "max", "average"}},
         {"sample-locations", {"standard", "own"}},
         {"draws", {"1", "2", "3"}},
-        {"topology", {"triangle-list", "triangle-strip", "triangle-fan"}},
+        {"topology", words(cases::kDrawKeys, "topology")},
         {"indices", {"none", "given", "restart"}},
         {"space", {"pixels", "clip"}},
         {"cull", {"none", "back", "front"}},
-        {"front-face", {"counter-clockwise", "clockwise"}},
-        {"provoking", {"first", "last"}},
-        {"depth-volume", {"zero-to-one", "negative-one-to-one"}},
+        {"front-face", words(cases::kDrawKeys, "front_face")},
+        {"provoking", words(cases::kDrawKeys, "provoking")},
+        {"depth-volume", words(cases::kDrawKeys, "depth_volume")},
         {"compare",
          {"always", "less", "less-or-equal", "greater", "greater-or-equal", "equal", "not-equal",
           "never"}},
         {"depth-write", {"true", "false"}},
         {"depth-bounds", {"none", "ends", "below", "above", "one-depth", "whole"}},
         {"frag-depth", {"none", "value", "odd-columns", "odd-rows", "checker", "frag-coord"}},
-        {"depth-layout", {"any", "greater", "less", "unchanged"}},
+        {"depth-layout", words(cases::kFragDepthKeys, "layout")},
         {"bias", {"none", "constant", "slope", "both", "clamped"}},
         {"depth-clamp", {"false", "true"}},
         {"depth-clip", {"default", "true", "false"}},
@@ -60,12 +72,12 @@ const std::vector<Feature>& features() {
         {"shader-mask", {"all", "given"}},
         {"sample-shading", {"off", "half", "full", "least"}},
         {"discard", {"none", "odd-columns", "odd-rows", "checker", "front", "back"}},
-        {"discard-by", {"kill", "demote", "terminate"}},
+        {"discard-by", words(cases::kDrawKeys, "discard_by")},
         {"early-tests", {"false", "true"}},
         {"rasterizer-discard", {"none", "first-draw"}},
         {"attributes", {"none", "one", "two", "three"}},
         {"interpolation", {"smooth", "noperspective", "flat", "mixed"}},
-        {"auxiliary", {"none", "centroid", "sample"}},
+        {"auxiliary", words(cases::kAttributeKeys, "auxiliary")},
         {"source", {"vertex", "barycentric", "sample-mask-in", "sample-id", "sample-position"}},
         {"probe",
          {"value", "at-centroid", "at-sample", "at-offset", "dfdx", "dfdy", "fwidth", "dfdx-fine",

@@ -4,53 +4,17 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <span>
 
+#include "cases/key/key.hpp"
 #include "cases/load/loader.hpp"
-#include "cases/model/words.hpp"
 #include "fuzz/reduce/measure.hpp"
 #include "fuzz/reduce/path.hpp"
 
 namespace fuzz {
 
 namespace {
-
-using WordSpan = std::span<const std::string_view>;
-
-constexpr std::array<std::string_view, 8> kBlends = {
-    "none", "alpha", "premultiplied", "additive", "multiply", "reverse-subtract", "min", "max"};
-constexpr std::array<std::string_view, 3> kPatterns = {"odd-columns", "odd-rows", "checker"};
-constexpr std::array<std::string_view, 3> kAttachments = {"all", "color", "color+depth"};
-constexpr std::array<double, 5> kSamples = {1, 2, 4, 8, 16};
-
-// A key of a draw or of one of its attributes that has one of some words.
-struct WordKey {
-    std::string_view key, phrase;  // "{}" in the phrase stands for the word
-    WordSpan words;
-};
-constexpr std::array<WordKey, 20> kKeys = {{
-    {"discard_by", "discard_by = {}", cases::kWords<cases::DiscardBy>},
-    {"cull", "cull = {}", cases::kWords<cases::CullMode>},
-    {"front_face", "front_face = {}", cases::kWords<cases::FrontFace>},
-    {"provoking", "the {} vertex as provoking one", cases::kWords<cases::ProvokingVertex>},
-    {"depth_volume", "depth_volume = {}", cases::kVolumeWords},
-    {"compare", "the comparison {}", cases::kWords<cases::CompareOp>},
-    {"fail", "fail = {}", cases::kWords<cases::StencilOp>},
-    {"depth_fail", "depth_fail = {}", cases::kWords<cases::StencilOp>},
-    {"pass", "pass = {}", cases::kWords<cases::StencilOp>},
-    {"discard", "discard = {}", cases::kWords<cases::Discard>},
-    {"query", "query = {}", cases::kWords<cases::Query>},
-    {"where", "where = {}", kPatterns},
-    {"layout", "layout = {}", cases::kWords<cases::DepthLayout>},
-    {"blend", "blend = {}", kBlends},
-    {"logic", "logic = {}", cases::kWords<cases::LogicOp>},
-    {"interpolation", "{} interpolation", cases::kWords<cases::Interpolation>},
-    {"auxiliary", "auxiliary = {}", cases::kWords<cases::Auxiliary>},
-    {"resolve", "resolve = {}", cases::kWords<cases::Resolve>},
-    {"depth_resolve", "depth_resolve = {}", cases::kWords<cases::Resolve>},
-    {"attachments", "attachments = {}", kAttachments},
-}};
 
 bool is_case(const std::string& text) {
     return cases::load_text(text, "case.toml", "case").has_value();
@@ -65,20 +29,14 @@ class Finder {
         if (target == nullptr) {
             return {};
         }
-        if (const Document* color = target->find("color")) {
-            if (const Document* format = color->find("format")) {
-                add_words(Path() + "target" + "color", "format", format->string, "the format {}",
-                          cases::kWords<cases::ColorFormat>);
-            }
+        const Document* color = target->find("color");
+        if (color != nullptr && color->find("format") != nullptr) {
+            add_first(Path() + "target" + "color", cases::kTargetColorKeys, "format", color);
         }
         // What is not told has its default: it has neighbours, too.
-        const Document* depth = target->find("depth");
-        add_words(Path() + "target", "depth",
-                  depth == nullptr ? std::string(cases::kWords<cases::DepthFormat>.front())
-                                   : depth->string,
-                  "depth {}", cases::kWords<cases::DepthFormat>);
+        add_first(Path() + "target", cases::kTargetKeys, "depth", target);
         add_samples(*target);
-        walk(document_, {});
+        walk(document_, {}, &cases::kFileKeys);
         return std::move(all_);
     }
 
@@ -91,15 +49,29 @@ class Finder {
         }
     }
 
-    void add_words(const Path& path, const std::string& key, const std::string& now,
-                   const std::string& place, WordSpan words) {
-        for (const std::string_view word : words) {
+    // The other words of a key, whether the table has it or not. It has no others then.
+    void add_first(const Path& path, const cases::KeyTable& keys, std::string_view name,
+                   const Document* table) {
+        if (const cases::Key* key = first_.emplace_back(keys.find(name))) {
+            const Document* given = table->find(name);
+            add_words(path, *key,
+                      given == nullptr ? std::string(key->words.front()) : given->string, "");
+        }
+    }
+
+    void add_words(const Path& path, const cases::Key& key, const std::string& now,
+                   const std::string& in) {
+        const std::string place =
+            std::string(key.neighbour == "= {}" ? fmt::format("{} = {{}}", key.name)
+                                                : key.neighbour) +
+            in;
+        for (const std::string_view word : key.words) {
             Document changed = document_;
             Document* table = at(changed, path);
             if (word == now || table == nullptr) {
                 continue;
             }
-            set(*table, key, text(std::string(word)));
+            set(*table, key.name, text(std::string(word)));
             add(std::move(changed), place, std::string(word), now);
         }
     }
@@ -107,7 +79,8 @@ class Finder {
     void add_samples(const Document& target) {
         const Document* given = target.find("samples");
         const double now = given == nullptr ? 1 : value_of(*given).value_or(1);
-        for (const double samples : kSamples) {
+        const cases::Key* key = cases::kTargetKeys.find("samples");
+        for (const double samples : key == nullptr ? std::span<const double>() : key->numbers) {
             if (samples < now || samples > now) {
                 Document changed = document_;
                 Document* to = fuzz::find(changed, "target");
@@ -121,30 +94,29 @@ class Finder {
     }
 
     // Keys with words, wherever they stand.
-    void walk(const Document& value, const Path& path) {
+    void walk(const Document& value, const Path& path, const cases::KeyTable* keys) {
         for (size_t k = 0; k < value.array.size(); ++k) {
-            walk(value.array[k], path + k);
+            walk(value.array[k], path + k, keys);
         }
         for (const cases::TomlEntry& entry : value.table) {
-            for (const WordKey& key : kKeys) {
-                if (entry.key != key.key || !entry.value.is(Document::Kind::string)) {
-                    continue;
-                }
+            const cases::Key* key = cases::find_key(keys, entry.key);
+            if (key != nullptr && !key->neighbour.empty() && entry.value.is(Kind::string) &&
+                std::ranges::find(first_, key) == first_.end()) {
                 const Document* draws = document_.find("draw");
                 const bool is_told = draws != nullptr && draws->array.size() > 1 &&
                                      path.parts.size() > 1 &&
                                      std::holds_alternative<size_t>(path.parts[1]);
-                const std::string in =
-                    is_told ? fmt::format(" in draw {}", std::get<size_t>(path.parts[1])) : "";
-                add_words(path, entry.key, entry.value.string, std::string(key.phrase) + in,
-                          key.words);
+                add_words(
+                    path, *key, entry.value.string,
+                    is_told ? fmt::format(" in draw {}", std::get<size_t>(path.parts[1])) : "");
             }
-            walk(entry.value, path + entry.key);
+            walk(entry.value, path + entry.key, cases::keys_in(keys, entry.key));
         }
     }
 
     const Document& document_;
     std::vector<Neighbour> all_;
+    std::vector<const cases::Key*> first_;  // whose words have been added
 };
 
 std::string list_of(const std::vector<std::string>& words) {

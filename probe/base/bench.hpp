@@ -5,12 +5,11 @@
 // datasheet that is filled.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "capture/capture.hpp"
+#include "capture/renderer.hpp"
 #include "cases/model/case.hpp"
 #include "probe/base/datasheet.hpp"
 #include "probe/base/vote.hpp"
@@ -18,12 +17,8 @@
 
 namespace probe {
 
-// What came of one case: a picture, or one sentence that says why there is none.
-struct Drawn {
-    std::optional<capture::Capture> picture;
-    std::string why_not;
-};
-using Draw = std::function<std::vector<Drawn>(std::vector<cases::Case>)>;
+using capture::Draw;
+using capture::Drawn;
 
 // What a device says of itself that the experiments have to know.
 struct Promises {

@@ -117,16 +117,15 @@ ref::Limits limits_of(const capture::DeviceInfo& device) {
 }
 
 std::vector<RenderedCase> render_with_derived(
-    Backend& backend, const std::vector<cases::Case>& batch,
-    const std::function<void(std::string_view)>& step, const capture::PlaneStore& store,
-    const std::function<void(size_t, Rendered&)>& damage) {
+    capture::Renderer& renderer, const std::vector<cases::Case>& batch, const capture::Step& step,
+    const capture::PlaneStore& store, const std::function<void(size_t, Rendered&)>& damage) {
     std::vector<std::vector<cases::Derivation>> derivations;
     Round beside;
     Round later;
     for (const cases::Case& c : batch) {
         // What a derivation changes follows from the case as it is drawn, as for who judges it.
         derivations.push_back(
-            cases::derivations(ref::as_drawn(c, limits_of(backend.device())).value_or(c)));
+            cases::derivations(ref::as_drawn(c, limits_of(renderer.device())).value_or(c)));
     }
     // Doors come last: not many of them are in one submission, and others are to be in that of the
     // cases themselves.
@@ -146,14 +145,14 @@ std::vector<RenderedCase> render_with_derived(
     std::vector<RenderedCase> results(batch.size());
     std::vector<Rendered> drawn;
     if (beside.cases.empty()) {
-        drawn = backend.render(batch, step, store);
+        drawn = renderer.render(batch, capture::kEveryPlane, step, store);
     } else {
         std::vector<cases::Case> all = batch;
         std::move(beside.cases.begin(), beside.cases.end(), std::back_inserter(all));
         const auto store_own = [&](size_t slot, uint64_t bytes) {
             return store && slot < batch.size() ? store(slot, bytes) : std::span<std::byte>();
         };
-        drawn = backend.render(all, step, store_own);
+        drawn = renderer.render(all, capture::kEveryPlane, step, store_own);
     }
     for (size_t k = 0; k < batch.size(); ++k) {
         results[k].rendered = std::move(drawn[k]);
@@ -187,7 +186,7 @@ std::vector<RenderedCase> render_with_derived(
         diff::Consistency& found = result.consistency[origin.derivation];
         found = diff::compare_bits(batch[origin.of], view_of(own), view_of(derived), derivation);
         if (is_door && found.different > 0) {
-            judge_door(batch[origin.of], own, derived, backend.device(),
+            judge_door(batch[origin.of], own, derived, renderer.device(),
                        cases::row_of(derivation.variation.door).promise, found);
         }
     };
@@ -196,7 +195,7 @@ std::vector<RenderedCase> render_with_derived(
     }
     drawn.clear();
     if (!later.cases.empty()) {
-        std::vector<Rendered> again = backend.render(later.cases, step, {});
+        std::vector<Rendered> again = renderer.render(later.cases, capture::kEveryPlane, step, {});
         for (size_t k = 0; k < later.origins.size(); ++k) {
             compare(later.origins[k], again[k]);
         }

@@ -8,9 +8,9 @@
 #include <functional>
 #include <vector>
 
+#include "capture/renderer.hpp"
 #include "diff/consistency.hpp"
 #include "ref/position/limits.hpp"
-#include "run/worker/backend.hpp"
 
 namespace run {
 
@@ -25,8 +25,8 @@ struct RenderedCase {
 // has that one's status and reason. `store` places the cases' own planes. `damage`, if any, may
 // change a derived capture of the case with that number before it is compared.
 std::vector<RenderedCase> render_with_derived(
-    Backend& backend, const std::vector<cases::Case>& batch,
-    const std::function<void(std::string_view)>& step, const capture::PlaneStore& store,
+    capture::Renderer& renderer, const std::vector<cases::Case>& batch, const capture::Step& step,
+    const capture::PlaneStore& store,
     const std::function<void(size_t, capture::Rendered&)>& damage = {});
 
 // What the reference has to know of a device.

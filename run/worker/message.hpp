@@ -36,12 +36,12 @@ std::optional<T> decode(std::string_view bytes) {
 
 // How a worker is to render.
 struct WorkerOptions {
-    capture::RendererOptions renderer;
+    capture::RendererOptions device;
     // Batches are not drawn: each case is answered with what the device lacks for it (unsupported,
     // and why), or as an error without a reason where it lacks nothing.
     bool only_asks = false;
     static void fields(auto&& visit, auto&... o) {
-        visit("renderer", o.renderer...);
+        visit("device", o.device...);
         visit("only_asks", o.only_asks...);
     }
 };

@@ -22,7 +22,6 @@
 #include "report/record/run.hpp"
 #include "run/process/frame.hpp"
 #include "run/process/shared_memory.hpp"
-#include "run/worker/backend.hpp"
 #include "run/worker/derived.hpp"
 #include "run/worker/fault.hpp"
 #include "run/worker/message.hpp"
@@ -151,8 +150,8 @@ std::string frame_of(uint32_t k, RenderedCase drawn, const SharedWriter& shared)
     return encode_frame(FrameType::result, encode_result(result));
 }
 
-void render_batch(Backend& backend, const RenderRequest& request, const std::vector<Fault>& faults,
-                  SharedWriter& shared) {
+void render_batch(capture::Renderer& renderer, const RenderRequest& request,
+                  const std::vector<Fault>& faults, SharedWriter& shared) {
     const auto step = [](std::string_view name) { send(FrameType::step, name); };
     for (const cases::Case& c : request.cases) {
         if (has_fault(faults, FaultKind::noise, c.id)) {
@@ -170,7 +169,7 @@ void render_batch(Backend& backend, const RenderRequest& request, const std::vec
     std::vector<RenderedCase> results;
     try {
         results = render_with_derived(
-            backend, request.cases, step,
+            renderer, request.cases, step,
             [&shared](size_t, uint64_t bytes) { return shared.place(bytes); },
             [&](size_t k, Rendered& derived) {
                 if (has_fault(faults, FaultKind::flip_derived, request.cases[k].id)) {
@@ -229,8 +228,8 @@ void render_batch(Backend& backend, const RenderRequest& request, const std::vec
 // What the device lacks for a case, whose relations name doors only if it is of doors alone
 // (ask_what_is_lacking): it shows nothing on a device that has none of them (lacking_doors in
 // run/judge.cpp says so of a drawn one).
-std::string lacking_of(const Backend& backend, const cases::Case& c) {
-    std::string reason = backend.lacking(c);
+std::string lacking_of(const capture::Renderer& renderer, const cases::Case& c) {
+    std::string reason = renderer.lacking(c);
     if (!reason.empty()) {
         return reason;
     }
@@ -239,7 +238,7 @@ std::string lacking_of(const Backend& backend, const cases::Case& c) {
                             std::any_of(c.relations.begin(), c.relations.end(),
                                         [&](const auto& r) { return r.door == d.variation.door; });
         if (is_own) {
-            const std::string closed = backend.lacking(cases::derive(c, d));
+            const std::string closed = renderer.lacking(cases::derive(c, d));
             if (closed.empty()) {
                 return {};
             }
@@ -249,11 +248,11 @@ std::string lacking_of(const Backend& backend, const cases::Case& c) {
     return reason;
 }
 
-void answer_what_is_lacking(const Backend& backend, const RenderRequest& request) {
+void answer_what_is_lacking(const capture::Renderer& renderer, const RenderRequest& request) {
     for (size_t k = 0; k < request.cases.size(); ++k) {
         CaseResult result;
         result.index = static_cast<uint32_t>(k);
-        result.rendered.reason = lacking_of(backend, request.cases[k]);
+        result.rendered.reason = lacking_of(renderer, request.cases[k]);
         if (!result.rendered.reason.empty()) {
             result.rendered.status = Rendered::Status::unsupported;
         }
@@ -262,19 +261,29 @@ void answer_what_is_lacking(const Backend& backend, const RenderRequest& request
     send(FrameType::batch_done, {});
 }
 
-void answer_list_devices(const WorkerOptions& options) {
-    const capture::Result<std::vector<capture::DeviceInfo>> devices =
-        vk_harness::list_devices(options.renderer);
-    if (devices) {
-        send(FrameType::devices, encode(*devices));
-    } else {
-        send(FrameType::no_device, encode(devices.error()));
+tl::unexpected<capture::Failure> no_device(const std::string& why) {
+    return tl::unexpected(capture::Failure{capture::Stage::device, why, {}, {}, false});
+}
+
+capture::Result<std::vector<capture::DeviceInfo>> list_devices(
+    capture::RendererKinds renderers, const capture::RendererOptions& options) {
+    const capture::RendererKind* const kind = capture::find_renderer(renderers, options.renderer);
+    if (kind == nullptr || kind->list == nullptr) {
+        return no_device("the renderer '" + options.renderer + "' has no list of devices");
     }
+    return kind->list(options);
+}
+
+capture::Result<std::unique_ptr<capture::Renderer>> make_renderer(
+    capture::RendererKinds renderers, const capture::RendererOptions& options) {
+    const capture::RendererKind* const kind = capture::find_renderer(renderers, options.renderer);
+    return kind == nullptr ? no_device("there is no renderer '" + options.renderer + "'")
+                           : kind->make(options);
 }
 
 }  // namespace
 
-int run_worker() {
+int run_worker(capture::RendererKinds renderers) {
     FrameReader reader;
     if (::isatty(kRequestFd) == 1 || ::fcntl(kRequestFd, F_GETFD) < 0 ||
         ::fcntl(kResultFd, F_GETFD) < 0) {
@@ -302,7 +311,7 @@ int run_worker() {
         // stays taken.
         ::dup2(null.get(), kSharedFd);
     }
-    std::unique_ptr<Backend> backend;
+    std::unique_ptr<capture::Renderer> renderer;
     while (std::optional<Frame> frame = receive(reader)) {
         if (frame->type == FrameType::configure) {
             const std::optional<WorkerOptions> decoded = decode<WorkerOptions>(frame->payload);
@@ -311,28 +320,29 @@ int run_worker() {
             }
             options = *decoded;
         } else if (frame->type == FrameType::list_devices) {
-            answer_list_devices(options);
+            const auto devices = list_devices(renderers, options.device);
+            send(devices ? FrameType::devices : FrameType::no_device,
+                 devices ? encode(*devices) : encode(devices.error()));
         } else if (frame->type == FrameType::hello) {
-            capture::Result<std::unique_ptr<Backend>> made = make_backend(options);
+            auto made = make_renderer(renderers, options.device);
             if (has_fault(*faults, FaultKind::no_device, "")) {
-                made = tl::unexpected(capture::Failure{
-                    capture::Stage::device, "no device, on purpose (EDGECASE_FAULT)", {}, {}});
+                made = no_device("no device, on purpose (EDGECASE_FAULT)");
             }
             if (!made) {
                 send(FrameType::no_device, encode(made.error()));
                 continue;
             }
-            backend = std::move(*made);
-            send(FrameType::hello, encode(backend->device()));
-        } else if (frame->type == FrameType::render && backend != nullptr) {
+            renderer = std::move(*made);
+            send(FrameType::hello, encode(renderer->device()));
+        } else if (frame->type == FrameType::render && renderer != nullptr) {
             const std::optional<RenderRequest> request = decode_request(frame->payload);
             if (!request) {
                 return report::kExitInternal;
             }
             if (options.only_asks) {
-                answer_what_is_lacking(*backend, *request);
+                answer_what_is_lacking(*renderer, *request);
             } else {
-                render_batch(*backend, *request, *faults, shared);
+                render_batch(*renderer, *request, *faults, shared);
             }
         } else {
             return report::kExitInternal;

@@ -5,8 +5,10 @@
 // kRequestFd and answers on kResultFd until the parent closes the request pipe.
 #pragma once
 
+#include "capture/renderer.hpp"
+
 namespace run {
 
-int run_worker();
+int run_worker(capture::RendererKinds renderers);
 
 }  // namespace run

@@ -7,7 +7,7 @@ Each row of that table names a folder, the file to read first, and the folders t
 for all inside it). Checked: every folder with sources has one row; includes follow the rows; the arrows run one way;
 the file to read first exists; libraries stay where they belong; a source is compiled into one library; nothing lists
 the planes of a capture or the fields of a structure a second time; a source has its header, the functions of a class
-have one file, and a command has a file with its name.
+have one file, and a command has a file with its name; identifiers of Vulkan stand in the rooms that draw by it alone.
 
 usage: check_rooms.py SOURCE_DIR [COMPILE_COMMANDS] | --self-test
 """
@@ -281,12 +281,40 @@ def homeless(root, table):
                         yield f"{name}:{number}: error: this {what}, which is done in {', '.join(sorted(homes))} alone"
 
 
+# Vulkan's words are the harness's, the shaders' and the reproducer's C program's: in code, or as a whole literal (the
+# name of a variable, of a file). Sentences quote them; rules and statements name them as anchors of the specification.
+API_ROOMS = ("vk_harness/", "shaders/", "cli/reproducer/")
+API_ANCHORS = ("cases/model/rule.cpp", "cases/statement/")
+API_WORD = re.compile(r"\b(?:vk[A-Z]|Vk[A-Z]|VK_[A-Z]|PFN_|volk|[Ss]pirv|SPIRV|Spv[A-Z])\w*")
+CODE = re.compile(r'"((?:[^"\\\n]|\\.)*)"|//[^\n]*|/\*.*?\*/', re.S)
+
+
+def api_words(root, table):
+    """Identifiers of the API in rooms that know none."""
+    for room in sorted(table.rooms):
+        for path in sources(root, room):
+            name = str(path.relative_to(root))
+            if name.startswith(API_ROOMS):
+                continue
+
+            def without_sentences(match):
+                literal = match.group(1) or ""
+                is_word = API_WORD.fullmatch(literal) and not name.startswith(API_ANCHORS)
+                return literal if is_word else "\n" * match.group(0).count("\n")
+
+            code = CODE.sub(without_sentences, path.read_text(errors="replace"))
+            for number, line in enumerate(code.splitlines(), 1):
+                for word in API_WORD.findall(line):
+                    yield f"{name}:{number}: error: {word} is an identifier of the API, which {room}/ does not know"
+
+
 def problems(root: pathlib.Path, commands=None):
     table = Table(root)
     yield from folder_problems(root, table)
     yield from include_problems(root, table)
     yield from second_lists(root, table)
     yield from homeless(root, table)
+    yield from api_words(root, table)
     yield from home_problems(root, table)
     yield from command_problems(root)
     if commands:
@@ -322,6 +350,17 @@ PLANTED = {
     "an arrow back inside ref/": (
         lambda root: plant(root, "ref/number/rational.hpp", '#include "ref/value/reference.hpp"\n'),
         ["ref/number/ must not include ref/value/reference.hpp", "folders include each other"],
+    ),
+    "identifiers of the API in rooms that are neutral": (
+        lambda root: plant(root, "run/judge.cpp", "// vkCmdDraw as a word of a sentence\nint f(VkFormat format);\n"
+                                                  'const char* const kVariable = "VK_DRIVER_FILES";\n'
+                                                  'const char* const kSentence = "as vkCmdDraw draws it";\n'),
+        ["VkFormat is an identifier of the API, which run/ does not know",
+         "VK_DRIVER_FILES is an identifier of the API, which run/ does not know"],
+    ),
+    "the harness outside the table of renderers": (
+        lambda root: plant(root, "cli/probe.cpp", '#include "vk_harness/public/harness.hpp"\n'),
+        ["cli/ must not include vk_harness/public/harness.hpp"],
     ),
     "Vulkan outside vk_harness/": (
         lambda root: plant(root, "diff/verdict.hpp", "#include <vulkan/vulkan.h>\n"),

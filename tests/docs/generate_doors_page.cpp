@@ -15,6 +15,7 @@
 #include "cases/load/loader.hpp"
 #include "cases/model/door.hpp"
 #include "tests/docs/wrapped.hpp"
+#include "vk_harness/public/harness.hpp"
 
 namespace {
 
@@ -43,8 +44,9 @@ void print_doors() {
         "| door | group | what it does | needs | takes | rule | held to |\n"
         "| --- | --- | --- | --- | --- | --- | --- |\n");
     for (const cases::DoorRow& row : cases::all_doors()) {
+        const std::string_view needs = vk_harness::needs_of(row.door);
         fmt::print("| `{}` | {} | {} | {} | {} | `{}` | {} |\n", row.word, to_string(row.group),
-                   row.does, row.needs.empty() ? "-" : row.needs, row.takes, row.rule,
+                   row.does, needs.empty() ? "-" : needs, row.takes, row.rule,
                    held_to(row.promise));
     }
 }

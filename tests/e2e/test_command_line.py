@@ -145,7 +145,7 @@ class Usage(ProgramTest):
             self.assertIn(sentence, done.stderr)
             self.assertNotIn("mesa-vulkan-drivers", done.stderr)
         done = self.edgecase("doctor", "--icd", "junk.json", check=5)
-        self.assertIn("problem: the driver library ./junk.so does not load: ", done.stdout)
+        self.assertIn("problem: the driver library './junk.so' does not load: ", done.stdout)
         self.assertNotIn("mesa-vulkan-drivers", done.stdout)
 
     def test_faults(self):

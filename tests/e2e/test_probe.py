@@ -42,7 +42,7 @@ class Probe(ProgramTest):
         (self.folder / "no.json").write_text('{"schema": "edgecase-results-1"}')
         (self.folder / "half.json").write_text('{"schema": "edgecase-probe-1", "device": {}}')
         for words, code, sentence in (
-                (["--renderer", "softwear"], 2, "'softwear' is no renderer"),
+                (["--renderer", "softwear"], 2, "'softwear' is none of "),
                 (["--renderer", "software:tie=left"], 2, "the software rasterizer has no choice 'tie'"),
                 (["--renderer", "software:ties=left"], 2, "'left' is no value of 'ties'"),
                 (["--compare", "a.json"], 2, "--compare"),

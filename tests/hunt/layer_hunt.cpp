@@ -34,7 +34,7 @@
 #include "hunt/sequence.hpp"
 #include "run/judge.hpp"
 #include "run/worker/derived.hpp"
-#include "run/worker/message.hpp"
+#include "vk_harness/public/harness.hpp"
 
 namespace hunt {
 
@@ -80,14 +80,14 @@ void draw(std::span<const Numbered> chunk, const std::string& fault, const fs::p
     ::alarm(kLongestSeconds);
     ::setenv("EDGECASE_BREAK", fault.c_str(), 1);
     ::setenv("EDGECASE_BREAK_COUNT", count.empty() ? "/dev/null" : count.c_str(), 1);
-    run::WorkerOptions options;
-    options.renderer.device = "llvmpipe";
-    auto backend = run::make_backend(options);
-    if (!backend) {
-        give_up(backend.error().message);
+    capture::RendererOptions options;
+    options.device = "llvmpipe";
+    auto renderer = vk_harness::make_renderer(options);
+    if (!renderer) {
+        give_up(renderer.error().message);
     }
     run::LoopConfig config;
-    cli::set_limits(config, (*backend)->device());
+    cli::set_limits(config, (*renderer)->device());
     const auto pose_of = [](const Numbered& one) { return one.number / fuzz::kGeometries; };
     for (size_t begin = 0; begin < chunk.size();) {
         const bool is_first = begin == 0 || pose_of(chunk[begin]) != pose_of(chunk[begin - 1]);
@@ -100,7 +100,7 @@ void draw(std::span<const Numbered> chunk, const std::string& fault, const fs::p
             batch.push_back(chunk[end++].data);
         }
         std::vector<run::RenderedCase> drawn =
-            run::render_with_derived(**backend, batch, [](std::string_view) {}, {});
+            run::render_with_derived(**renderer, batch, [](std::string_view) {}, {});
         for (size_t k = 0; k < drawn.size(); ++k) {
             if (!see(chunk[begin + k], drawn[k], config.limits)) {
                 return;

@@ -95,29 +95,61 @@ std::optional<std::string> missing_mesh_layers(const DoorSupport& support, const
     return std::nullopt;
 }
 
-std::optional<std::string> missing_door_support(const DoorSupport& support, cases::Door door) {
-    using cases::Door;
-    const bool is_missing =
-        ((door == Door::index_8 || door == Door::index_8_largest) && !support.index_8) ||
-        (door == Door::indirect_count && !support.indirect_count) ||
-        (door == Door::multi_indirect && !support.multi_indirect) ||
-        (door == Door::indirect_after_count &&
-         !(support.indirect_count && support.multi_indirect)) ||
-        (door == Door::state_output && !support.dynamic_outputs) ||
-        (door == Door::pipeline_library && !support.library) ||
-        (door == Door::multiview && !support.multiview) ||
-        (door == Door::geometry && !support.geometry) ||
-        (door == Door::tessellation && !support.tessellation) ||
-        (door == Door::transform_feedback && !support.feedback) ||
-        (door == Door::shader_objects && !support.shader_objects) ||
-        (door == Door::image_linear && !support.linear) ||
-        (door == Door::instance_divisor && !support.divisor) ||
-        (door == Door::instance_divisor_zero && !support.divisor_zero) ||
-        (door == Door::mesh_shader && !support.mesh) ||
-        (door == Door::input_attachment && !support.fragment_stores) ||
-        (door == Door::memory_imported && !support.host_import) ||
-        ((door == Door::multi_draw || door == Door::multi_draw_empty) && !support.multi_draw);
-    return is_missing ? std::optional(fmt::format("the device lacks {}", cases::row_of(door).needs))
+namespace {
+
+using cases::Door;
+
+struct Need {
+    Door door;
+    bool DoorSupport::*support;
+    std::string_view words;  // all that the door needs
+};
+constexpr Need kNeeds[] = {
+    {Door::index_8, &DoorSupport::index_8, "indexTypeUint8 (VK_EXT_index_type_uint8)"},
+    {Door::index_8_largest, &DoorSupport::index_8, "indexTypeUint8 (VK_EXT_index_type_uint8)"},
+    {Door::memory_imported, &DoorSupport::host_import,
+     "the import of memory of the host for vertices and indices (VK_EXT_external_memory_host)"},
+    {Door::instance_divisor, &DoorSupport::divisor,
+     "vertexAttributeInstanceRateDivisor (VK_EXT_vertex_attribute_divisor)"},
+    {Door::instance_divisor_zero, &DoorSupport::divisor_zero,
+     "vertexAttributeInstanceRateDivisor and vertexAttributeInstanceRateZeroDivisor "
+     "(VK_EXT_vertex_attribute_divisor)"},
+    {Door::indirect_count, &DoorSupport::indirect_count, "drawIndirectCount"},
+    {Door::multi_indirect, &DoorSupport::multi_indirect, "multiDrawIndirect"},
+    {Door::indirect_after_count, &DoorSupport::indirect_count,
+     "drawIndirectCount and multiDrawIndirect"},
+    {Door::indirect_after_count, &DoorSupport::multi_indirect,
+     "drawIndirectCount and multiDrawIndirect"},
+    {Door::multi_draw, &DoorSupport::multi_draw, "multiDraw (VK_EXT_multi_draw)"},
+    {Door::multi_draw_empty, &DoorSupport::multi_draw, "multiDraw (VK_EXT_multi_draw)"},
+    {Door::state_output, &DoorSupport::dynamic_outputs,
+     "the states of blending, logical operations, sample masks and alpha to coverage and to one of "
+     "VK_EXT_extended_dynamic_state3, and extendedDynamicState2LogicOp"},
+    {Door::pipeline_library, &DoorSupport::library,
+     "graphicsPipelineLibrary (VK_EXT_graphics_pipeline_library)"},
+    {Door::shader_objects, &DoorSupport::shader_objects, "shaderObject (VK_EXT_shader_object)"},
+    {Door::input_attachment, &DoorSupport::fragment_stores, "fragmentStoresAndAtomics"},
+    {Door::image_linear, &DoorSupport::linear,
+     "images of linear tiling for any of its attachments"},
+    {Door::multiview, &DoorSupport::multiview, "multiview"},
+    {Door::geometry, &DoorSupport::geometry, "geometryShader"},
+    {Door::tessellation, &DoorSupport::tessellation, "tessellationShader"},
+    {Door::transform_feedback, &DoorSupport::feedback,
+     "transformFeedback (VK_EXT_transform_feedback)"},
+    {Door::mesh_shader, &DoorSupport::mesh, "meshShader (VK_EXT_mesh_shader)"},
+};
+
+}  // namespace
+
+std::string_view needs_of(Door door) {
+    const auto* const need = std::ranges::find(kNeeds, door, &Need::door);
+    return need == std::end(kNeeds) ? std::string_view() : need->words;
+}
+
+std::optional<std::string> missing_door_support(const DoorSupport& support, Door door) {
+    const bool is_missing = std::ranges::any_of(
+        kNeeds, [&](const Need& need) { return need.door == door && !(support.*need.support); });
+    return is_missing ? std::optional(fmt::format("the device lacks {}", needs_of(door)))
                       : std::nullopt;
 }
 

@@ -83,10 +83,10 @@ bool has_device_extension(VkPhysicalDevice physical, const char* name) {
 }
 
 void load_vulkan(const Options& options) {
-    if (!options.icd_file.empty()) {
+    if (!options.icd.empty()) {
         // The first name is read by loaders since 1.3.207, the second by older ones.
-        setenv("VK_DRIVER_FILES", options.icd_file.c_str(), 1);
-        setenv("VK_ICD_FILENAMES", options.icd_file.c_str(), 1);
+        setenv("VK_DRIVER_FILES", options.icd.c_str(), 1);
+        setenv("VK_ICD_FILENAMES", options.icd.c_str(), 1);
     }
     const VkResult result = volkInitialize();
     if (result != VK_SUCCESS) {

@@ -6,13 +6,12 @@
 // Vulkan loader (through volk, at run time).
 #pragma once
 
-#include <functional>
 #include <memory>
-#include <span>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "capture/renderer.hpp"
+#include "cases/model/door.hpp"
 
 namespace vk_harness {
 
@@ -22,40 +21,18 @@ using capture::PlaneStore;
 using capture::Rendered;
 using capture::Result;
 using capture::Stage;
+using capture::Step;
 using capture::WrongLimit;
 using Options = capture::RendererOptions;
 
 // All devices of the machine; for doctor and for error texts.
 Result<std::vector<DeviceInfo>> list_devices(const Options& options);
 
-class Renderer {
-  public:
-    static Result<Renderer> create(const Options& options);
-    ~Renderer();
-    Renderer(Renderer&&) noexcept;
+// The renderer of the device that the options choose. Loads the driver.
+Result<std::unique_ptr<capture::Renderer>> make_renderer(const Options& options);
 
-    const DeviceInfo& device() const;
-
-    // Why a case must not be drawn on the device, one sentence; empty if it may be.
-    std::string lacking(const cases::Case& c) const;
-
-    // Draws the cases in one submission and reads each back. Results in the order of the cases.
-    // `step` is called with the name of each stage before it starts: "pipeline", "record",
-    // "submit", "readback"; again for each part if the batch needs more memory than one submission
-    // may take. `store`, if any, says where the planes go.
-    std::vector<Rendered> render(std::span<const cases::Case> batch,
-                                 const std::function<void(std::string_view)>& step,
-                                 const PlaneStore& store = {});
-
-    // As render, without read-back and without capture memory traffic: the bare cost of drawing,
-    // for benchmarks. Returns how many cases were drawn (those that the device does not support are
-    // left out), or why one that it supports could not be drawn.
-    Result<size_t> render_bare(std::span<const cases::Case> batch);
-
-  private:
-    struct Impl;
-    explicit Renderer(std::unique_ptr<Impl> impl);
-    std::unique_ptr<Impl> impl_;
-};
+// What a door needs of a device beyond what every case needs, as features and extensions; empty:
+// nothing.
+std::string_view needs_of(cases::Door door);
 
 }  // namespace vk_harness

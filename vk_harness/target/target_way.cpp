@@ -134,7 +134,7 @@ std::optional<std::string> missing_images(const Capabilities& capabilities, cons
         return "the device has no images for attachments like these that may be input attachments";
     }
     if (way.is_linear && !has_linear_attachment(capabilities, c)) {
-        return fmt::format("the device lacks {}", cases::row_of(c.variation.door).needs);
+        return fmt::format("the device lacks {}", needs_of(c.variation.door));
     }
     return std::nullopt;
 }

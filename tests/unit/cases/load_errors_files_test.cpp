@@ -163,7 +163,7 @@ vertices = [[0,0],[8,0],[0,8]]
     {top(R"~(catchs = "x")~"),
      R"~(f:4:1: error: a case file has no key "catchs"; did you mean "catches"?)~"},
     {top(R"~(zzz = 1)~"),
-     R"~(f:4:1: error: a case file has no key "zzz"; its keys are format, description, catches, rules, links, leaves, matrix, fuzz, target, draw, blit, expect, relations)~"},
+     R"~(f:4:1: error: a case file has no key "zzz"; its keys are format, description, catches, rules, links, leaves, relations, matrix, fuzz, target, blit, draw, expect)~"},
     {whole(R"~(format = 1
 description = "d"
 rules = ["cover.inside"]

@@ -57,7 +57,7 @@ format = "r32-float"
 
 [[draw]]
 cull = "none"
-depth = { write = false, compare = "less" }
+depth = { compare = "less", write = false }
 vertices = [
     [0, 0],
     [8, 0.5],

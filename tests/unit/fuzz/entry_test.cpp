@@ -11,6 +11,7 @@
 
 #include "cases/load/loader.hpp"
 #include "diff/color.hpp"
+#include "fuzz/ledger.hpp"
 #include "ref/expectation/expectation.hpp"
 
 namespace fuzz {
@@ -49,6 +50,14 @@ std::vector<CaseRecord> draw_sample_depth(const std::vector<cases::Case>& all) {
     return records;
 }
 
+// As a session on a device whose records those are.
+template <class Records>
+run::DrawAndJudge judged_by(const Records& records_of) {
+    return [records_of](const std::vector<cases::Case>& all, const auto&) {
+        return run::Session::Results{records_of(all), false, ""};
+    };
+}
+
 const char* const kClamped =
     "format = 1\ndescription = \"D\"\nrules = [\"cover.inside\"]\n[target]\nsize = [4, 4]\nsamples "
     "= "
@@ -57,7 +66,7 @@ const char* const kClamped =
 
 TEST(ReduceCase, EssentialIsWhatAnyLikeFailureNeeds) {
     const Symptom symptom = *parse_symptom("value of depth.clamp [vulkan]");
-    const auto entry = reduce_case(kClamped, symptom, draw_sample_depth, 400);
+    const auto entry = reduce_case(kClamped, symptom, judged_by(draw_sample_depth), 400);
     ASSERT_TRUE(entry);
     // The case that is kept shows the symptom as it was met.
     EXPECT_THAT(entry->text, testing::HasSubstr("clamp = true"));
@@ -67,7 +76,7 @@ TEST(ReduceCase, EssentialIsWhatAnyLikeFailureNeeds) {
 
 // The device may be out of reach when somebody reads the case.
 TEST(ReduceCase, TellsWhatTheDeviceLeft) {
-    const Draw draw = [](const std::vector<cases::Case>& all) {
+    const auto draw = [](const std::vector<cases::Case>& all) {
         std::vector<CaseRecord> records = draw_sample_depth(all);
         for (CaseRecord& record : records) {
             for (const auto& group : record.outcome.groups) {
@@ -79,7 +88,7 @@ TEST(ReduceCase, TellsWhatTheDeviceLeft) {
         return records;
     };
     const Symptom symptom = *parse_symptom("value of depth.clamp [vulkan]");
-    const auto entry = reduce_case(kClamped, symptom, draw, 400);
+    const auto entry = reduce_case(kClamped, symptom, judged_by(draw), 400);
     ASSERT_TRUE(entry);
     EXPECT_EQ(entry->seen,
               "pixel (3, 1), sample 2: depth: expected 0.5, got 0.75; it is another sample's");
@@ -94,7 +103,7 @@ TEST(ReduceCase, TellsWhatItsOwnCaseShows) {
     const auto size_of = [](const cases::Case& c) {
         return std::to_string(c.target.width * c.target.height);
     };
-    const Draw draw = [&](const std::vector<cases::Case>& all) {
+    const auto draw = [&](const std::vector<cases::Case>& all) {
         std::vector<CaseRecord> records = draw_sample_depth(all);
         for (size_t k = 0; k < all.size(); ++k) {
             for (const auto& group : records[k].outcome.groups) {
@@ -105,8 +114,8 @@ TEST(ReduceCase, TellsWhatItsOwnCaseShows) {
         }
         return records;
     };
-    const auto entry =
-        reduce_case(kClamped, *parse_symptom("value of depth.clamp [vulkan]"), draw, 400);
+    const auto entry = reduce_case(kClamped, *parse_symptom("value of depth.clamp [vulkan]"),
+                                   judged_by(draw), 400);
     ASSERT_TRUE(entry);
     const auto loaded = cases::load_text(entry->text, "reduced.toml", "reduced");
     ASSERT_TRUE(loaded) << entry->text;
@@ -121,7 +130,7 @@ TEST(ReduceCase, StaysAsSoundAsTheDrawnCase) {
         "format = 1\ndescription = \"D\"\nrules = [\"cover.inside\"]\n[target]\nsize = [1, 1]\n"
         "samples = 4\nattachments = \"color\"\n[target.color]\nformat = \"rgba8-unorm\"\n[[draw]]\n"
         "vertices = [[6.25, 9.75], [-2, -3.25], [7, 10]]\ncolor = { value = [1, 1, 1, 1] }\n";
-    const Draw fails = [](const std::vector<cases::Case>& all) {
+    const auto fails = [](const std::vector<cases::Case>& all) {
         std::vector<CaseRecord> records(all.size());
         for (CaseRecord& record : records) {
             record.status = Status::fail;
@@ -134,7 +143,7 @@ TEST(ReduceCase, StaysAsSoundAsTheDrawnCase) {
     ASSERT_FALSE(diff::fails_if_empty(*drawn, Profile::vulkan));
     ASSERT_TRUE(diff::fails_if_empty(*drawn, Profile::direct3d));
     const auto entry =
-        reduce_case(text, *parse_symptom("value of store.unorm [direct3d]"), fails, 400);
+        reduce_case(text, *parse_symptom("value of store.unorm [direct3d]"), judged_by(fails), 400);
     ASSERT_TRUE(entry);
     EXPECT_TRUE(diff::fails_if_empty(*load_one(entry->text, "reduced"), Profile::direct3d))
         << entry->text;
@@ -148,7 +157,7 @@ TEST(ReduceCase, KeepsATriangleThatIsSeen) {
         "vertices = [[0, 0], [8, 0], [0, 8]]\ncolor = { value = [1, 1, 1, 1] }\n";
     // A device that is wrong wherever colours alone are attached, also where nothing is seen of
     // them.
-    const Draw fails = [](const std::vector<cases::Case>& all) {
+    const auto fails = [](const std::vector<cases::Case>& all) {
         std::vector<CaseRecord> records;
         for (const cases::Case& c : all) {
             CaseRecord& record = records.emplace_back();
@@ -161,7 +170,7 @@ TEST(ReduceCase, KeepsATriangleThatIsSeen) {
         return records;
     };
     const auto entry =
-        reduce_case(text, *parse_symptom("value of store.unorm [vulkan]"), fails, 400);
+        reduce_case(text, *parse_symptom("value of store.unorm [vulkan]"), judged_by(fails), 400);
     ASSERT_TRUE(entry);
     const auto loaded = cases::load_text(entry->text, "reduced.toml", "reduced");
     ASSERT_TRUE(loaded) << entry->text;
@@ -173,7 +182,7 @@ TEST(ReduceCase, KeepsATriangleThatIsSeen) {
 
 // The same, but a depth that is not clamped breaks Direct3D's rules only.
 TEST(ReduceCase, ALikeFailureIsNoLessGrave) {
-    const Draw draw = [](const std::vector<cases::Case>& all) {
+    const auto draw = [](const std::vector<cases::Case>& all) {
         std::vector<CaseRecord> records = draw_sample_depth(all);
         for (CaseRecord& record : records) {
             for (auto& group : record.outcome.groups) {
@@ -182,8 +191,8 @@ TEST(ReduceCase, ALikeFailureIsNoLessGrave) {
         }
         return records;
     };
-    const auto entry =
-        reduce_case(kClamped, *parse_symptom("value of depth.clamp [vulkan]"), draw, 400);
+    const auto entry = reduce_case(kClamped, *parse_symptom("value of depth.clamp [vulkan]"),
+                                   judged_by(draw), 400);
     ASSERT_TRUE(entry);
     EXPECT_THAT(entry->essentials,
                 testing::ElementsAre("draw.depth.clamp=true", "several samples", "sloping depth"));
@@ -191,7 +200,7 @@ TEST(ReduceCase, ALikeFailureIsNoLessGrave) {
 
 // Of a neighbour that the device does not support nobody knows whether it passes.
 TEST(ReduceCase, TellsWhatTheDeviceDoesNotDraw) {
-    const Draw draw = [](const std::vector<cases::Case>& all) {
+    const auto draw = [](const std::vector<cases::Case>& all) {
         std::vector<CaseRecord> records = draw_sample_depth(all);
         for (size_t k = 0; k < all.size(); ++k) {
             if (all[k].target.samples == 2) {
@@ -201,8 +210,8 @@ TEST(ReduceCase, TellsWhatTheDeviceDoesNotDraw) {
         }
         return records;
     };
-    const auto entry =
-        reduce_case(kClamped, *parse_symptom("value of depth.clamp [vulkan]"), draw, 400);
+    const auto entry = reduce_case(kClamped, *parse_symptom("value of depth.clamp [vulkan]"),
+                                   judged_by(draw), 400);
     ASSERT_TRUE(entry);
     EXPECT_THAT(entry->undrawn, testing::ElementsAre("with 2 samples"));
     EXPECT_THAT(entry->needs, testing::Not(testing::Contains("not with 2 samples")));

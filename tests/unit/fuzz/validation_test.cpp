@@ -27,7 +27,7 @@ TEST(Validation, NothingToSayAboutGeneratedCases) {
     const auto share = test_support::share_of(25, kPoses, "EDGECASE_FUZZ_SHARE");
     capture::RendererOptions options;
     options.validation = true;
-    auto renderer = vk_harness::Renderer::create(options);
+    auto renderer = vk_harness::make_renderer(options);
     ASSERT_TRUE(renderer) << renderer.error().message;
     Poses poses(kSeed);
     size_t drawn = 0, made = 0;
@@ -47,7 +47,7 @@ TEST(Validation, NothingToSayAboutGeneratedCases) {
             ASSERT_TRUE(c) << texts.back();
             batch.push_back(std::move(*c));
         }
-        const std::vector<Rendered> results = renderer->render(batch, [](std::string_view) {});
+        const std::vector<Rendered> results = (*renderer)->render(batch);
         ASSERT_EQ(results.size(), batch.size());
         for (size_t n = 0; n < results.size(); ++n) {
             EXPECT_TRUE(results[n].status == Rendered::Status::drawn ||

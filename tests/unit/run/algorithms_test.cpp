@@ -11,7 +11,7 @@
 #include "cases/load/loader.hpp"
 #include "diff/verdict.hpp"
 #include "folders.hpp"
-#include "run/worker/backend.hpp"
+#include "rasterizers/captures.hpp"
 
 namespace rasterizers {
 

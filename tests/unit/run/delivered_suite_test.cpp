@@ -11,8 +11,8 @@
 #include "cases/load/loader.hpp"
 #include "diff/delivered/delivered.hpp"
 #include "folders.hpp"
+#include "rasterizers/captures.hpp"
 #include "run/order.hpp"
-#include "run/worker/backend.hpp"
 
 namespace run {
 namespace {

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "cases/load/loader.hpp"
+#include "rasterizers/renderer/renderers.hpp"
 
 namespace run {
 namespace {
@@ -18,23 +19,23 @@ using capture::Rendered;
 using Alter = std::function<void(capture::Capture&)>;
 
 // A device that draws rightly, after which one picture is altered.
-class Altered : public Backend {
+class Altered : public capture::Renderer {
   public:
     Altered(Alter plain, Alter door) : plain_(std::move(plain)), door_(std::move(door)) {
-        WorkerOptions options;
-        options.renderer.name = "software";
-        inner_ = std::move(*make_backend(options));
+        capture::RendererOptions options;
+        options.renderer = "software";
+        inner_ = std::move(*rasterizers::software_renderer(options));
     }
     const capture::DeviceInfo& device() const override { return inner_->device(); }
     std::string lacking(const cases::Case&) const override { return ""; }
-    std::vector<Rendered> render(const std::vector<cases::Case>& batch,
-                                 const std::function<void(std::string_view)>& step,
+    std::vector<Rendered> render(std::span<const cases::Case> batch, capture::PlaneSet planes,
+                                 const capture::Step& step,
                                  const capture::PlaneStore& /*store*/) override {
-        std::vector<cases::Case> plain = batch;
+        std::vector<cases::Case> plain(batch.begin(), batch.end());
         for (cases::Case& c : plain) {
             c.variation = {};
         }
-        std::vector<Rendered> out = inner_->render(plain, step, {});
+        std::vector<Rendered> out = inner_->render(plain, planes, step, {});
         for (size_t k = 0; k < out.size(); ++k) {
             const Alter& alter = batch[k].variation.door == cases::Door::none ? plain_ : door_;
             if (alter) {
@@ -46,7 +47,7 @@ class Altered : public Backend {
 
   private:
     Alter plain_, door_;
-    std::unique_ptr<Backend> inner_;
+    std::unique_ptr<capture::Renderer> inner_;
 };
 
 constexpr size_t kSample = 8 + 1;  // pixel (1, 1) of 8 x 4, inside
@@ -78,12 +79,12 @@ diff::Consistency judged(const std::string& door, Alter plain, Alter through_doo
 }
 
 // Draws nothing, and remembers what it was asked for.
-class Asked : public Backend {
+class Asked : public capture::Renderer {
   public:
     const capture::DeviceInfo& device() const override { return device_; }
     std::string lacking(const cases::Case&) const override { return ""; }
-    std::vector<Rendered> render(const std::vector<cases::Case>& batch,
-                                 const std::function<void(std::string_view)>& /*step*/,
+    std::vector<Rendered> render(std::span<const cases::Case> batch, capture::PlaneSet /*planes*/,
+                                 const capture::Step& /*step*/,
                                  const capture::PlaneStore& /*store*/) override {
         for (const cases::Case& c : batch) {
             doors.push_back(c.variation.door != cases::Door::none);

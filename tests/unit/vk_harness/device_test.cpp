@@ -50,9 +50,9 @@ TEST(Devices, AreChosenByIndexNameAndUuid) {
     for (const std::string& wanted : {std::to_string(used.index), name, used.uuid, dashed}) {
         Options options;
         options.device = wanted;
-        const auto chosen = Renderer::create(options);
+        const auto chosen = make_renderer(options);
         ASSERT_TRUE(chosen) << wanted << ": " << chosen.error().message;
-        EXPECT_EQ(chosen->device().uuid, used.uuid) << wanted;
+        EXPECT_EQ((*chosen)->device().uuid, used.uuid) << wanted;
     }
 }
 
@@ -64,13 +64,13 @@ TEST(Devices, ARunIsPinnedToItsDeviceAndDriver) {
     EXPECT_EQ(used.key, used.uuid + ":" + std::to_string(used.driver_id));
     options.pinned = used.key;
     EXPECT_TRUE(is_pinned(options, used));
-    EXPECT_TRUE(Renderer::create(options));
+    EXPECT_TRUE(make_renderer(options));
     DeviceInfo other = used;
     other.key =
         used.uuid + ":" + std::to_string(used.driver_id + 1);  // another driver of the same device
     EXPECT_FALSE(is_pinned(options, other));
     options.pinned.front() = options.pinned.front() == '0' ? '1' : '0';
-    const auto chosen = Renderer::create(options);
+    const auto chosen = make_renderer(options);
     ASSERT_FALSE(chosen);
     EXPECT_THAT(chosen.error().message,
                 ::testing::HasSubstr("the device that the run began with (UUID " +
@@ -81,7 +81,7 @@ TEST(Devices, ARunIsPinnedToItsDeviceAndDriver) {
 TEST(Devices, EveryRejectionHasAReason) {
     Options options;
     options.device = "no such device";
-    const auto chosen = Renderer::create(options);
+    const auto chosen = make_renderer(options);
     ASSERT_FALSE(chosen);
     EXPECT_EQ(chosen.error().stage, Stage::device);
     EXPECT_EQ(
@@ -101,8 +101,8 @@ TEST(DevicesDeathTest, AMissingDriverFileIsSaid) {
     EXPECT_EXIT(
         {
             Options options;
-            options.icd_file = "/no/such/driver.json";
-            const auto made = Renderer::create(options);
+            options.icd = "/no/such/driver.json";
+            const auto made = make_renderer(options);
             if (!made) {
                 std::cerr << to_string(made.error().stage) << ": " << made.error().message << '\n';
             }
@@ -113,12 +113,12 @@ TEST(DevicesDeathTest, AMissingDriverFileIsSaid) {
 }
 
 TEST(Devices, SeveralRenderersAtATime) {
-    auto first = Renderer::create({});
-    auto second = Renderer::create({});
+    auto first = make_renderer({});
+    auto second = make_renderer({});
     ASSERT_TRUE(first && second);
     const std::vector<cases::Case> batch = {make_case({32, 32, 1}, half_square())};
-    for (Renderer* each : {&*first, &*second, &*first}) {
-        const auto results = each->render(batch, {});
+    for (capture::Renderer* each : {first->get(), second->get(), first->get()}) {
+        const auto results = each->render(batch);
         ASSERT_EQ(results[0].status, Rendered::Status::drawn);
         EXPECT_EQ(count(results[0].capture).back, 136U);
     }

@@ -51,9 +51,9 @@ TEST(DoorSupport, EveryNeedIsAskedFor) {
                           .host_import = true};
     for (const cases::DoorRow& row : cases::all_doors()) {
         const auto missing = missing_door_support(DoorSupport{}, row.door);
-        EXPECT_EQ(missing.has_value(), !row.needs.empty()) << row.word;
+        EXPECT_EQ(missing.has_value(), !needs_of(row.door).empty()) << row.word;
         if (missing) {
-            EXPECT_EQ(*missing, "the device lacks " + std::string(row.needs));
+            EXPECT_EQ(*missing, "the device lacks " + std::string(needs_of(row.door)));
         }
         EXPECT_FALSE(missing_door_support(all, row.door)) << row.word;
     }
@@ -121,10 +121,10 @@ TEST(Door, EachDrawsThePlainPicture) {
         cases::Case plain = batch[0];
         plain.variation.door = cases::Door::none;
         batch.push_back(plain);
-        const std::vector<Rendered> drawn = renderer().render(batch, {});
+        const std::vector<Rendered> drawn = renderer().render(batch);
         ASSERT_EQ(drawn[1].status, Rendered::Status::drawn) << drawn[1].reason;
         if (drawn[0].status == Rendered::Status::unsupported) {
-            EXPECT_FALSE(row.needs.empty()) << row.word << ": " << drawn[0].reason;
+            EXPECT_FALSE(needs_of(row.door).empty()) << row.word << ": " << drawn[0].reason;
             continue;
         }
         ASSERT_EQ(drawn[0].status, Rendered::Status::drawn) << row.word << ": " << drawn[0].reason;
@@ -139,11 +139,11 @@ TEST(Door, EachDrawsThePlainPicture) {
 // no state left that changes nothing.
 TEST(Door, UnusedStateIsToldWhereThereIsNone) {
     cases::Case c = two_triangles(cases::Door::state_unused);
-    EXPECT_EQ(renderer().render({{c}}, {})[0].status, Rendered::Status::drawn);
+    EXPECT_EQ(renderer().render({{c}})[0].status, Rendered::Status::drawn);
     c.target.has_stencil = true;
-    EXPECT_EQ(renderer().render({{c}}, {})[0].status, Rendered::Status::drawn);
+    EXPECT_EQ(renderer().render({{c}})[0].status, Rendered::Status::drawn);
     c.draws[0].depth.bias = cases::DepthBias{1, 0, 0};
-    const Rendered none = renderer().render({{c}}, {})[0];
+    const Rendered none = renderer().render({{c}})[0];
     EXPECT_EQ(none.status, Rendered::Status::unsupported);
     EXPECT_EQ(none.reason, "the case leaves no state that is on for nothing");
 }

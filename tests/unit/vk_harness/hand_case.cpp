@@ -8,9 +8,9 @@
 
 namespace vk_harness::testing {
 
-Renderer& renderer() {
-    static const std::unique_ptr<Renderer> shared = [] {
-        auto made = Renderer::create({});
+capture::Renderer& renderer() {
+    static const std::unique_ptr<capture::Renderer> shared = [] {
+        auto made = make_renderer({});
         if (!made) {
             std::cerr << "these tests need a Vulkan 1.3 device: " << made.error().message << '\n';
             for (const std::string& reason : made.error().reasons) {
@@ -18,14 +18,18 @@ Renderer& renderer() {
             }
             std::exit(EXIT_FAILURE);
         }
-        return std::make_unique<Renderer>(std::move(*made));
+        return std::move(*made);
     }();
     return *shared;
 }
 
+std::vector<Rendered> render_bare(capture::Renderer& renderer, std::span<const cases::Case> batch) {
+    return renderer.render(batch, capture::PlaneSet(), [](std::string_view) {}, {});
+}
+
 std::vector<capture::Capture> draw_all(const std::vector<cases::Case>& batch) {
     std::vector<capture::Capture> captures;
-    for (Rendered& rendered : renderer().render(batch, {})) {
+    for (Rendered& rendered : renderer().render(batch)) {
         EXPECT_EQ(rendered.status, Rendered::Status::drawn) << rendered.reason;
         captures.push_back(std::move(rendered.capture));
     }

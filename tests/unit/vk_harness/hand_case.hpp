@@ -52,7 +52,9 @@ inline std::vector<glm::vec2> half_square() {
 }
 
 // The device of the environment (VK_DRIVER_FILES); its absence fails the test.
-Renderer& renderer();
+capture::Renderer& renderer();
+// Draws without reading anything back.
+std::vector<Rendered> render_bare(capture::Renderer& renderer, std::span<const cases::Case> batch);
 capture::Capture draw(const cases::Case& c);
 std::vector<capture::Capture> draw_all(const std::vector<cases::Case>& batch);
 

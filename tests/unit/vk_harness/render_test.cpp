@@ -53,7 +53,7 @@ TEST(Render, ADrawGoesToItsLayer) {
             c.draws[0].layer = layer;
             c.draws[0].attributes = {attribute(cases::Interpolation::smooth,
                                                {glm::vec4(1), glm::vec4(1), glm::vec4(1)})};
-            const Rendered rendered = renderer().render({&c, 1}, {}).front();
+            const Rendered rendered = renderer().render({&c, 1}).front();
             ASSERT_EQ(rendered.status, Rendered::Status::drawn) << rendered.reason;
             const capture::Capture& capture = rendered.capture;
             const size_t count = size_t{64} * 32 * samples;
@@ -446,21 +446,25 @@ TEST(Render, LargestSidesOfTheDevice) {
 TEST(Render, StepsComeInOrder) {
     std::vector<std::string> steps;
     const std::vector<cases::Case> batch = {make_case(k64, half_square())};
-    renderer().render(batch, [&steps](std::string_view s) { steps.emplace_back(s); });
+    renderer().render(batch, capture::kEveryPlane,
+                      [&steps](std::string_view s) { steps.emplace_back(s); }, {});
     EXPECT_THAT(steps, ::testing::ElementsAre("pipeline", "record", "submit", "readback"));
 }
 
 TEST(Render, BareDrawsTheSameCases) {
     std::vector<cases::Case> batch = {make_case(k64, half_square())};
-    EXPECT_EQ(renderer().render_bare(batch).value_or(99), 1U);
-    // What the device does not support is left out; what is wrong is an error.
+    const Rendered bare = render_bare(renderer(), batch).front();
+    EXPECT_EQ(bare.status, Rendered::Status::drawn);
+    EXPECT_TRUE(bare.capture.hits.empty());
     batch.push_back(batch[0]);
     batch[0].target.width = 1U << 20;
-    EXPECT_EQ(renderer().render_bare(batch).value_or(99), 1U);
+    std::vector<Rendered> results = render_bare(renderer(), batch);
+    EXPECT_EQ(results[0].status, Rendered::Status::unsupported);
+    EXPECT_EQ(results[1].status, Rendered::Status::drawn);
     batch[1].draws[0].indices = {{0, 1, 3}};
-    const auto wrong = renderer().render_bare(batch);
-    ASSERT_FALSE(wrong);
-    EXPECT_EQ(wrong.error().message, "index 3 is beyond the 3 vertices of its draw");
+    results = render_bare(renderer(), batch);
+    EXPECT_EQ(results[1].status, Rendered::Status::error);
+    EXPECT_EQ(results[1].reason, "index 3 is beyond the 3 vertices of its draw");
 }
 
 TEST(Render, RejectedCasesStandBesideDrawnOnes) {
@@ -468,7 +472,7 @@ TEST(Render, RejectedCasesStandBesideDrawnOnes) {
                                       make_case(k64, half_square())};
     batch[0].target.width = 1U << 20;
     batch[1].draws[0].indices = {{0, 1, 3}};
-    const auto results = renderer().render(batch, {});
+    const auto results = renderer().render(batch);
     ASSERT_EQ(results.size(), 3U);
     EXPECT_EQ(results[0].status, Rendered::Status::unsupported);
     EXPECT_THAT(results[0].reason, ::testing::HasSubstr("1048576 x 64 pixels"));

@@ -73,7 +73,7 @@ std::vector<cases::Case> all_states() {
 }
 
 TEST(Validation, NothingToSayAboutAnyDoor) {
-    auto renderer = Renderer::create(with_validation());
+    auto renderer = make_renderer(with_validation());
     ASSERT_TRUE(renderer) << renderer.error().message;
     std::vector<cases::Case> batch;
     for (const cases::DoorRow& row : cases::all_doors()) {
@@ -88,33 +88,35 @@ TEST(Validation, NothingToSayAboutAnyDoor) {
         c.variation.door = row.door;
         batch.push_back(c);
     }
-    for (const Rendered& rendered : renderer->render(batch, {})) {
+    for (const Rendered& rendered : (*renderer)->render(batch)) {
         EXPECT_THAT(rendered.messages, ::testing::IsEmpty());
         EXPECT_NE(rendered.status, Rendered::Status::error) << rendered.reason;
     }
 }
 
 TEST(Validation, NothingToSayAboutAnyState) {
-    auto renderer = Renderer::create(with_validation());
+    auto renderer = make_renderer(with_validation());
     ASSERT_TRUE(renderer) << renderer.error().message;
     const std::vector<cases::Case> batch = all_states();
     // Twice: the second time with cached pipelines, attachments and buffers.
     for (int round = 0; round < 2; ++round) {
-        for (const Rendered& rendered : renderer->render(batch, {})) {
+        for (const Rendered& rendered : (*renderer)->render(batch)) {
             EXPECT_EQ(rendered.status, Rendered::Status::drawn) << rendered.reason;
             EXPECT_THAT(rendered.messages, ::testing::IsEmpty());
         }
-        EXPECT_EQ(renderer->render_bare(batch).value_or(0), batch.size());
+        for (const Rendered& rendered : render_bare(**renderer, batch)) {
+            EXPECT_EQ(rendered.status, Rendered::Status::drawn) << rendered.reason;
+        }
     }
     // Messages of render_bare would come with the next case.
     const std::vector<cases::Case> last = {make_case({8, 8, 1}, half_square())};
-    EXPECT_THAT(renderer->render(last, {}).front().messages, ::testing::IsEmpty());
+    EXPECT_THAT((*renderer)->render(last).front().messages, ::testing::IsEmpty());
 }
 
 // Every probe, auxiliary qualifier and built-in, with one sample and with four; cases that the
 // device does not support say so.
 TEST(Validation, NothingToSayAboutProbesAndSources) {
-    auto renderer = Renderer::create(with_validation());
+    auto renderer = make_renderer(with_validation());
     ASSERT_TRUE(renderer) << renderer.error().message;
     std::vector<cases::Case> batch;
     const auto add = [&](uint32_t samples, const cases::Attribute& attribute) {
@@ -144,7 +146,7 @@ TEST(Validation, NothingToSayAboutProbesAndSources) {
         }
     }
     size_t drawn = 0;
-    for (const Rendered& rendered : renderer->render(batch, {})) {
+    for (const Rendered& rendered : (*renderer)->render(batch)) {
         EXPECT_TRUE(rendered.status == Rendered::Status::drawn ||
                     rendered.status == Rendered::Status::unsupported)
             << rendered.reason;
