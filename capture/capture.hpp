@@ -190,6 +190,9 @@ struct CaptureView : Planes<detail::ConstSpan> {
     CaptureView(const Capture& c);  // not explicit: a capture is a view of itself
 };
 
+// With planes of its own.
+Capture copy_of(const CaptureView& view);
+
 inline bool resolves_color(const cases::Target& target) {
     return target.color_resolve != cases::Resolve::none;
 }

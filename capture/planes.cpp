@@ -12,10 +12,7 @@ namespace {
 
 template <class To, class From>
 void view(From& from, To& to) {
-    to.target = from.target;
-    to.has_primitive = from.has_primitive;
-    to.attribute_count = from.attribute_count;
-    to.counted = from.counted;
+    cases::copy_like_fields(from, to);
     for_each_plane([](const Plane&, auto& source, auto& span) { span = source; }, from, from, to);
 }
 
@@ -39,6 +36,15 @@ PlaneSpans::PlaneSpans(Capture& c) {
 
 CaptureView::CaptureView(const Capture& c) {
     view(c, *this);
+}
+
+Capture copy_of(const CaptureView& view) {
+    Capture copy;
+    cases::copy_like_fields(view, copy);
+    for_each_plane([](const Plane&, const auto& source,
+                      auto& plane) { plane.assign(source.begin(), source.end()); },
+                   view, view, copy);
+    return copy;
 }
 
 std::string_view name_of_plane(uint32_t number) {

@@ -32,8 +32,8 @@ struct WrongLimit {
     std::string name, required, claimed, of;
     static void fields(auto&& visit, auto&... w) {
         visit("name", w.name...);
-        visit("required", w.required...);
         visit("claimed", w.claimed...);
+        visit("required", w.required...);
         visit("of", w.of...);
     }
 };
@@ -57,12 +57,11 @@ struct DeviceInfo {
     uint32_t index = 0;
     uint32_t max_color_attachments = 0, max_target_size = 0;
     uint32_t interpolation_offset_bits = 0, mipmap_bits = 0;  // of interpolateAtOffset, of a LOD
-    bool has_first_strip_order = false;   // a strip's order is that of a first provoking vertex
-    bool has_conservative = false;        // conservative rasterization, with
-    bool has_underestimation = false;     // underestimation,
-    bool rasterizes_degenerates = false;  // triangles without area drawn,
-    // overestimation: its size, the step and the most that is added to it, pixels.
-    float overestimation = 0, overestimation_step = 0, most_overestimation = 0;
+    bool has_first_strip_order = false;  // a strip's order is that of a first provoking vertex
+    // Of conservative rasterization: triangles without area drawn; overestimation and the step in
+    // which it grows, pixels.
+    bool rasterizes_degenerates = false;
+    float overestimation = 0, overestimation_step = 0;
     std::string sample_locations_error;  // why it could not be asked, though it promises to answer
     std::string hit_counting = "binary32";  // the numbers in which hits are added up, or binary16
     // Without the first, cases are rendered by render pass objects; without the second, pipelines
@@ -93,12 +92,9 @@ struct DeviceInfo {
         visit({"interpolation_offset_bits", cases::kNotReported}, d.interpolation_offset_bits...);
         visit({"mipmap_bits", cases::kNotReported}, d.mipmap_bits...);
         visit({"has_first_strip_order", cases::kNotReported}, d.has_first_strip_order...);
-        visit({"has_conservative", cases::kNotReported}, d.has_conservative...);
-        visit({"has_underestimation", cases::kNotReported}, d.has_underestimation...);
         visit({"rasterizes_degenerates", cases::kNotReported}, d.rasterizes_degenerates...);
         visit({"overestimation", cases::kNotReported}, d.overestimation...);
         visit({"overestimation_step", cases::kNotReported}, d.overestimation_step...);
-        visit({"most_overestimation", cases::kNotReported}, d.most_overestimation...);
         visit({"sample_locations_error", cases::kNotReported}, d.sample_locations_error...);
         visit({"hit_counting", cases::kNotReported}, d.hit_counting...);
         visit({"has_dynamic_rendering", cases::kNotReported}, d.has_dynamic_rendering...);
@@ -211,6 +207,11 @@ class Renderer {
 struct Driver {
     std::string file, library, problem;  // problem: "cannot be read: ..."; empty if there is none
     std::filesystem::path path;          // of the library, as dlopen takes it
+    static void fields(auto&& visit, auto&... d) {
+        visit("file", d.file...);
+        visit("library", d.library...);
+        visit("problem", d.problem...);
+    }
 };
 // What is there before any driver is loaded.
 struct Installed {

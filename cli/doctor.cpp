@@ -20,7 +20,7 @@
 #include "cli/prepare/run_plan.hpp"
 #include "cli/prepare/suite.hpp"
 #include "cli/renderers/renderers.hpp"
-#include "report/files/json.hpp"
+#include "report/journal/json_codec.hpp"
 #include "report/text/sentences.hpp"
 #include "run/process/library.hpp"
 #include "run/worker/lacking.hpp"
@@ -80,27 +80,22 @@ void add_failure(Diagnosis& d, const capture::Failure& failure) {
         (!d.installed.chosen_by.empty() && failure.stage != capture::Stage::loader)) {
         return;  // the driver works, but is not what was asked for; or another one was chosen
     }
-    if (failure.stage == capture::Stage::loader) {
-        d.advice.emplace_back("sudo apt install libvulkan1 mesa-vulkan-drivers");
-    } else {
-        d.advice.emplace_back("sudo apt install mesa-vulkan-drivers");
-    }
+    d.advice.emplace_back(failure.stage == capture::Stage::loader
+                              ? "sudo apt install libvulkan1 mesa-vulkan-drivers"
+                              : "sudo apt install mesa-vulkan-drivers");
 }
 
 bool is_usable(const capture::DeviceInfo& device) {
     return device.missing.empty();
 }
 
-enum class Question { devices, chosen };
-
 // Lists the devices, or starts the one that the options choose.
 cases::Expected<void> ask_worker(const Program& program, const DeviceOptions& options,
-                                 Question question, Diagnosis& d) {
+                                 run::FrameType question, Diagnosis& d) {
     run::SignalFd signals;
     cases::Expected<run::WorkerClient> client = run::WorkerClient::start(
-        worker_command(program), worker_options(options),
-        std::chrono::milliseconds(static_cast<int64_t>(options.timeout * 1000)),
-        question == Question::devices ? run::FrameType::list_devices : run::FrameType::hello);
+        worker_command(program), run::WorkerOptions{options},
+        std::chrono::milliseconds(static_cast<int64_t>(options.timeout * 1000)), question);
     if (!client) {
         return tl::unexpected(client.error());
     }
@@ -126,8 +121,7 @@ cases::Expected<void> ask_worker(const Program& program, const DeviceOptions& op
     } else if (const auto* failure = std::get_if<capture::Failure>(&*answer); failure != nullptr) {
         d.usable = false;
         add_failure(d, *failure);
-        std::istringstream printed(cases::printable(client->output_since_batch()));
-        for (std::string line; std::getline(printed, line);) {
+        for (const std::string& line : printed_lines(client->output_since_batch())) {
             d.problems.push_back("printed: " + line);
         }
     } else if (const auto* death = std::get_if<run::Death>(&*answer); death != nullptr) {
@@ -147,7 +141,7 @@ cases::Expected<void> ask(const Program& program, const DeviceOptions& options, 
                 d.problems.push_back("the driver manifest " + m.file + " " + m.problem);
             }
         }
-        const auto listed = ask_worker(program, options, Question::devices, d);
+        const auto listed = ask_worker(program, options, run::FrameType::list_devices, d);
         for (const capture::Driver& m : d.installed.drivers) {
             if (std::string why = d.devices.empty() ? run::load_problem(m) : ""; !why.empty()) {
                 d.problems.push_back(std::move(why));
@@ -157,7 +151,7 @@ cases::Expected<void> ask(const Program& program, const DeviceOptions& options, 
             return listed;
         }
     }
-    return ask_worker(program, options, Question::chosen, d);
+    return ask_worker(program, options, run::FrameType::hello, d);
 }
 
 // Asks each usable device what of the suite it can draw. Without a suite nothing is asked.
@@ -176,7 +170,7 @@ void ask_shares(const Program& program, const DeviceOptions& options, Diagnosis&
         if (!is_usable(d.devices[k])) {
             continue;
         }
-        run::WorkerOptions worker = worker_options(options);
+        run::WorkerOptions worker{options};
         worker.device.device.clear();
         worker.device.pinned = d.devices[k].key;
         const auto reasons = run::ask_what_is_lacking(
@@ -226,22 +220,7 @@ std::vector<std::string> share_lines(const run::SuiteShare& share) {
     return lines;
 }
 
-Json wrong_limits_json(const capture::DeviceInfo& device) {
-    Json wrong = Json::array();
-    for (const capture::WrongLimit& limit : device.wrong_limits) {
-        wrong.push_back({{"name", limit.name},
-                         {"claimed", limit.claimed},
-                         {"required", limit.required},
-                         {"of", limit.of}});
-    }
-    return wrong;
-}
-
 Json to_json(const Diagnosis& d) {
-    Json manifests = Json::array();
-    for (const capture::Driver& m : d.installed.drivers) {
-        manifests.push_back({{"file", m.file}, {"library", m.library}, {"problem", m.problem}});
-    }
     Json devices = Json::array();
     for (size_t k = 0; k < d.devices.size(); ++k) {
         const capture::DeviceInfo& device = d.devices[k];
@@ -261,7 +240,7 @@ Json to_json(const Diagnosis& d) {
                            {"depth_beside_stencil", device.depth_beside_stencil},
                            {"has_dynamic_rendering", device.has_dynamic_rendering},
                            {"has_dynamic_state", device.has_dynamic_state},
-                           {"wrong_limits", wrong_limits_json(device)},
+                           {"wrong_limits", report::encode(device.wrong_limits)},
                            {"suite", share_json(d.shares[k])},
                            {"missing", device.missing}});
     }
@@ -275,7 +254,7 @@ Json to_json(const Diagnosis& d) {
     return {{"parts", parts},
             {"usable", d.usable},
             {"manifests_chosen_by", d.installed.chosen_by},
-            {"manifests", manifests},
+            {"manifests", report::encode(d.installed.drivers)},
             {"devices", devices},
             {"problems", d.problems},
             {"advice", d.advice}};
@@ -298,18 +277,16 @@ void print(const Diagnosis& d, const DeviceOptions& options) {
     line("Devices");
     for (size_t k = 0; k < d.devices.size(); ++k) {
         const capture::DeviceInfo& device = d.devices[k];
-        line("  " + std::to_string(device.index) + "  " + device.name + " (" + device.type + "), " +
-             device.driver_name + " " + device.driver_info + ", Vulkan " + device.api_version);
-        line("     " + std::to_string(device.subpixel_bits) + " subpixel bits" +
-             report::judged_bits_note(device) + ", targets up to " +
-             std::to_string(device.max_target_size) + ", " +
-             std::to_string(device.max_color_attachments) +
-             " colour attachments, gl_PrimitiveID: " + (device.has_primitive_id ? "yes" : "no") +
-             ", hits counted in " + device.hit_counting + ", depth beside a stencil " +
-             device.depth_beside_stencil +
-             (device.has_dynamic_rendering ? "" : ", rendered by render pass objects") +
-             (device.has_dynamic_state ? "" : ", state held by pipelines") + ", UUID " +
-             device.uuid);
+        line(fmt::format("  {}  {} ({}), {} {}, Vulkan {}", device.index, device.name, device.type,
+                         device.driver_name, device.driver_info, device.api_version));
+        line(fmt::format(
+            "     {} subpixel bits{}, targets up to {}, {} colour attachments, gl_PrimitiveID: {}, "
+            "hits counted in {}, depth beside a stencil {}{}{}, UUID {}",
+            device.subpixel_bits, report::judged_bits_note(device), device.max_target_size,
+            device.max_color_attachments, device.has_primitive_id ? "yes" : "no",
+            device.hit_counting, device.depth_beside_stencil,
+            device.has_dynamic_rendering ? "" : ", rendered by render pass objects",
+            device.has_dynamic_state ? "" : ", state held by pipelines", device.uuid));
         for (const capture::WrongLimit& limit : device.wrong_limits) {
             line("     wrong limit: " + limit.name + " is " + limit.claimed +
                  ", and Vulkan requires " + limit.required + " " + limit.of);

@@ -29,6 +29,7 @@
 #include "report/text/unexpected.hpp"
 #include "run/process/library.hpp"
 #include "run/process/pool.hpp"
+#include "run/worker/derived.hpp"
 
 namespace cli {
 
@@ -131,7 +132,7 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
                                      "', this is '" + device.name + "' or another driver version"));
     }
     p.header.device = device;
-    set_limits(config, first->device);
+    config.limits = run::limits_of(first->device);
     if (auto fits = check_required_device(options, device); !fits) {
         return stopped(options, fits.error());
     }

@@ -6,8 +6,6 @@
 #include <memory>
 #include <utility>
 
-#include "capture/copy.hpp"
-
 namespace run {
 
 Session::Session(LoopConfig config, WorkerClient first, capture::DeviceInfo device,

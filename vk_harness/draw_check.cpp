@@ -114,7 +114,7 @@ void check_attribute(const Capabilities& c, const cases::Draw& draw, const cases
     }
 }
 
-void check_conservative(const DeviceInfo& device, const cases::Draw& draw) {
+void check_conservative(const Capabilities& device, const cases::Draw& draw) {
     using enum cases::Conservative;
     if (draw.conservative == none) {
         return;
@@ -157,7 +157,7 @@ void check_draw(const Capabilities& c, const cases::Draw& draw) {
                    "occlusionQueryPrecise");
     refuse_without(cases::is_statistic(draw.query) && !c.pipeline_statistics,
                    "pipelineStatisticsQuery");
-    check_conservative(c.info, draw);
+    check_conservative(c, draw);
     check_depth(c, draw.depth);
     const size_t vertices = draw.positions.size();
     for (const cases::Attribute& attribute : draw.attributes) {

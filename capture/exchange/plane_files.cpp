@@ -214,12 +214,9 @@ class Reader {
 
     static std::string unknown(const fs::path& file, const std::vector<PlaneSpec>& specs) {
         std::vector<std::string> names;
-        std::string all;
-        for (const PlaneSpec& spec : specs) {
-            names.push_back(spec.name);
-            all += (all.empty() ? "" : ", ") + spec.name;
-        }
-        return fmt::format("{} is no plane of this case, which has {}{}", quoted(file), all,
+        std::ranges::transform(specs, std::back_inserter(names), &PlaneSpec::name);
+        return fmt::format("{} is no plane of this case, which has {}{}", quoted(file),
+                           fmt::join(names, ", "),
                            cases::did_you_mean(file.stem().string(), names));
     }
 

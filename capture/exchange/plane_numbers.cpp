@@ -117,12 +117,9 @@ bool is_grey(const Image& image) {
 }
 
 std::string wrong_channels(const fs::path& file, size_t count, const PlaneSpec& spec) {
-    std::string names;
-    for (const std::string& name : spec.channels) {
-        names += (names.empty() ? "" : ", ") + name;
-    }
     return fmt::format("{} has {} channel{}; the plane {} has {} ({})", quoted(file), count,
-                       count == 1 ? "" : "s", spec.name, spec.channels.size(), names);
+                       count == 1 ? "" : "s", spec.name, spec.channels.size(),
+                       fmt::join(spec.channels, ", "));
 }
 
 cases::Expected<PlaneNumbers> read_picture(const fs::path& file, const PlaneSpec& spec,
@@ -184,12 +181,8 @@ cases::Expected<PlaneNumbers> read_numbers(const fs::path& file, const PlaneSpec
                                            const cases::Target& target) {
     const std::string ending = file.extension().empty() ? "" : file.extension().string().substr(1);
     if (std::find(spec.endings.begin(), spec.endings.end(), ending) == spec.endings.end()) {
-        std::string all;
-        for (const std::string& known : spec.endings) {
-            all += (all.empty() ? "." : ", .") + known;
-        }
-        return cases::failure("{} has no ending that the plane {} may have; use {}", quoted(file),
-                              spec.name, all);
+        return cases::failure("{} has no ending that the plane {} may have; use .{}", quoted(file),
+                              spec.name, fmt::join(spec.endings, ", ."));
     }
     const bool is_raw = ending == "u8" || ending == "u32" || ending == "f32";
     return is_raw ? read_raw(file, ending, spec, target) : read_picture(file, spec, target);

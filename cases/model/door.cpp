@@ -32,7 +32,6 @@ constexpr DoorGroup kState = DoorGroup::state, kRecording = DoorGroup::recording
 constexpr DoorGroup kTargets = DoorGroup::targets, kStages = DoorGroup::stages;
 constexpr DoorPromise kSame = DoorPromise::same_bits, kRight = DoorPromise::right_picture;
 constexpr DoorPromise kAlone = DoorPromise::right_alone;
-constexpr std::string_view kAny = "every case that draws";
 
 constexpr std::array<DoorRow, kDoors - 1> kRows = {{
     {Door::index_8, "index-8", kVertices, kSame, rule::door_index,
@@ -42,8 +41,7 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
      "Vertices are named by indices of 16 bits; a draw without indices gets 0, 1, 2, ...",
      "indices up to 65535, 65534 with restart", has_indices<kLargest16>},
     {Door::index_32, "index-32", kVertices, kSame, rule::door_index,
-     "Vertices are named by indices of 32 bits, in draws without indices, too.", kAny,
-     when::is_any},
+     "Vertices are named by indices of 32 bits, in draws without indices, too."},
     {Door::index_8_largest, "index-8-largest", kVertices, kSame, rule::door_restart,
      "Restart is off, and the largest index in use is 255, which is then a vertex like any other; "
      "a negative vertexOffset leads back to the vertices.",
@@ -59,34 +57,29 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
      "Draws begin at firstVertex 5, behind vertices that must not be read.", "no draw with indices",
      when::has_no_indices},
     {Door::first_index, "first-index", kVertices, kSame, rule::door_first,
-     "Draws begin at firstIndex 7, behind indices of other vertices.", kAny, when::is_any},
+     "Draws begin at firstIndex 7, behind indices of other vertices."},
     {Door::vertex_offset, "vertex-offset", kVertices, kSame, rule::door_first,
-     "vertexOffset is 5, and five vertices that must not be read lie before the others.", kAny,
-     when::is_any},
+     "vertexOffset is 5, and five vertices that must not be read lie before the others."},
     {Door::vertex_offset_negative, "vertex-offset-negative", kVertices, kSame, rule::door_first,
-     "Indices are larger by 9, and vertexOffset is -9.", kAny, when::is_any},
+     "Indices are larger by 9, and vertexOffset is -9."},
     {Door::bind_offset, "bind-offset", kVertices, kSame, rule::door_buffer,
      "Vertex buffers are bound at offsets that are multiples of 4 and of nothing larger, each "
-     "binding at another.",
-     kAny, when::is_any},
+     "binding at another."},
     {Door::index_offset, "index-offset", kVertices, kSame, rule::door_buffer,
-     "The index buffer is bound in the middle of other indices, on a multiple of 4 bytes.", kAny,
-     when::is_any},
+     "The index buffer is bound in the middle of other indices, on a multiple of 4 bytes."},
     {Door::separate_buffers, "separate-buffers", kVertices, kSame, rule::door_buffer,
-     "Each binding, and the indices, have a buffer and memory of their own.", kAny, when::is_any},
+     "Each binding, and the indices, have a buffer and memory of their own."},
     {Door::memory_imported, "memory-imported", kVertices, kSame, rule::door_buffer,
      "Each binding, and the indices, have a buffer of their own, in memory that the application "
-     "has allocated itself and the device imports.",
-     kAny, when::is_any},
+     "has allocated itself and the device imports."},
     {Door::stride_padded, "stride-padded", kVertices, kRight, rule::door_layout,
      "Vertices lie further apart than they are long: 12 bytes between them, another number for "
-     "each binding.",
-     kAny, when::is_any},
+     "each binding."},
     {Door::stride_dynamic, "stride-dynamic", kVertices, kRight, rule::door_layout,
-     "The strides are dynamic state, given with the buffers, and those of the pipeline are others.",
-     kAny, when::is_any},
+     "The strides are dynamic state, given with the buffers, and those of the pipeline are "
+     "others."},
     {Door::interleaved, "interleaved", kVertices, kRight, rule::door_layout,
-     "All that a vertex has lies together, in one binding.", kAny, when::is_any},
+     "All that a vertex has lies together, in one binding."},
     {Door::three_components, "three-components", kVertices, kRight, rule::door_layout,
      "Positions whose w is 1 are read as three numbers; the fourth is 1 by the format.",
      "a draw whose positions all have w = 1", when::has_w_one},
@@ -120,38 +113,31 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
      "no draw with both clip and cull distances", when::has_one_kind_of_distances},
     {Door::indirect, "indirect", kVertices, kSame, rule::door_indirect,
      "Draws are indirect: their parameters are read from a buffer, from firstVertex or "
-     "vertexOffset 5 on, behind a draw that is not asked for.",
-     kAny, when::is_any},
+     "vertexOffset 5 on, behind a draw that is not asked for."},
     {Door::indirect_count, "indirect-count", kVertices, kSame, rule::door_indirect,
      "The number of indirect draws is read from a buffer, too: one, of three that are allowed; "
-     "indices are bound at an offset.",
-     kAny, when::is_any},
+     "indices are bound at an offset."},
     {Door::multi_indirect, "multi-indirect", kVertices, kSame, rule::door_indirect,
      "One command has three indirect draws, 32 bytes apart, from firstVertex or vertexOffset 5 on: "
-     "the first half of a list's triangles, none, the second half.",
-     kAny, when::is_any},
+     "the first half of a list's triangles, none, the second half."},
     {Door::indirect_after_count, "indirect-after-count", kVertices, kSame, rule::door_indirect,
      "The same, directly after a command that reads the number of its draws from a buffer, which "
      "is "
-     "0.",
-     kAny, when::is_any},
+     "0."},
     {Door::multi_draw, "multi-draw", kVertices, kSame, rule::door_indirect,
      "One command has three draws from memory of the application, from firstVertex or vertexOffset "
      "5 "
-     "on: the first half of a list's triangles, none, the second half.",
-     kAny, when::is_any},
+     "on: the first half of a list's triangles, none, the second half."},
     {Door::multi_draw_empty, "multi-draw-empty", kVertices, kSame, rule::door_indirect,
-     "The same, with a draw of no vertices first, then the whole, then another of none.", kAny,
-     when::is_any},
+     "The same, with a draw of no vertices first, then the whole, then another of none."},
     {Door::state_first, "state-first", kState, kSame, rule::door_state,
-     "Dynamic state is set and buffers are bound before the pipeline is.", kAny, when::is_any},
+     "Dynamic state is set and buffers are bound before the pipeline is."},
     {Door::query_first, "query-first", kState, kSame, rule::door_state,
      "Queries begin before the first pipeline of the command buffer is bound.",
      "a draw with an occlusion query", when::has_occlusion_query},
     {Door::state_stale, "state-stale", kState, kSame, rule::door_state,
      "All dynamic state is first set to other values, under which the draw is recorded with "
-     "rasterization off, and then to those of the draw.",
-     kAny, when::is_any},
+     "rasterization off, and then to those of the draw."},
     {Door::state_static, "state-static", kState, kRight, rule::door_state,
      "What is dynamic in other pictures is a part of the pipeline.",
      "no list with restart, no bias whose unit is chosen, no discarded draw to several samples",
@@ -164,47 +150,39 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
     {Door::state_output, "state-output", kState, kRight, rule::door_state,
      "What becomes of a fragment's outputs is dynamic: blending and its equations, write masks, "
      "logical operations, the sample mask, alpha to coverage and to one; by its pipeline nothing "
-     "is written.",
-     kAny, when::is_any},
+     "is written."},
     {Door::state_unused, "state-unused", kState, kRight, rule::door_state,
      "State is on that changes nothing: a bias of 0, restart without an index that restarts, tests "
      "that fail and have no attachment to test, blending by ONE and ZERO, logical operations that "
-     "copy.",
-     kAny, when::is_any},
+     "copy."},
     {Door::unoptimized, "unoptimized", kState, kRight, rule::door_state,
-     "Pipelines are made with VK_PIPELINE_CREATE_DISABLE_OPTIMIZATION_BIT.", kAny, when::is_any},
+     "Pipelines are made with VK_PIPELINE_CREATE_DISABLE_OPTIMIZATION_BIT."},
     {Door::pipeline_library, "pipeline-library", kState, kRight, rule::door_state,
      "Pipelines are linked from four libraries: vertex input, the stages before rasterization, the "
-     "fragment shader, its outputs.",
-     kAny, when::is_any},
+     "fragment shader, its outputs."},
     {Door::pipeline_derived, "pipeline-derived", kState, kRight, rule::door_state,
-     "Pipelines are derivatives of another one, which writes nothing.", kAny, when::is_any},
+     "Pipelines are derivatives of another one, which writes nothing."},
     {Door::pipeline_cached, "pipeline-cached", kState, kRight, rule::door_state,
-     "Pipelines are made a second time, with a cache that was made of the data of a first one.",
-     kAny, when::is_any},
+     "Pipelines are made a second time, with a cache that was made of the data of a first one."},
     {Door::shader_objects, "shader-objects", kState, kRight, rule::door_state,
      "There are no pipelines: shaders are objects of their own, and all state is dynamic.",
      "no draw that asks for a part of its samples to be shaded", when::has_no_sample_fraction},
     {Door::secondary, "secondary", kRecording, kSame, rule::door_recording,
-     "All draws are recorded in a secondary command buffer.", kAny, when::is_any},
+     "All draws are recorded in a secondary command buffer."},
     {Door::secondary_each, "secondary-each", kRecording, kSame, rule::door_recording,
      "Each draw is recorded in a secondary command buffer of its own; one command executes them.",
      "several draws", when::has_several_draws},
     {Door::secondary_reused, "secondary-reused", kRecording, kSame, rule::door_recording,
      "As secondary, for simultaneous use, and it is executed twice: the second rendering clears "
      "what "
-     "the first one has drawn.",
-     kAny, when::is_any},
+     "the first one has drawn."},
     {Door::pass_split, "pass-split", kRecording, kRight, rule::door_recording,
      "The rendering ends after the clears and after each draw, and the next one loads what was "
-     "stored.",
-     kAny, when::is_any},
+     "stored."},
     {Door::pass_suspended, "pass-suspended", kRecording, kRight, rule::door_recording,
-     "The rendering is suspended after the clears and after each draw, and resumed.", kAny,
-     when::is_any},
+     "The rendering is suspended after the clears and after each draw, and resumed."},
     {Door::clear_commands, "clear-commands", kRecording, kRight, rule::door_recording,
-     "Nothing is loaded or cleared when the rendering begins; vkCmdClearAttachments clears.", kAny,
-     when::is_any},
+     "Nothing is loaded or cleared when the rendering begins; vkCmdClearAttachments clears."},
     {Door::clear_draw, "clear-draw", kRecording, kRight, rule::door_recording,
      "Nothing is loaded or cleared; a triangle over the whole target writes the values to one "
      "attachment after the other.",
@@ -212,11 +190,10 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
      "format",
      when::can_be_cleared_by_draw},
     {Door::render_pass, "render-pass", kRecording, kRight, rule::door_recording,
-     "The rendering is an instance of a render pass object with one subpass.", kAny, when::is_any},
+     "The rendering is an instance of a render pass object with one subpass."},
     {Door::subpasses, "subpasses", kRecording, kRight, rule::door_recording,
      "As render-pass, with two subpasses: the first clears and has the first of several draws, the "
-     "second one the others.",
-     kAny, when::is_any},
+     "second one the others."},
     {Door::input_attachment, "input-attachment", kRecording, kRight, rule::door_recording,
      "A second subpass reads what the first has drawn as input attachments, and the picture is "
      "what "
@@ -224,10 +201,9 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
      "one layer, no bias, no number that is infinite, none, or nearer to 0 than 2^-30 and not 0",
      when::can_be_read_as_input},
     {Door::submissions, "submissions", kRecording, kRight, rule::door_recording,
-     "As pass-split, and each part is a command buffer and a submission of its own.", kAny,
-     when::is_any},
+     "As pass-split, and each part is a command buffer and a submission of its own."},
     {Door::target_larger, "target-larger", kTargets, kRight, rule::door_target,
-     "Attachments have 29 columns and 19 rows more than the rendering's area.", kAny, when::is_any},
+     "Attachments have 29 columns and 19 rows more than the rendering's area."},
     {Door::target_last_tile, "target-last-tile", kTargets, kAlone, rule::door_target,
      "The case lies in the last tile of a larger target: viewport, scissor and the rendering's "
      "area "
@@ -236,7 +212,7 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
      "there, no clip distances",
      when::can_be_moved},
     {Door::image_layer, "image-layer", kTargets, kRight, rule::door_target,
-     "Attachments are the last layers of images with two layers more.", kAny, when::is_any},
+     "Attachments are the last layers of images with two layers more."},
     {Door::image_level, "image-level", kTargets, kRight, rule::door_target,
      "Attachments are level 1 of images with more mip levels.", "one sample a pixel",
      when::has_one_sample},
@@ -245,14 +221,12 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
      "one sample a pixel and one layer", when::is_plain_image},
     {Door::image_usages, "image-usages", kTargets, kRight, rule::door_target,
      "Attachments may be used in every way that the device offers for their formats: sampled, "
-     "stored to, copied to, as input attachments, seen in other formats.",
-     kAny, when::is_any},
+     "stored to, copied to, as input attachments, seen in other formats."},
     {Door::memory_dedicated, "memory-dedicated", kTargets, kRight, rule::door_target,
-     "Each attachment has an allocation that is dedicated to it.", kAny, when::is_any},
+     "Each attachment has an allocation that is dedicated to it."},
     {Door::memory_aliased, "memory-aliased", kTargets, kRight, rule::door_target,
      "The memory of each attachment is that of another image, too, where the device has memory for "
-     "both; that image is cleared to another colour just before.",
-     kAny, when::is_any},
+     "both; that image is cleared to another colour just before."},
     {Door::multiview, "multiview", kTargets, kRight, rule::door_target,
      "The second view of two is drawn, alone, to the second layer.", "a target of one layer",
      when::has_one_layer},
@@ -277,8 +251,7 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
     {Door::stage_unused, "stage-unused", kStages, kRight, rule::door_state,
      "Shaders have outputs that nobody reads, one of the vertex shader and, where the device has a "
      "location without an attachment, one of the fragment shader; an input is described that no "
-     "shader has, and a descriptor set.",
-     kAny, when::is_any},
+     "shader has, and a descriptor set."},
 }};
 
 constexpr bool is_in_order() {

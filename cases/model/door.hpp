@@ -118,10 +118,11 @@ struct DoorRow {
     std::string_view word;  // in files and on the command line
     DoorGroup group;
     DoorPromise promise;
-    std::string_view rule;   // what a finding names
-    std::string_view does;   // one sentence
-    std::string_view takes;  // which cases can go through it
-    bool (*can_take)(const Case&);
+    std::string_view rule;  // what a finding names
+    std::string_view does;  // one sentence
+    // Which cases can go through it.
+    std::string_view takes = "every case that draws";
+    bool (*can_take)(const Case&) = [](const Case&) { return true; };
 };
 
 // All doors but `none`, in the order of the enumeration.

@@ -168,10 +168,6 @@ bool reaches_into_target(const Case& c) {
 
 }  // namespace
 
-bool is_any(const Case&) {
-    return true;
-}
-
 bool has_indices_up_to(const Case& c, uint32_t largest) {
     return all_draws(c, [=](const Draw& draw) {
         return largest_index(draw) <= largest - (draw.primitive_restart ? 1 : 0);
@@ -244,10 +240,7 @@ bool can_be_cleared_by_draw(const Case& c) {
 }
 
 bool can_take_geometry(const Case& c) {
-    return all_draws(c, [](const Draw& draw) {
-        return (draw.distances.clip_count == 0 || draw.distances.cull_count == 0) &&
-               !has_barycentrics(draw);
-    });
+    return has_one_kind_of_distances(c) && !any_draw(c, has_barycentrics);
 }
 
 bool can_be_tessellated(const Case& c) {
@@ -305,13 +298,12 @@ bool can_be_moved(const Case& c) {
 }
 
 bool can_be_meshes(const Case& c) {
-    return all_draws(c, [](const Draw& draw) {
-        constexpr size_t kMostGroups = 65535;
-        const size_t elements = draw.indices ? draw.indices->size() : draw.positions.size();
-        const size_t triangles = draw.topology == Topology::triangle_list ? elements / 3 : elements;
-        return (draw.distances.clip_count == 0 || draw.distances.cull_count == 0) &&
-               !has_barycentrics(draw) && triangles <= kMostGroups;
-    });
+    return can_take_geometry(c) && all_draws(c, [](const Draw& draw) {
+               constexpr size_t kMostGroups = 65535;
+               const size_t elements = draw.indices ? draw.indices->size() : draw.positions.size();
+               const bool is_list = draw.topology == Topology::triangle_list;
+               return (is_list ? elements / 3 : elements) <= kMostGroups;
+           });
 }
 
 bool has_occlusion_query(const Case& c) {

@@ -12,7 +12,6 @@ struct Case;
 
 namespace door_condition {
 
-bool is_any(const Case& c);
 bool has_strip_or_fan(const Case& c);
 bool has_no_indices(const Case& c);
 bool has_w_one(const Case& c);

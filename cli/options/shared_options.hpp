@@ -41,26 +41,21 @@ CLI::Option* add_choice(CLI::App* app, const std::string& name, T& target,
             if (takes_other != nullptr && takes_other(results.back(), target)) {
                 return true;
             }
-            std::string all;
-            for (const std::string& word : words) {
-                all += (all.empty() ? "" : ", ") + word;
-            }
-            throw CLI::ValidationError(name, "'" + results.back() + "' is none of " + all +
-                                                 cases::did_you_mean(results.back(), words));
+            throw CLI::ValidationError(
+                name, fmt::format("'{}' is none of {}{}", results.back(), fmt::join(words, ", "),
+                                  cases::did_you_mean(results.back(), words)));
         }
         target = found->second;
         return true;
     };
-    std::string shown;
     std::string initial;
     for (const auto& [word, value] : names) {
-        shown += (shown.empty() ? "" : "|") + word;
         if (value == target) {
             initial = word;
         }
     }
     return app->add_option(name, parse, initial.empty() ? what : what + " [" + initial + "]")
-        ->type_name(shown);
+        ->type_name(fmt::format("{}", fmt::join(words, "|")));
 }
 
 // Refuses what is no number of the range, in our own words.

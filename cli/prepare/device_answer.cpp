@@ -14,13 +14,6 @@
 
 namespace cli {
 
-run::WorkerOptions worker_options(const DeviceOptions& options) {
-    return {options};
-}
-
-namespace {
-
-// The first lines of what a worker printed, each for itself.
 std::vector<std::string> printed_lines(const std::string& output) {
     constexpr size_t kMostLines = 20;
     std::vector<std::string> out;
@@ -30,8 +23,6 @@ std::vector<std::string> printed_lines(const std::string& output) {
     }
     return out;
 }
-
-}  // namespace
 
 Stop explain_failure(const capture::Failure& failure, const std::string& output) {
     Stop stop{report::kExitDevice, {cases::printable(failure.message)}};

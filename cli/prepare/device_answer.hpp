@@ -12,8 +12,6 @@
 
 namespace cli {
 
-run::WorkerOptions worker_options(const DeviceOptions& options);
-
 struct ReadyWorker {
     run::WorkerClient client;
     capture::DeviceInfo device;
@@ -26,6 +24,8 @@ OrStop<run::WorkerClient> start_first_worker(const run::LoopConfig& config);
 OrStop<ReadyWorker> await_first_worker(run::WorkerClient client, const run::LoopConfig& config,
                                        run::SignalFd& signals);
 
+// The first lines of what a worker printed, each for itself.
+std::vector<std::string> printed_lines(const std::string& output);
 // What a failed start looks like to the user; `output` is what the worker printed.
 Stop explain_failure(const capture::Failure& failure, const std::string& output);
 Stop explain_death(const run::Death& death);

@@ -14,7 +14,7 @@ namespace cli {
 run::LoopConfig loop_config(const Program& program, const RunOptions& options) {
     run::LoopConfig config;
     config.command = worker_command(program);
-    config.worker = worker_options(options.device);
+    config.worker.device = options.device;
     config.timeout = std::chrono::milliseconds(static_cast<int64_t>(options.device.timeout * 1000));
     // A worker that has lost its parent ends by itself, though later than one that has not.
     config.worker.device.longest_wait_ms = static_cast<uint64_t>(config.timeout.count()) * 2;
@@ -30,10 +30,6 @@ run::LoopConfig loop_config(const Program& program, const RunOptions& options) {
     config.profile = options.profile;
     config.pictures = options.capture;
     return config;
-}
-
-void set_limits(run::LoopConfig& config, const capture::DeviceInfo& device) {
-    config.limits = run::limits_of(device);
 }
 
 ref::Limits limits_of(const JudgedDevice& device) {
@@ -55,7 +51,7 @@ OrStop<ReadyWorker> ready_first_worker(run::LoopConfig& config, run::SignalFd& s
     }
     OrStop<ReadyWorker> first = await_first_worker(std::move(*worker), config, signals);
     if (first) {
-        set_limits(config, first->device);
+        config.limits = run::limits_of(first->device);
         warn_of_limits(first->device);
     }
     return first;

@@ -13,8 +13,6 @@ namespace cli {
 
 run::LoopConfig loop_config(const Program& program, const RunOptions& options);
 
-// The limits that the device has told, by which it is judged.
-void set_limits(run::LoopConfig& config, const capture::DeviceInfo& device);
 // One line for each wrong limit, for commands whose reports have no place for it.
 void warn_of_limits(const capture::DeviceInfo& device);
 // The limits of a device that is not asked.

@@ -4,7 +4,6 @@
 
 #include "rasterizers/algorithms/device.hpp"
 #include "rasterizers/renderer/renderers.hpp"
-#include "vk_harness/public/drivers.hpp"
 #include "vk_harness/public/harness.hpp"
 
 namespace cli {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/worker/fault.hpp"
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -79,15 +80,13 @@ cases::Expected<std::vector<Fault>> parse_faults(std::string_view list) {
         const std::optional<FaultKind> kind = kind_of(word);
         if (!kind) {
             std::vector<std::string> names;
-            std::string all;
-            for (const auto& [name, known] : kNames) {
-                all += (names.empty() ? "" : ", ") + std::string(name);
-                names.emplace_back(name);
-            }
+            std::ranges::transform(kNames, std::back_inserter(names),
+                                   &std::pair<const char*, FaultKind>::first);
             const std::string nearest = cases::nearest_name(std::string(word), names);
-            return cases::failure(
-                "EDGECASE_FAULT names an unknown fault '" + std::string(word) + "'; " +
-                (nearest.empty() ? "there are " + all : "did you mean '" + nearest + "'?"));
+            return cases::failure("EDGECASE_FAULT names an unknown fault '{}'; {}", word,
+                                  nearest.empty()
+                                      ? fmt::format("there are {}", fmt::join(names, ", "))
+                                      : "did you mean '" + nearest + "'?");
         }
         Fault fault;
         fault.kind = *kind;

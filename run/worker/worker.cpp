@@ -65,23 +65,20 @@ void print_noise() {
     std::fflush(stdout);
 }
 
-// The first plane of a rendering, wherever it lies: `own` is that of its capture.
-template <class T>
-std::span<T> first_plane(const Rendered& rendered, std::vector<T>& own) {
-    return rendered.placed.empty() ? std::span<T>(own)
-                                   : std::span(reinterpret_cast<T*>(rendered.placed.data()),
-                                               rendered.capture.sample_count());
+// The planes of a rendering, wherever they lie.
+capture::PlaneSpans planes_of(Rendered& rendered) {
+    capture::Capture& own = rendered.capture;
+    return rendered.placed.empty()
+               ? capture::PlaneSpans(own)
+               : capture::planes_at(own.target, own.attribute_count, rendered.placed.data());
 }
 
 // Another colour in the middle of a target that counts no hits, or `skipped` samples after it: the
 // second highest bit of red.
-void flip_color(Rendered& rendered, uint32_t skipped) {
-    const cases::Target& target = rendered.capture.target;
-    // Colours come first where there are no instruments.
-    const std::span codes = first_plane(rendered, rendered.capture.color);
-    if (target.color && !codes.empty()) {
+void flip_color(const capture::PlaneSpans& planes, uint32_t skipped) {
+    if (const std::span codes = planes.color; !codes.empty()) {
         codes[(codes.size() / 2 + skipped) % codes.size()][0] ^=
-            1U << (cases::component_of(target.color->format, 0).bits - 2);
+            1U << (cases::component_of(planes.target.color->format, 0).bits - 2);
     }
 }
 
@@ -99,13 +96,12 @@ std::vector<size_t> drawn_from_the_middle(std::span<const glm::vec4> hits) {
 
 // One hit more at a drawn sample: a double hit.
 void flip_pixel(Rendered& rendered, uint32_t skipped = 0) {
-    if (!rendered.capture.target.has_instruments) {
-        flip_color(rendered, skipped);
-        return;
-    }
-    const std::span hits = first_plane(rendered, rendered.capture.hits);
-    if (const std::vector<size_t> drawn = drawn_from_the_middle(hits); !drawn.empty()) {
-        glm::vec4& hit = hits[drawn[skipped % drawn.size()]];
+    const capture::PlaneSpans planes = planes_of(rendered);
+    const std::vector<size_t> drawn = drawn_from_the_middle(planes.hits);
+    if (!planes.target.has_instruments) {
+        flip_color(planes, skipped);
+    } else if (!drawn.empty()) {
+        glm::vec4& hit = planes.hits[drawn[skipped % drawn.size()]];
         hit.x += 1;
         hit.w += 1;
     }
@@ -113,15 +109,7 @@ void flip_pixel(Rendered& rendered, uint32_t skipped = 0) {
 
 // One more in the first attribute of a drawn sample, or, after all of those, in its FragCoord.x.
 void shift_value(Rendered& rendered, uint32_t skipped) {
-    capture::Capture& own = rendered.capture;
-    if (!own.target.has_instruments) {
-        flip_color(rendered, skipped);
-        return;
-    }
-    const capture::PlaneSpans planes =
-        rendered.placed.empty()
-            ? capture::PlaneSpans(own)
-            : capture::planes_at(own.target, own.attribute_count, rendered.placed.data());
+    const capture::PlaneSpans planes = planes_of(rendered);
     std::vector<float*> values;
     for (const std::span plane : {planes.attributes[0], planes.frag_coord}) {
         for (const size_t at : drawn_from_the_middle(planes.hits)) {
@@ -130,7 +118,9 @@ void shift_value(Rendered& rendered, uint32_t skipped) {
             }
         }
     }
-    if (!values.empty()) {
+    if (!planes.target.has_instruments) {
+        flip_color(planes, skipped);
+    } else if (!values.empty()) {
         *values[skipped % values.size()] += 1;
     }
 }

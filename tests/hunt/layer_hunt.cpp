@@ -87,7 +87,7 @@ void draw(std::span<const Numbered> chunk, const std::string& fault, const fs::p
         give_up(renderer.error().message);
     }
     run::LoopConfig config;
-    cli::set_limits(config, (*renderer)->device());
+    config.limits = run::limits_of((*renderer)->device());
     const auto pose_of = [](const Numbered& one) { return one.number / fuzz::kGeometries; };
     for (size_t begin = 0; begin < chunk.size();) {
         const bool is_first = begin == 0 || pose_of(chunk[begin]) != pose_of(chunk[begin - 1]);

@@ -168,12 +168,12 @@ void query_conservative(Capabilities& c) {
     VkPhysicalDeviceConservativeRasterizationPropertiesEXT conservative =
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_CONSERVATIVE_RASTERIZATION_PROPERTIES_EXT};
     get_properties(c.physical, conservative);
-    c.info.has_conservative = true;
-    c.info.has_underestimation = conservative.primitiveUnderestimation == VK_TRUE;
+    c.has_conservative = true;
+    c.has_underestimation = conservative.primitiveUnderestimation == VK_TRUE;
     c.info.rasterizes_degenerates = conservative.degenerateTrianglesRasterized == VK_TRUE;
     c.info.overestimation = conservative.primitiveOverestimationSize;
     c.info.overestimation_step = conservative.extraPrimitiveOverestimationSizeGranularity;
-    c.info.most_overestimation = conservative.maxExtraPrimitiveOverestimationSize;
+    c.most_overestimation = conservative.maxExtraPrimitiveOverestimationSize;
 }
 
 void query_fragment_sizes(Capabilities& c) {

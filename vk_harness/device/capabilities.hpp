@@ -71,6 +71,9 @@ struct Capabilities {
     bool has_standard_locations = false;                 // standardSampleLocations
     std::vector<cases::SampleLocations> told_locations;  // without them: by gl_SamplePosition
     bool has_sample_shading = false;                     // sampleRateShading
+    bool has_conservative = false;                       // VK_EXT_conservative_rasterization, with
+    bool has_underestimation = false;                    // primitiveUnderestimation,
+    float most_overestimation = 0;  // maxExtraPrimitiveOverestimationSize, pixels
     // By cases::DepthFormat: sample counts that can be drawn and read back; 0 if the device has not
     // got the format.
     std::array<VkSampleCountFlags, 3> depth_sample_counts{VK_SAMPLE_COUNT_1_BIT};

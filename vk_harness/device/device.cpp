@@ -103,7 +103,7 @@ Device Device::create(const Capabilities& capabilities) {
     if (capabilities.location_counts != 0) {
         extensions.push_back(VK_EXT_SAMPLE_LOCATIONS_EXTENSION_NAME);
     }
-    if (capabilities.info.has_conservative) {
+    if (capabilities.has_conservative) {
         extensions.push_back(VK_EXT_CONSERVATIVE_RASTERIZATION_EXTENSION_NAME);
     }
     if (capabilities.doors.host_import) {

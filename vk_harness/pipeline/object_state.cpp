@@ -66,7 +66,7 @@ void set_rasterization(const Device& device, VkCommandBuffer commands, const Pip
                                               ? VK_PROVOKING_VERTEX_MODE_LAST_VERTEX_EXT
                                               : VK_PROVOKING_VERTEX_MODE_FIRST_VERTEX_EXT);
     }
-    if (c.info.has_conservative) {
+    if (c.has_conservative) {
         vk.vkCmdSetConservativeRasterizationModeEXT(commands,
                                                     own.conservative.conservativeRasterizationMode);
         vk.vkCmdSetExtraPrimitiveOverestimationSizeEXT(

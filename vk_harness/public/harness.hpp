@@ -28,6 +28,10 @@ using Options = capture::RendererOptions;
 // All devices of the machine; for doctor and for error texts.
 Result<std::vector<DeviceInfo>> list_devices(const Options& options);
 
+// The drivers that the loader would look at, by their manifests (the JSON files that name their
+// libraries), and the validation layer. Nothing is loaded into this process.
+capture::Installed find_drivers(const Options& options);
+
 // The renderer of the device that the options choose. Loads the driver.
 Result<std::unique_ptr<capture::Renderer>> make_renderer(const Options& options);
 

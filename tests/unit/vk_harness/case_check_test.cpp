@@ -227,19 +227,19 @@ TEST(CaseCheck, Conservative) {
     cases::Case c = good();
     c.draws[0].conservative = cases::Conservative::underestimate;
     expect_rejected(m, c, unsupported, "the device lacks VK_EXT_conservative_rasterization");
-    m.info.has_conservative = true;
+    m.has_conservative = true;
     expect_rejected(m, c, unsupported,
                     "the device does not underestimate (primitiveUnderestimation)");
-    m.info.has_underestimation = true;
+    m.has_underestimation = true;
     EXPECT_FALSE(check_case(m, c).has_value());
     c.draws[0].conservative = cases::Conservative::overestimate;
     EXPECT_FALSE(check_case(m, c).has_value());
     c.draws[0].conservative_extra = 0.5F;
-    m.info.most_overestimation = 0.25F;
+    m.most_overestimation = 0.25F;
     expect_rejected(m, c, unsupported,
                     "the draw enlarges its triangles by 0.5 pixels, the device allows 0.25 "
                     "(maxExtraPrimitiveOverestimationSize)");
-    m.info.most_overestimation = 0.5F;
+    m.most_overestimation = 0.5F;
     EXPECT_FALSE(check_case(m, c).has_value());
 }
 

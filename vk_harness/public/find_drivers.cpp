@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "vk_harness/public/drivers.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -11,6 +10,7 @@
 #include <sstream>
 
 #include "cases/base/printable.hpp"
+#include "vk_harness/public/harness.hpp"
 
 namespace vk_harness {
 
