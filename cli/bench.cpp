@@ -85,11 +85,12 @@ std::vector<std::string> self(const Program& program, const std::string& command
 }
 
 void add_device(std::vector<std::string>& words, const DeviceOptions& device) {
-    if (!device.device.empty()) {
-        words.insert(words.end(), {"--device", device.device});
-    }
-    if (!device.icd.empty()) {
-        words.insert(words.end(), {"--icd", device.icd});
+    for (const auto& [option, value] :
+         {std::pair("--device", device.device), std::pair("--icd", device.icd),
+          std::pair("--renderer", device.renderer)}) {
+        if (!value.empty()) {
+            words.insert(words.end(), {option, value});
+        }
     }
 }
 

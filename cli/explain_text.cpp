@@ -275,8 +275,8 @@ std::string queries_text(const cases::Case& c, const ref::Expectation& expectati
 }
 
 std::string head_text(const cases::Case& c) {
-    std::string text = fmt::format("{}\n    {}\n", c.id, c.description);
-    for (const std::string& id : c.rules) {
+    std::string text = fmt::format("{}\n    {}\n", c.id, c.claim.description);
+    for (const std::string& id : c.claim.rules) {
         if (const cases::Rule* rule = cases::find_rule(id)) {
             text +=
                 fmt::format("    {} ({}): {}\n", rule->id, to_string(rule->profile), rule->title);
@@ -318,7 +318,7 @@ std::string rule_text(const cases::Rule& rule, const std::vector<cases::Case>& s
     std::vector<std::string> ids;
     size_t leaves = 0;
     for (const cases::Case& c : suite) {
-        if (std::find(c.rules.begin(), c.rules.end(), rule.id) == c.rules.end()) {
+        if (std::find(c.claim.rules.begin(), c.claim.rules.end(), rule.id) == c.claim.rules.end()) {
             continue;
         }
         ++leaves;

@@ -82,7 +82,7 @@ int export_command(const Program& program, const ExportOptions& options) {
             return report_stop(written.error());
         }
         if (k >= suite->outside) {
-            carried[c.id.substr(0, c.id.find(':')) + ".toml"] = c.where.file;
+            carried[c.id.substr(0, c.id.find(':')) + ".toml"] = c.claim.where.file;
         }
         list.push_back({{"id", c.id},
                         {"file", name + ".json"},

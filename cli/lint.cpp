@@ -70,7 +70,7 @@ enum class Depth : uint8_t { file, cases, samples };
 Checked exercised(const cases::Case& c, ClaimedFile& file, Depth depth) {
     Checked out;
     const ref::Count count = depth == Depth::samples ? ref::Count::all : ref::Count::some;
-    const std::vector<std::string> rules = depth == Depth::file ? file.open_rules() : c.rules;
+    const std::vector<std::string> rules = depth == Depth::file ? file.open_rules() : c.claim.rules;
     out.exercise = ref::exercise(c, ref::Limits{}, rules, count);
     file.note(out.exercise);
     const std::vector<std::string> open =
@@ -96,11 +96,12 @@ bool fails_every_depth_test(cases::Case c, cases::Profile profile) {
 cases::Errors check_case(const cases::Case& c, const ref::Exercise& exercise) {
     cases::Errors errors;
     if (const std::string wrong = run::check_before_running(c); !wrong.empty()) {
-        errors.push_back({c.expected_hits ? c.expected_hits->where : c.where, c.id + ": " + wrong});
+        errors.push_back({c.claim.expected_hits ? c.claim.expected_hits->where : c.claim.where,
+                          c.id + ": " + wrong});
     }
-    for (const std::string& rule : c.rules) {
+    for (const std::string& rule : c.claim.rules) {
         if (cases::find_rule(rule) == nullptr) {
-            errors.push_back({c.where, c.id + ": there is no rule '" + rule + "'"});
+            errors.push_back({c.claim.where, c.id + ": there is no rule '" + rule + "'"});
         }
     }
     if (c.blit) {
@@ -111,7 +112,7 @@ cases::Errors check_case(const cases::Case& c, const ref::Exercise& exercise) {
             fails_every_depth_test(c, profile)) {
             const bool has_bounds = cases::tests_bounds(c);
             errors.push_back(
-                {c.where,
+                {c.claim.where,
                  fmt::format(
                      "{}: at profile {} every fragment fails the depth test{}, so a device "
                      "that draws nothing would pass; depth is cleared to {}: choose another "
@@ -122,18 +123,19 @@ cases::Errors check_case(const cases::Case& c, const ref::Exercise& exercise) {
         }
         if (exercise.must_samples.at(static_cast<size_t>(profile)) == 0) {
             errors.push_back(
-                {c.where, c.id + ": at profile " + std::string(cases::to_string(profile)) +
-                              " no sample must be covered, so a device that draws nothing "
-                              "would pass; add a triangle that must be seen" +
-                              (c.notes.empty() ? "" : " (" + c.notes.front() + ")")});
+                {c.claim.where,
+                 c.id + ": at profile " + std::string(cases::to_string(profile)) +
+                     " no sample must be covered, so a device that draws nothing "
+                     "would pass; add a triangle that must be seen" +
+                     (c.claim.notes.empty() ? "" : " (" + c.claim.notes.front() + ")")});
             return errors;
         }
         if (!c.target.has_instruments && !diff::fails_if_empty(c, profile)) {
-            errors.push_back(
-                {c.where, c.id + ": at profile " + std::string(cases::to_string(profile)) +
-                              " every sample may hold the clear colour, so a device that draws "
-                              "nothing would pass; choose another colour, or another clear "
-                              "colour"});
+            errors.push_back({c.claim.where,
+                              c.id + ": at profile " + std::string(cases::to_string(profile)) +
+                                  " every sample may hold the clear colour, so a device that draws "
+                                  "nothing would pass; choose another colour, or another clear "
+                                  "colour"});
             return errors;
         }
     }
@@ -202,7 +204,7 @@ std::vector<size_t> without_errors(const LoadedSuite& suite, const cases::Errors
     std::set<std::string> left_out;
     std::vector<size_t> selected;
     for (const size_t k : suite.selected) {
-        const std::string& file = suite.cases[k].where.file;
+        const std::string& file = suite.cases[k].claim.where.file;
         if (!wrong.contains(file)) {
             selected.push_back(k);
         } else if (left_out.insert(file).second) {
@@ -276,9 +278,9 @@ void tell_in_short(const LoadedSuite& suite, const std::map<std::string, Claimed
     for (size_t k = 0; k < checked.size(); ++k) {
         const cases::Case& c = suite.cases[suite.selected[k]];
         for (const std::string& rule : without_samples(checked[k].exercise)) {
-            const ClaimedFile& file = files.at(c.where.file);
+            const ClaimedFile& file = files.at(c.claim.where.file);
             if (file.has(rule) && share_with_fewest(rule, checked[k]) == nullptr) {
-                cases[{c.where.file, rule}].push_back(c.id);
+                cases[{c.claim.where.file, rule}].push_back(c.id);
             }
         }
     }
@@ -326,13 +328,13 @@ int lint_command(const Program& program, const LintOptions& options) {
     std::vector<Checked> checked(count);
     for_each_on_threads(count, [&](size_t k) {
         const cases::Case& c = suite->cases[suite->selected[k]];
-        ClaimedFile& file = files.at(c.where.file);
+        ClaimedFile& file = files.at(c.claim.where.file);
         Checked& out = checked[k];
         try {
             out = exercised(c, file, depth);
             out.errors = check_case(c, out.exercise);
         } catch (const std::exception& e) {
-            out.errors = {{c.where, c.id + ": the reference failed: " + cases::reason_of(e)}};
+            out.errors = {{c.claim.where, c.id + ": the reference failed: " + cases::reason_of(e)}};
         }
     });
     cases::Errors errors;
@@ -342,7 +344,7 @@ int lint_command(const Program& program, const LintOptions& options) {
     for (size_t k = 0; k < count; ++k) {
         if (is_told) {
             const cases::Case& c = suite->cases[suite->selected[k]];
-            tell(c, checked[k], files.at(c.where.file));
+            tell(c, checked[k], files.at(c.claim.where.file));
         }
         add(checked[k].errors);
     }

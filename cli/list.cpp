@@ -23,51 +23,51 @@ namespace {
 
 void print_long(const cases::Case& c) {
     say(c.id + "\n");
-    say_wrapped("    " + c.description + "\n");
-    if (!c.catches.empty()) {
-        say_wrapped("    catches: " + c.catches + "\n");
+    say_wrapped("    " + c.claim.description + "\n");
+    if (!c.claim.catches.empty()) {
+        say_wrapped("    catches: " + c.claim.catches + "\n");
     }
     std::string rules;
-    for (const std::string& rule : c.rules) {
+    for (const std::string& rule : c.claim.rules) {
         rules += (rules.empty() ? "" : ", ") + rule;
     }
     const std::string layers =
         c.target.layers > 1 ? std::to_string(c.target.layers) + " layers, " : "";
     const std::string drawn = c.blit ? "a blit" : counted(c.draws.size(), "draw");
     say_wrapped("    rules: " + rules + "\n");
-    say(fmt::format("    file: {}:{}\n    target: {} x {}, {}{}, {}\n", c.where.file, c.where.line,
-                    c.target.width, c.target.height, layers, counted(c.target.samples, "sample"),
-                    drawn));
+    say(fmt::format("    file: {}:{}\n    target: {} x {}, {}{}, {}\n", c.claim.where.file,
+                    c.claim.where.line, c.target.width, c.target.height, layers,
+                    counted(c.target.samples, "sample"), drawn));
     const uint64_t free = c.blit ? 0 : ref::expect(c, {}, cases::Profile::direct3d).either_samples;
     say(fmt::format("    free: {} of {} samples at profile direct3d\n", free,
                     uint64_t{c.target.width} * c.target.rows() * c.target.samples));
-    for (const std::string& link : c.links) {
+    for (const std::string& link : c.claim.links) {
         say("    link: " + link + "\n");
     }
-    for (const std::string& note : c.notes) {
+    for (const std::string& note : c.claim.notes) {
         say_wrapped("    note: " + note + "\n");
     }
 }
 
 nlohmann::ordered_json to_json(const cases::Case& c) {
     nlohmann::ordered_json parameters = nlohmann::ordered_json::object();
-    for (const auto& [key, value] : c.parameters) {
+    for (const auto& [key, value] : c.claim.parameters) {
         parameters[key] = value;
     }
     return {{"id", c.id},
-            {"file", c.where.file},
-            {"line", c.where.line},
-            {"description", c.description},
-            {"catches", c.catches},
-            {"rules", c.rules},
-            {"links", c.links},
+            {"file", c.claim.where.file},
+            {"line", c.claim.where.line},
+            {"description", c.claim.description},
+            {"catches", c.claim.catches},
+            {"rules", c.claim.rules},
+            {"links", c.claim.links},
             {"parameters", parameters},
             {"target",
              {{"width", c.target.width},
               {"height", c.target.height},
               {"samples", c.target.samples},
               {"layers", c.target.layers}}},
-            {"notes", c.notes}};
+            {"notes", c.claim.notes}};
 }
 
 }  // namespace
@@ -95,7 +95,7 @@ int list_command(const Program& program, const ListOptions& options) {
         } else if (options.ids) {
             say(c.id + "\n");
         } else {
-            say_wrapped(c.id + "  " + c.description + "\n");
+            say_wrapped(c.id + "  " + c.claim.description + "\n");
         }
     }
     if (options.json) {

@@ -43,7 +43,7 @@ namespace {
 void check_pictures(std::vector<run::PlannedCase>& plan) {
     run::Pool pool(cases::cores());
     for (run::PlannedCase& c : plan) {
-        if (c.data.expected_hits) {
+        if (c.data.claim.expected_hits) {
             pool.submit([&c] { c.error = run::check_before_running(c.data); }, [] {});
         }
     }

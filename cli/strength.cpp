@@ -94,7 +94,7 @@ cases::Errors tell_strength(const LoadedSuite& suite, const std::vector<size_t>&
     std::mutex mutex;
     std::map<std::string, Catches> files;
     for (const size_t k : selected) {
-        files[suite.cases[k].where.file];  // also of those that catch nothing
+        files[suite.cases[k].claim.where.file];  // also of those that catch nothing
     }
     std::map<size_t, cases::Error> errors;  // by number of the case: in its order
     for_each_on_threads(selected.size(), [&](size_t k) {
@@ -116,11 +116,12 @@ cases::Errors tell_strength(const LoadedSuite& suite, const std::vector<size_t>&
         }
         const std::lock_guard lock(mutex);
         if (!why.empty()) {
-            errors[k] = {c.where, fmt::format("{}: the software device fails without any fault: {}",
-                                              c.id, why)};
+            errors[k] = {
+                c.claim.where,
+                fmt::format("{}: the software device fails without any fault: {}", c.id, why)};
         }
         for (const auto& [fault, found] : own) {
-            keep(files[c.where.file], fault, found);
+            keep(files[c.claim.where.file], fault, found);
         }
     });
     if (!quiet) {

@@ -10,12 +10,12 @@
 namespace diff {
 
 std::string check_expected_hits(const cases::Case& c) {
-    if (!c.expected_hits) {
+    if (!c.claim.expected_hits) {
         return {};
     }
     const ref::Expectation e = ref::expect(c, ref::Limits{8}, cases::Profile::direct3d);
     // Row (layer * samples + s) * height + y is row y of sample s of a layer.
-    const std::vector<std::string>& rows = c.expected_hits->rows;
+    const std::vector<std::string>& rows = c.claim.expected_hits->rows;
     for (size_t row = 0; row < rows.size(); ++row) {
         const auto picture = static_cast<uint32_t>(row / c.target.height);
         cases::SampleId id{0, static_cast<uint32_t>(row % c.target.height),

@@ -94,12 +94,12 @@ void try_viewport_grid(const cases::Case& c, const ref::Limits& limits,
 CaseRecord make_record(const cases::Case& c) {
     CaseRecord record;
     record.id = c.id;
-    record.file = c.where.file;
-    record.line = c.where.line;
-    record.description = c.description;
-    record.rules = c.rules;
-    record.links = c.links;
-    record.catches = c.catches;
+    record.file = c.claim.where.file;
+    record.line = c.claim.where.line;
+    record.description = c.claim.description;
+    record.rules = c.claim.rules;
+    record.links = c.claim.links;
+    record.catches = c.claim.catches;
     // What a run asks for besides makes no other case of it.
     cases::Case own;
     if (!c.doors.empty()) {

@@ -27,7 +27,7 @@ std::vector<size_t> first_and_last(const std::vector<cases::Case>& cases,
     std::vector<size_t> out;
     for (size_t n = 0; n < selected.size(); ++n) {
         const auto is_other_file = [&](size_t m) {
-            return cases[selected[m]].where.file != cases[selected[n]].where.file;
+            return cases[selected[m]].claim.where.file != cases[selected[n]].claim.where.file;
         };
         if (n == 0 || n + 1 == selected.size() || is_other_file(n - 1) || is_other_file(n + 1)) {
             out.push_back(selected[n]);

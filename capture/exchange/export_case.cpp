@@ -369,9 +369,9 @@ std::string export_case(const cases::Case& c) {
     }
     Json out = {{"schema", "edgecase-case-1"},
                 {"id", c.id},
-                {"description", c.description},
-                {"catches", c.catches},
-                {"rules", c.rules},
+                {"description", c.claim.description},
+                {"catches", c.claim.catches},
+                {"rules", c.claim.rules},
                 {"needs", needs_of(c)},
                 {"target", target_json(c.target)},
                 {"draws", std::move(draws)},

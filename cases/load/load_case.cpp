@@ -31,7 +31,7 @@ class CaseLoader {
     CaseLoader(const TomlValue& root, LeafContext& context) : root_(root), context_(context) {}
 
     Case load() {
-        c_.where = {root_.where.file, 1, 1};
+        c_.claim.where = {root_.where.file, 1, 1};
         context_.known_keys(root_, kFileKeys);
         if (const TomlValue* format = required("format", "write format = 1")) {
             const std::optional<Number> n = context_.number(*format, "format");
@@ -41,10 +41,10 @@ class CaseLoader {
         }
         if (const TomlValue* value =
                 required("description", "say in one sentence what is claimed")) {
-            c_.description = sentence(*value, "description");
+            c_.claim.description = sentence(*value, "description");
         }
         if (const TomlValue* value = root_.find("catches")) {
-            c_.catches = sentence(*value, "catches");
+            c_.claim.catches = sentence(*value, "catches");
         }
         if (const TomlValue* value = required("rules", "name at least one rule of docs/rules.md")) {
             read_rules(*value);
@@ -104,10 +104,11 @@ class CaseLoader {
                                fmt::format("the rule \"{}\" is of devices, not of what they draw; "
                                            "'edgecase run {}' judges it, and no case can claim it",
                                            *id, kLimitsCase));
-            } else if (std::find(c_.rules.begin(), c_.rules.end(), *id) != c_.rules.end()) {
+            } else if (std::find(c_.claim.rules.begin(), c_.claim.rules.end(), *id) !=
+                       c_.claim.rules.end()) {
                 context_.error(element.where, fmt::format("the rule \"{}\" stands twice", *id));
             } else {
-                c_.rules.push_back(*id);
+                c_.claim.rules.push_back(*id);
             }
         }
     }
@@ -125,7 +126,7 @@ class CaseLoader {
                 context_.error(element.where,
                                fmt::format("the link \"{}\" does not start with https://", *link));
             }
-            c_.links.push_back(*link);
+            c_.claim.links.push_back(*link);
         }
     }
 
@@ -177,7 +178,8 @@ class CaseLoader {
             if (!context_.table(table, "draw")) {
                 continue;
             }
-            c_.draws.push_back(load_draw(context_, table, c_.target, c_.draws.size(), c_.notes));
+            c_.draws.push_back(
+                load_draw(context_, table, c_.target, c_.draws.size(), c_.claim.notes));
             const Draw& draw = c_.draws.back();
             vertices += draw.positions.size();
             indices += draw.indices ? draw.indices->size() : 0;
@@ -309,11 +311,11 @@ void read_expectation(LeafContext& context, const TomlValue& root, const std::st
         return;
     }
     if (leaf.empty()) {
-        c.expected_hits = read_hits(context, *expect, "[expect]", c.target);
+        c.claim.expected_hits = read_hits(context, *expect, "[expect]", c.target);
         return;
     }
     if (const TomlValue* table = expect->find(leaf); table != nullptr && table->is(Kind::table)) {
-        c.expected_hits =
+        c.claim.expected_hits =
             read_hits(context, *table, fmt::format("[expect.\"{}\"]", leaf), c.target);
     }
 }
@@ -427,8 +429,8 @@ ExpectedAll<std::vector<Case>> load_text(std::string_view toml, const std::strin
         if (contents == Contents::ids) {
             Case& c = cases.emplace_back();
             c.id = id;
-            c.where = {root->where.file, 1, 1};
-            c.parameters = std::move(texts);
+            c.claim.where = {root->where.file, 1, 1};
+            c.claim.parameters = std::move(texts);
             continue;
         }
         for (const auto& [key, value] : nominal) {
@@ -451,9 +453,9 @@ ExpectedAll<std::vector<Case>> load_text(std::string_view toml, const std::strin
         }
         used.insert(context.used().begin(), context.used().end());
         c.id = id;
-        c.parameters = std::move(texts);
+        c.claim.parameters = std::move(texts);
         if (!nominal.empty()) {
-            c.notes.push_back(note_of(nominal));
+            c.claim.notes.push_back(note_of(nominal));
         }
         cases.push_back(std::move(c));
     }

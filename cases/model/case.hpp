@@ -74,38 +74,47 @@ struct ExpectedHits {
     }
 };
 
-struct Case {
-    std::string id;  // path below the suite without .toml, plus ":key=value,..." for a matrix leaf
+// What a case file says of a case to its readers and to the reference. It alters no picture, so
+// workers are not told of it.
+struct Claim {
     SourceLocation where;
-    std::string description;         // what is claimed
+    std::string description;         // the claim, one sentence
     std::string catches;             // which fault would break it; may be empty
     std::vector<std::string> rules;  // rule ids, rule.hpp
     std::vector<std::string> links;  // reports from the field
     std::vector<std::pair<std::string, std::string>> parameters;  // matrix leaf, in file order
+    std::optional<ExpectedHits> expected_hits;
+    std::vector<std::string> notes;  // conversions that rounded, one sentence each
+    static void fields(auto&& visit, auto&... c) {
+        visit("where", c.where...);
+        visit("description", c.description...);
+        visit("catches", c.catches...);
+        visit("rules", c.rules...);
+        visit("links", c.links...);
+        visit("parameters", c.parameters...);
+        visit("expected_hits", c.expected_hits...);
+        visit("notes", c.notes...);
+    }
+};
+
+struct Case {
+    std::string id;  // path below the suite without .toml, plus ":key=value,..." for a matrix leaf
+    Claim claim;
     Target target;
     std::vector<Draw> draws;
     std::optional<Blit> blit = {};         // then there are no draws
     std::vector<Relation> relations = {};  // renderings that must have the same bits
     std::vector<Door> doors = {};          // the same, asked for by a run instead of the file
     Variation variation = {};  // of such a rendering, derive.hpp; neither in files nor on the wire
-    std::optional<ExpectedHits> expected_hits;
-    std::vector<std::string> notes;  // conversions that rounded, one sentence each
     static void fields(auto&& visit, auto&... c) {
         visit("id", c.id...);
-        visit({"where", kNotOnWire}, c.where...);  // up to parameters: for readers
-        visit({"description", kNotOnWire}, c.description...);
-        visit({"catches", kNotOnWire}, c.catches...);
-        visit({"rules", kNotOnWire}, c.rules...);
-        visit({"links", kNotOnWire}, c.links...);
-        visit({"parameters", kNotOnWire}, c.parameters...);
+        visit({"claim", kNotOnWire}, c.claim...);
         visit("target", c.target...);
         visit("draws", c.draws...);
         visit("blit", c.blit...);
         visit("relations", c.relations...);
         visit({"doors", kNotExported}, c.doors...);
         visit({"variation", kNotOnWire}, c.variation...);  // the worker makes it of relations
-        visit({"expected_hits", kNotOnWire}, c.expected_hits...);  // for the reference
-        visit({"notes", kNotOnWire}, c.notes...);                  // for readers
     }
 };
 

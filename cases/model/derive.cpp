@@ -199,7 +199,7 @@ std::vector<Derivation> derivations(const Case& c) {
 }
 
 bool claims_doors_alone(const Case& c) {
-    return std::all_of(c.rules.begin(), c.rules.end(),
+    return std::all_of(c.claim.rules.begin(), c.claim.rules.end(),
                        [](const std::string& rule) { return rule.starts_with("door."); });
 }
 
@@ -207,7 +207,7 @@ Case derive(const Case& c, const Derivation& derivation) {
     Case derived = c;
     derived.relations.clear();
     derived.doors.clear();
-    derived.expected_hits.reset();
+    derived.claim.expected_hits.reset();
     derived.variation = derivation.variation;
     if (derivation.kind == RelationKind::fewer_attributes) {
         drop_attributes(derived);

@@ -94,7 +94,7 @@ struct Matcher {
             return failure(with_hint("no rule is called " + pattern, nearest_name(pattern, names)));
         }
         for (size_t i = 0; i < all.size(); ++i) {
-            const std::vector<std::string>& rules = all[i].rules;
+            const std::vector<std::string>& rules = all[i].claim.rules;
             chosen[i] = std::any_of(rules.begin(), rules.end(),
                                     [&](const std::string& r) { return match(pattern, r); });
         }
@@ -114,7 +114,7 @@ struct Matcher {
             return chosen;
         }
         for (size_t i = 0; i < all.size(); ++i) {
-            const fs::path file = fs::weakly_canonical(all[i].where.file, ignored);
+            const fs::path file = fs::weakly_canonical(all[i].claim.where.file, ignored);
             const auto [rest, in_file] =
                 std::mismatch(path.begin(), path.end(), file.begin(), file.end());
             chosen[i] = rest == path.end();

@@ -46,13 +46,13 @@ std::string relations_text(const std::vector<Relation>& relations) {
 std::string head_text(const Case& c) {
     TableText table(kFileKeys);
     table.add("format", "1");
-    table.add("description", string_toml(c.description));
-    if (!c.catches.empty()) {
-        table.add("catches", string_toml(c.catches));
+    table.add("description", string_toml(c.claim.description));
+    if (!c.claim.catches.empty()) {
+        table.add("catches", string_toml(c.claim.catches));
     }
-    table.add("rules", strings_text(c.rules));
-    if (!c.links.empty()) {
-        table.add("links", strings_text(c.links));
+    table.add("rules", strings_text(c.claim.rules));
+    if (!c.claim.links.empty()) {
+        table.add("links", strings_text(c.claim.links));
     }
     if (!c.relations.empty()) {
         table.add("relations", relations_text(c.relations));
@@ -146,7 +146,7 @@ std::string expect_text(const ExpectedHits& expected, const Target& t) {
 }
 
 std::vector<std::string> rows_of(const Case& c) {
-    return c.expected_hits ? c.expected_hits->rows : std::vector<std::string>();
+    return c.claim.expected_hits ? c.claim.expected_hits->rows : std::vector<std::string>();
 }
 
 // Why the text does not say all that the case is; empty if it does.
@@ -156,9 +156,10 @@ std::string objection(const std::string& text, const Case& c) {
         return loaded.error().front().message;
     }
     const Case& back = loaded->front();
-    const bool same_words = back.description == c.description && back.catches == c.catches &&
-                            back.rules == c.rules && back.links == c.links &&
-                            back.variation == c.variation && rows_of(back) == rows_of(c);
+    const bool same_words =
+        back.claim.description == c.claim.description && back.claim.catches == c.claim.catches &&
+        back.claim.rules == c.claim.rules && back.claim.links == c.claim.links &&
+        back.variation == c.variation && rows_of(back) == rows_of(c);
     return same_words && to_bytes(back) == to_bytes(c) ? std::string()
                                                        : "it holds what no key of a case file says";
 }
@@ -184,8 +185,8 @@ Expected<std::string> to_toml(const Case& c) {
     if (c.blit) {
         text += blit_text(*c.blit, c.target);
     }
-    if (c.expected_hits) {
-        text += expect_text(*c.expected_hits, c.target);
+    if (c.claim.expected_hits) {
+        text += expect_text(*c.claim.expected_hits, c.target);
     }
     if (const std::string why = objection(text, c); !why.empty()) {
         return failure("{} cannot be written as a case file: {}", c.id, why);

@@ -93,7 +93,7 @@ std::vector<Open> failing_cases(const ExpectedFailures& expected, Reducer& reduc
         CaseRecord record = records[k];
         apply(expected.cases[k].line, record);
         cases::Case c = expected.cases[k].data;
-        c.expected_hits.reset();
+        c.claim.expected_hits.reset();
         const cases::Expected<std::string> text = cases::to_toml(c);
         std::vector<Symptom> symptoms = fuzz::symptoms_of(records[k]);
         if (record.status == Status::xfail && text && !symptoms.empty()) {

@@ -38,7 +38,7 @@ File read(const std::string& name) {
 std::map<std::string, File> read_files(const LoadedSuite& suite) {
     std::map<std::string, File> files;
     for (const size_t k : suite.selected) {
-        const std::string& name = suite.cases[k].where.file;
+        const std::string& name = suite.cases[k].claim.where.file;
         if (!files.contains(name)) {
             files.emplace(name, read(name));
         }
@@ -51,8 +51,8 @@ cases::Errors check_open_values(const LoadedSuite& suite,
     std::map<std::string, std::vector<fuzz::Start>> open;
     for (const size_t k : suite.selected) {
         const cases::Case& c = suite.cases[k];
-        if (const File& file = files.at(c.where.file); file.open) {
-            open[c.where.file].push_back({c, file.open});
+        if (const File& file = files.at(c.claim.where.file); file.open) {
+            open[c.claim.where.file].push_back({c, file.open});
         }
     }
     cases::Errors errors;
@@ -97,7 +97,7 @@ OrStop<StartCases> start_cases(const Program& program, const SuiteOptions& optio
     uint64_t hash = 0;
     for (const size_t k : suite->selected) {
         cases::Case& c = suite->cases[k];
-        const File& file = files.at(c.where.file);
+        const File& file = files.at(c.claim.where.file);
         hash = cases::stable_hash(c.id + cases::hex(file.hash), hash);
         starts.push_back({std::move(c), file.open});
     }

@@ -388,8 +388,9 @@ void define_others(CLI::App& app, AllOptions& all) {
     add_profile(render, all.render.profile);
     add_judged_device(render, all.render.judged);
     add_choice(render, "--renderer", all.render.renderer, drawing_names(),
-               "what draws: an algorithm of docs/algorithms.md or the reference; allowed: no "
-               "drawing, but what the reference allows");
+               "what draws: an algorithm of docs/algorithms.md, the reference or the software "
+               "rasterizer; allowed: no drawing, but what the reference allows",
+               takes_choices);
     define_images(app, all);
 
     CLI::App* doctor =

@@ -46,9 +46,6 @@ const std::map<std::string, std::string>& renderer_names() {
     return kNames;
 }
 
-namespace {
-
-// A renderer with choices: "software:ties=top-right".
 bool takes_choices(const std::string& words, std::string& renderer) {
     const capture::RendererKind* const kind = capture::find_renderer(all_renderers(), words);
     if (kind == nullptr || kind->wrong_choices == nullptr) {
@@ -61,8 +58,6 @@ bool takes_choices(const std::string& words, std::string& renderer) {
     renderer = words;
     return true;
 }
-
-}  // namespace
 
 bool parse_pair(const std::string& text, char separator, uint32_t& a, uint32_t& b) {
     const size_t at = text.find(separator);

@@ -82,6 +82,8 @@ bool parse_pair(const std::string& text, char separator, uint32_t& a, uint32_t& 
 const std::map<std::string, When>& when_names();
 // What --renderer takes; the options keep a reference to it.
 const std::map<std::string, std::string>& renderer_names();
+// Whether it is one with choices: "software:ties=top-right".
+bool takes_choices(const std::string& words, std::string& renderer);
 
 void add_suite_folder(CLI::App* app, SuiteOptions& o);
 void add_suite(CLI::App* app, SuiteOptions& o);

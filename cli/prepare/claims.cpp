@@ -28,8 +28,8 @@ std::string_view condition_of(const std::string& rule) {
 }  // namespace
 
 cases::SourceLocation rule_place(const cases::Case& c, std::string_view rule) {
-    const std::string text = cases::read_file(c.where.file).value_or("");
-    const auto document = cases::read_toml(text, c.where.file);
+    const std::string text = cases::read_file(c.claim.where.file).value_or("");
+    const auto document = cases::read_toml(text, c.claim.where.file);
     const cases::TomlValue* const rules = document ? document->find("rules") : nullptr;
     if (rules != nullptr) {
         for (const cases::TomlValue& element : rules->array) {
@@ -38,28 +38,29 @@ cases::SourceLocation rule_place(const cases::Case& c, std::string_view rule) {
             }
         }
     }
-    return c.where;
+    return c.claim.where;
 }
 
 std::vector<std::string> ClaimedFile::open_rules() const {
     std::vector<std::string> out;
     for (size_t k = 0; k < exercised.size(); ++k) {
         if (!exercised[k]) {
-            out.push_back(first->rules[k]);
+            out.push_back(first->claim.rules[k]);
         }
     }
     return out;
 }
 
 bool ClaimedFile::has(std::string_view rule) const {
-    const auto at = std::ranges::find(first->rules, rule);
-    return at != first->rules.end() && exercised[static_cast<size_t>(at - first->rules.begin())];
+    const auto at = std::ranges::find(first->claim.rules, rule);
+    return at != first->claim.rules.end() &&
+           exercised[static_cast<size_t>(at - first->claim.rules.begin())];
 }
 
 void ClaimedFile::note(const ref::Exercise& found) {
     for (const ref::RuleShare& share : found.rules) {
         for (size_t k = 0; k < exercised.size(); ++k) {
-            if (share.samples > 0 && share.rule == first->rules[k]) {
+            if (share.samples > 0 && share.rule == first->claim.rules[k]) {
                 exercised[k] = true;
             }
         }
@@ -76,11 +77,11 @@ std::map<std::string, ClaimedFile> claimed_files(const std::vector<cases::Case>&
                                                  const std::set<std::string>& parts) {
     std::map<std::string, ClaimedFile> files;
     for (const size_t k : chosen) {
-        files.try_emplace(all[k].where.file, all[k]).first->second.cases.push_back(k);
+        files.try_emplace(all[k].claim.where.file, all[k]).first->second.cases.push_back(k);
     }
     std::map<std::string, size_t> counts;
     for (const cases::Case& c : all) {
-        ++counts[c.where.file];
+        ++counts[c.claim.where.file];
     }
     for (auto& [name, file] : files) {
         file.is_whole = file.cases.size() == counts[name] && !parts.contains(name);
@@ -98,7 +99,7 @@ constexpr std::string_view kOfUnseenDraws[] = {
 
 void check_draws(const ClaimedFile& file, cases::Errors& errors) {
     if (std::ranges::any_of(kOfUnseenDraws, [&](std::string_view rule) {
-            return std::ranges::count(file.first->rules, rule) > 0;
+            return std::ranges::count(file.first->claim.rules, rule) > 0;
         })) {
         return;
     }

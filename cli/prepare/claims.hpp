@@ -27,7 +27,7 @@ struct ClaimedFile {
     std::vector<std::atomic<ref::Sight>> draws;  // the best sight of each
 
     explicit ClaimedFile(const cases::Case& c)
-        : first(&c), exercised(c.rules.size()), draws(c.draws.size()) {}
+        : first(&c), exercised(c.claim.rules.size()), draws(c.draws.size()) {}
     // The claims of which no sample is known yet.
     std::vector<std::string> open_rules() const;
     // Whether a sample is known that exercises the rule, which is claimed.

@@ -56,9 +56,10 @@ Stop explain_death(const run::Death& death) {
 }
 
 OrStop<run::WorkerClient> start_first_worker(const run::LoopConfig& config) {
-    if (const capture::Installed installed = find_drivers(config.worker.device);
-        !installed.problem.empty()) {
-        return tl::unexpected(Stop{report::kExitDevice, {installed.problem}});
+    const capture::RendererOptions& device = config.worker.device;
+    if (std::string wrong = device.icd.empty() ? "" : find_drivers(device).problem;
+        !wrong.empty()) {
+        return tl::unexpected(Stop{report::kExitDevice, {std::move(wrong)}});
     }
     cases::Expected<run::WorkerClient> client =
         run::WorkerClient::start(config.command, config.worker, config.timeout);

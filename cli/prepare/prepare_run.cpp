@@ -62,7 +62,7 @@ void warn(cases::Error error) {
 void warn_of_profile(const std::map<std::string, ClaimedFile>& files, cases::Profile profile) {
     std::map<std::string, std::vector<const ClaimedFile*>> claims;
     for (const auto& [name, file] : files) {
-        for (const std::string& id : file.first->rules) {
+        for (const std::string& id : file.first->claim.rules) {
             const cases::Rule* const rule = cases::find_rule(id);
             if (rule != nullptr && rule->profile > profile) {
                 claims[id].push_back(&file);
@@ -89,7 +89,7 @@ void warn_of_claims(const Selection& selection, const SuiteOptions& suite, cases
     const std::set<std::string> named(suite.selectors.begin(), suite.selectors.end());
     std::vector<size_t> own;
     for (size_t k = 0; k < selected.size(); ++k) {
-        const std::string& file = selected[k].where.file;
+        const std::string& file = selected[k].claim.where.file;
         if (named.contains(file) || selection.own_files.contains(file)) {
             own.push_back(k);
         }

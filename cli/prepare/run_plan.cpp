@@ -137,7 +137,7 @@ OrStop<Selection> select_cases(const Program& program, const RunOptions& options
     selection.known_ids = suite->ids();
     selection.suite_ids = suite->suite_ids();
     for (size_t k = suite->outside; k < suite->cases.size(); ++k) {
-        selection.own_files.insert(suite->cases[k].where.file);
+        selection.own_files.insert(suite->cases[k].claim.where.file);
     }
     if (!options.doors.empty() && options.doors != "none" &&
         renderer_of(options.device).needs == nullptr) {
@@ -148,7 +148,7 @@ OrStop<Selection> select_cases(const Program& program, const RunOptions& options
     }
     std::map<std::string, size_t> left_out;  // leaves by file
     for (const cases::Case& c : suite->cases) {
-        ++left_out[c.where.file];
+        ++left_out[c.claim.where.file];
     }
     std::vector<std::string> ids;
     std::set<std::string> own;
@@ -161,7 +161,7 @@ OrStop<Selection> select_cases(const Program& program, const RunOptions& options
         }
         ids.push_back(c.id);
         if (k >= suite->outside) {
-            own.insert(c.where.file);
+            own.insert(c.claim.where.file);
         }
         chosen.push_back(&c);
     }
@@ -172,7 +172,7 @@ OrStop<Selection> select_cases(const Program& program, const RunOptions& options
     selection.left_out_doors = std::move(*doors);
     for (cases::Case* c : chosen) {
         if (run::shard_of(c->id, options.shard.count) == options.shard.index) {
-            --left_out[c->where.file];
+            --left_out[c->claim.where.file];
             selection.cases.push_back(std::move(*c));
         }
     }

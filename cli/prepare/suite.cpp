@@ -114,18 +114,18 @@ class FileIds {
   public:
     explicit FileIds(const LoadedSuite& suite) : root_(suite.root), reads_(suite.cases.empty()) {
         for (const cases::Case& c : suite.cases) {
-            files_.emplace(id_of_file(c), c.where.file);
+            files_.emplace(id_of_file(c), c.claim.where.file);
         }
     }
     // Adds the file of a case, unless another one has its id: that one is returned, else "". Where
     // the suite was not loaded, its folder is asked.
     std::string add(const cases::Case& c) {
         const std::string id = id_of_file(c);
-        const auto [at, fresh] = files_.emplace(id, c.where.file);
+        const auto [at, fresh] = files_.emplace(id, c.claim.where.file);
         std::error_code none;
         if (!fresh) {
-            const bool is_same =
-                at->second == c.where.file || fs::equivalent(at->second, c.where.file, none);
+            const bool is_same = at->second == c.claim.where.file ||
+                                 fs::equivalent(at->second, c.claim.where.file, none);
             return is_same ? "" : at->second;
         }
         const fs::path file = root_ / (id + ".toml");
@@ -146,9 +146,9 @@ OrStop<LoadedSuite> load_contents(LoadedSuite suite) {
             continue;  // read already
         }
         cases::Case& c = suite.cases[k];
-        const auto [file, fresh] = files.try_emplace(c.where.file);
+        const auto [file, fresh] = files.try_emplace(c.claim.where.file);
         if (fresh) {
-            auto loaded = cases::load_file(c.where.file, suite.root);
+            auto loaded = cases::load_file(c.claim.where.file, suite.root);
             if (!loaded) {
                 return tl::unexpected(invalid_files(loaded.error()));
             }
@@ -157,8 +157,8 @@ OrStop<LoadedSuite> load_contents(LoadedSuite suite) {
         const auto full = std::find_if(file->second.begin(), file->second.end(),
                                        [&](const cases::Case& other) { return other.id == c.id; });
         if (full == file->second.end()) {
-            return tl::unexpected(
-                stop_with(report::kExitInvalidFile, c.where.file + " changed while it was read"));
+            return tl::unexpected(stop_with(report::kExitInvalidFile,
+                                            c.claim.where.file + " changed while it was read"));
         }
         c = std::move(*full);
         full->id.clear();
@@ -196,7 +196,7 @@ OrStop<std::vector<std::string>> load_outside_files(const SuiteOptions& options,
             return tl::unexpected(invalid_files(loaded.error()));
         }
         if (!leaf.empty()) {
-            suite.parts.insert(loaded->front().where.file);
+            suite.parts.insert(loaded->front().claim.where.file);
             std::erase_if(*loaded, [&ending = leaf](const cases::Case& c) {
                 return c.id.substr(c.id.find(':') + 1) != ending;
             });
@@ -210,13 +210,13 @@ OrStop<std::vector<std::string>> load_outside_files(const SuiteOptions& options,
             if (const std::string known = files.add(c); !known.empty()) {
                 return tl::unexpected(
                     Stop{report::kExitInvalidFile,
-                         {c.where.file + ": error: its id '" + id_of_file(c) +
+                         {c.claim.where.file + ": error: its id '" + id_of_file(c) +
                           "' is already that of " + known + "; rename the file"}});
             }
             if (!named.insert(c.id).second) {
                 return tl::unexpected(
                     Stop{report::kExitUsage,
-                         {"the file " + c.where.file + " is named twice; name it once"}});
+                         {"the file " + c.claim.where.file + " is named twice; name it once"}});
             }
             suite.cases.push_back(std::move(c));
         }

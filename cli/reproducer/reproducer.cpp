@@ -218,7 +218,7 @@ cases::Expected<std::string> reproducer(const cases::Case& filed, const ref::Lim
                "//     cc -std=c99 FILE.c -lvulkan -lm && ./a.out [PART OF THE DEVICE'S NAME]\n"
                "// Exit code: 0 all samples are right, 1 some are wrong, 2 it could not be "
                "drawn.\n",
-               id, c_text(c.description), version)
+               id, c_text(c.claim.description), version)
         .append(kTypes.substr(kTypes.find("#include")))
         .append(fmt::format("static const char kCase[] = \"{}\";\n"
                             "static const char kProfile[] = \"judged at profile {} with {} "

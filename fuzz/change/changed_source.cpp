@@ -25,9 +25,9 @@ constexpr int kRolls = 6;        // of a change, until it finds what it changes
 // The case as a document of its own: without what a file says of it and what it no longer is.
 // Nothing if it is too large to be written.
 Document document_of(cases::Case c) {
-    c.catches.clear();
-    c.links.clear();
-    c.expected_hits.reset();
+    c.claim.catches.clear();
+    c.claim.links.clear();
+    c.claim.expected_hits.reset();
     const cases::Expected<std::string> text = cases::to_toml(c);
     if (!text) {
         return {};
@@ -52,7 +52,7 @@ Document closed(const Start& start, const std::vector<std::pair<std::string, Doc
     Document document = *start.open;
     Document matrix = table();
     if (const auto read = cases::read_matrix(document.find("matrix"), document.find("leaves"))) {
-        for (const auto& [key, text] : start.data.parameters) {
+        for (const auto& [key, text] : start.data.claim.parameters) {
             for (const cases::Matrix::Axis& axis : read->axes) {
                 for (size_t v = 0; axis.key == key && v < axis.values.size(); ++v) {
                     if (axis.texts[v] == text) {

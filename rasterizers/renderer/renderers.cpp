@@ -43,8 +43,8 @@ class BuiltIn : public capture::Renderer {
     using Draw = std::function<capture::Capture(const cases::Case&)>;
     using Lacking = std::string (*)(const cases::Case&);
 
-    BuiltIn(capture::DeviceInfo device, Draw draw, Lacking lacking = nullptr)
-        : device_(std::move(device)), draw_(std::move(draw)), lacking_(lacking) {}
+    BuiltIn(capture::DeviceInfo device, Draw draw, Lacking lacks = nullptr)
+        : device_(std::move(device)), draw_(std::move(draw)), lacking_(lacks) {}
     const capture::DeviceInfo& device() const override { return device_; }
     std::string lacking(const cases::Case& c) const override {
         return c.variation.door != cases::Door::none

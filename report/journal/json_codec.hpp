@@ -132,7 +132,7 @@ void decode(const nlohmann::ordered_json& json, const char* key, T& to) {
     } else if constexpr (std::is_same_v<T, std::string>) {
         to = decode_text(json, key);
     } else if constexpr (std::is_floating_point_v<T>) {
-        to = decode_number(json, key);
+        to = static_cast<T>(decode_number(json, key));
     } else if constexpr (std::is_same_v<T, bool>) {
         if (!json.is_boolean()) {
             detail::fail(key, "is neither true nor false");

@@ -120,7 +120,7 @@ int main(int argc, char** argv) {
     std::map<std::string, std::set<std::string>> files_of_rule;
     std::map<std::string, size_t> leaves_of_rule;
     for (const cases::Case& c : suite.cases) {
-        for (const std::string& rule : c.rules) {
+        for (const std::string& rule : c.claim.rules) {
             files_of_rule[rule].insert(c.id.substr(0, c.id.find(':')));
             ++leaves_of_rule[rule];
         }

@@ -101,7 +101,7 @@ TEST(Suite, NothingDrawnFailsEveryCase) {
         device, cases::Profile::vulkan,
         [](size_t k, const cases::Case& c) {
             return is_every_leaf_asked() || k % 32 == 0 ||
-                   suite().cases[k - 1].where.file != c.where.file;
+                   suite().cases[k - 1].claim.where.file != c.claim.where.file;
         },
         [](const diff::Verdict& verdict) { return !verdict.error.empty() || verdict.ok(); });
     EXPECT_TRUE(passed.empty()) << "these notice no black picture:" << joined(passed);

@@ -22,7 +22,7 @@ using cases::Case;
 Case full_case() {
     Case c;
     c.id = "a/b";
-    c.rules = {"cover.inside"};
+    c.claim.rules = {"cover.inside"};
     c.target = {4, 2, 4};
     c.target.layers = 2;
     c.target.color = cases::ColorTarget{};
@@ -255,7 +255,7 @@ std::vector<Change> attribute_changes() {
 Case blit_case() {
     Case c;
     c.id = "a/b";
-    c.rules = {"blit.nearest"};
+    c.claim.rules = {"blit.nearest"};
     c.target = {4, 4};
     c.target.color = cases::ColorTarget{};
     c.blit = cases::Blit{};

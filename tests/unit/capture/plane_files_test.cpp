@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 cases::Case plain_case(uint32_t samples) {
     cases::Case c;
     c.id = "a/b:k=1/2";
-    c.rules = {"cover.inside"};
+    c.claim.rules = {"cover.inside"};
     c.target = {2, 1, samples};
     cases::Draw draw;
     draw.positions = {{-1, -1, 0.5F, 1}, {1, -1, 0.5F, 1}, {-1, 1, 0.5F, 1}};

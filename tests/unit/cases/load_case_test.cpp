@@ -76,12 +76,12 @@ hits = """
     ASSERT_EQ(all.size(), 1U);
     const Case& c = all[0];
     EXPECT_EQ(c.id, "family/name");
-    EXPECT_EQ(c.where.file, "f.toml");
-    EXPECT_EQ(c.description, "d");
-    EXPECT_EQ(c.catches, "c");
-    EXPECT_EQ(c.rules, (std::vector<std::string>{"cover.inside", "tie.top-left"}));
-    EXPECT_EQ(c.links, std::vector<std::string>{"https://example.org"});
-    EXPECT_TRUE(c.parameters.empty());
+    EXPECT_EQ(c.claim.where.file, "f.toml");
+    EXPECT_EQ(c.claim.description, "d");
+    EXPECT_EQ(c.claim.catches, "c");
+    EXPECT_EQ(c.claim.rules, (std::vector<std::string>{"cover.inside", "tie.top-left"}));
+    EXPECT_EQ(c.claim.links, std::vector<std::string>{"https://example.org"});
+    EXPECT_TRUE(c.claim.parameters.empty());
     EXPECT_EQ(c.target, (Target{8, 4, 1}));
     ASSERT_EQ(c.draws.size(), 2U);
     const Draw& d = c.draws[0];
@@ -107,10 +107,10 @@ hits = """
     EXPECT_EQ(c.draws[1].cull, CullMode::none);
     EXPECT_FALSE(c.draws[1].indices);
     EXPECT_EQ(c.draws[1].positions, (Vectors{{-1, -1, 0.5, 1}, {1, -1, 0.5, 1}, {-1, 1, 0.5, 1}}));
-    ASSERT_TRUE(c.expected_hits);
-    EXPECT_EQ(c.expected_hits->rows,
+    ASSERT_TRUE(c.claim.expected_hits);
+    EXPECT_EQ(c.claim.expected_hits->rows,
               (std::vector<std::string>{"1111?...", "12......", "........", "....9..."}));
-    EXPECT_TRUE(c.notes.empty());
+    EXPECT_TRUE(c.claim.notes.empty());
 }
 
 TEST(LoadCase, TakesBomAndCrLf) {
@@ -121,7 +121,7 @@ TEST(LoadCase, TakesBomAndCrLf) {
     }
     const std::vector<Case> all = load("\xef\xbb\xbf" + toml);
     ASSERT_EQ(all.size(), 1U);
-    EXPECT_EQ(all[0].expected_hits->rows, std::vector<std::string>{"1."});
+    EXPECT_EQ(all[0].claim.expected_hits->rows, std::vector<std::string>{"1."});
 }
 
 TEST(LoadCase, ReadsMultisampleState) {
@@ -138,8 +138,8 @@ TEST(LoadCase, ReadsMultisampleState) {
     EXPECT_EQ(c.target.sample_locations, (std::vector<std::array<uint8_t, 2>>{{0, 15}, {8, 8}}));
     EXPECT_EQ(c.draws[0].multisample, (Multisample{2U, 0xfffffffeU, 0.5F}));
     EXPECT_EQ(c.draws[1].multisample, Multisample{});
-    ASSERT_TRUE(c.expected_hits);
-    EXPECT_EQ(c.expected_hits->rows, (std::vector<std::string>{"1.", "?2"}));
+    ASSERT_TRUE(c.claim.expected_hits);
+    EXPECT_EQ(c.claim.expected_hits->rows, (std::vector<std::string>{"1.", "?2"}));
 }
 
 TEST(LoadCase, KeepsBitsInClipSpace) {
@@ -162,7 +162,7 @@ TEST(LoadCase, ConvertsPixelsOnceAndNotesRounding) {
     EXPECT_EQ(all[0].draws[0].positions,
               (Vectors{{-1, -1, 0.5, 1}, {1, -1, 0.5, 1}, {0.6F, 0, 0.75, 3}}));
     // 0.6f - 0.6 = 2^-24 * 0.4, times 5/3 pixels.
-    EXPECT_EQ(all[0].notes,
+    EXPECT_EQ(all[0].claim.notes,
               std::vector<std::string>{
                   "draw 0: 1 of 3 vertices were rounded to binary32 in clip space, the first is "
                   "vertex 2; x and y moved by at most 3.97e-08 pixels"});
@@ -177,7 +177,7 @@ TEST(LoadCase, NotesVerticesWithoutTriangle) {
     const std::vector<Case> all = load(
         kCaseHead + "[target]\nsize = [8,8]\n[[draw]]\nvertices = [[0,0],[8,0],[0,8],[1,1]]\n");
     ASSERT_EQ(all.size(), 1U);
-    EXPECT_EQ(all[0].notes,
+    EXPECT_EQ(all[0].claim.notes,
               std::vector<std::string>{"draw 0: the last 1 of 4 vertices make no triangle"});
 }
 
@@ -303,10 +303,10 @@ cull = "cull"
     for (size_t i = 0; i < 8; ++i) {
         EXPECT_EQ(all[i].id, ids[i]);
         EXPECT_EQ(all[i].draws[0].cull, i % 4 < 2 ? CullMode::none : CullMode::back);
-        EXPECT_EQ(all[i].expected_hits.has_value(), i == 3);
+        EXPECT_EQ(all[i].claim.expected_hits.has_value(), i == 3);
         EXPECT_FLOAT_EQ(all[i].draws[0].positions[1].x, i < 4 ? 1.0F : 0.0F);
     }
-    EXPECT_EQ(all[5].parameters, (std::vector<std::pair<std::string, std::string>>{
+    EXPECT_EQ(all[5].claim.parameters, (std::vector<std::pair<std::string, std::string>>{
                                      {"zoom", "0.5"}, {"cull", "none"}, {"deep", "-2"}}));
 }
 
@@ -350,11 +350,11 @@ cull = "cull"
     for (size_t i = 0; i < 5; ++i) {
         EXPECT_EQ(pairs[i].id, ids[i]);
         EXPECT_EQ((*by_id)[i].id, ids[i]);
-        EXPECT_EQ(pairs[i].expected_hits.has_value(), i == 2);
+        EXPECT_EQ(pairs[i].claim.expected_hits.has_value(), i == 2);
         const auto same = std::find_if(all.begin(), all.end(),
                                        [&](const Case& c) { return c.id == pairs[i].id; });
         ASSERT_NE(same, all.end());
-        EXPECT_EQ(pairs[i].parameters, same->parameters);
+        EXPECT_EQ(pairs[i].claim.parameters, same->parameters);
         EXPECT_EQ(pairs[i].draws[0].positions, same->draws[0].positions);
         EXPECT_EQ(pairs[i].draws[0].cull, same->draws[0].cull);
     }

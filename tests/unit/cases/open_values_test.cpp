@@ -80,11 +80,11 @@ TEST(OpenValues, TheNominalCaseIsDrawn) {
     ASSERT_EQ(loaded->size(), 1U);
     const Case& c = loaded->front();
     EXPECT_EQ(c.id, "id");
-    EXPECT_TRUE(c.parameters.empty());
+    EXPECT_TRUE(c.claim.parameters.empty());
     EXPECT_EQ(c.draws[0].positions[0].x, 2 * 1.5F / 8 - 1);
     EXPECT_EQ(c.draws[0].positions[0].y, 2 * 3.0F / 8 - 1);
-    ASSERT_EQ(c.notes.size(), 1U);
-    EXPECT_EQ(c.notes[0],
+    ASSERT_EQ(c.claim.notes.size(), 1U);
+    EXPECT_EQ(c.claim.notes[0],
               "[fuzz] leaves open what 'edgecase fuzz FILE' varies; here x = 3/2, y = 3");
 }
 

@@ -19,9 +19,9 @@ std::vector<Case> suite() {
     const auto add = [&](const char* id, std::vector<std::string> rules) {
         Case c;
         c.id = id;
-        c.rules = std::move(rules);
+        c.claim.rules = std::move(rules);
         const std::string path = c.id.substr(0, c.id.find(':'));
-        c.where.file = "no-such-folder/" + path + ".toml";
+        c.claim.where.file = "no-such-folder/" + path + ".toml";
         all.push_back(std::move(c));
     };
     add("coverage/half-square", {"cover.inside"});          // 0

@@ -52,7 +52,7 @@ std::string vertices_of(const std::string& draw) {
 }
 
 std::vector<std::string> rows_of(const Case& c) {
-    return c.expected_hits ? c.expected_hits->rows : std::vector<std::string>();
+    return c.claim.expected_hits ? c.claim.expected_hits->rows : std::vector<std::string>();
 }
 
 }  // namespace
@@ -85,10 +85,10 @@ TEST(ToToml, GivesBackEveryLeafOfTheSuite) {
         const std::optional<Case> back = load_one(*text, c.id);
         ASSERT_TRUE(back);
         EXPECT_EQ(to_bytes(*back), to_bytes(c)) << c.id << "\n" << *text;
-        EXPECT_EQ(back->description, c.description);
-        EXPECT_EQ(back->catches, c.catches);
-        EXPECT_EQ(back->rules, c.rules);
-        EXPECT_EQ(back->links, c.links);
+        EXPECT_EQ(back->claim.description, c.claim.description);
+        EXPECT_EQ(back->claim.catches, c.claim.catches);
+        EXPECT_EQ(back->claim.rules, c.claim.rules);
+        EXPECT_EQ(back->claim.links, c.claim.links);
         EXPECT_EQ(rows_of(*back), rows_of(c)) << c.id;
         const Expected<std::string> again = to_toml(*back);
         ASSERT_TRUE(again);
@@ -386,7 +386,7 @@ TEST(ToToml, SaysWhatCannotBeWritten) {
               "error: family/name cannot be written as a case file: it holds what no key of a case "
               "file says");
     c = *plain;
-    c.rules.clear();
+    c.claim.rules.clear();
     EXPECT_EQ(error_of(c),
               "error: family/name cannot be written as a case file: rules is empty, so "
               "the case claims nothing; name at least one rule of docs/rules.md");

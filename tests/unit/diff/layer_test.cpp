@@ -145,12 +145,12 @@ TEST(LayeredCompare, ADifferenceOfARelationIsInItsLayer) {
 // The picture drawn by hand has all samples of layer 0 first.
 TEST(LayeredPicture, TheReferenceIsCheckedLayerByLayer) {
     cases::Case c = two_of_three();
-    c.expected_hits = cases::ExpectedHits{{"........", "........", "........", "........",  //
-                                           "1111111.", "11111...", "111.....", "1.......",  //
-                                           "111.....", "1.......", "........", "........"},
-                                          {}};
+    c.claim.expected_hits = cases::ExpectedHits{{"........", "........", "........", "........",  //
+                                                 "1111111.", "11111...", "111.....", "1.......",  //
+                                                 "111.....", "1.......", "........", "........"},
+                                                {}};
     EXPECT_EQ(diff::check_expected_hits(c), "");
-    std::swap(c.expected_hits->rows[4], c.expected_hits->rows[8]);
+    std::swap(c.claim.expected_hits->rows[4], c.claim.expected_hits->rows[8]);
     EXPECT_EQ(diff::check_expected_hits(c),
               "the picture has '.' at layer 1, pixel (3, 0), the reference says 1 hit");
 }

@@ -149,11 +149,11 @@ TEST(ChangedSource, CasesAreCasesThatSayWhatWasChanged) {
         ++made;
         ASSERT_TRUE(one.data);
         EXPECT_TRUE(load_one(one.text, "again")) << one.text;
-        const std::string& description = one.data->description;
+        const std::string& description = one.data->claim.description;
         EXPECT_THAT(description, StartsWith("Made by edgecase fuzz of "));
         EXPECT_THAT(description, HasSubstr(": ")) << description;
-        EXPECT_FALSE(one.data->expected_hits) << one.text;
-        EXPECT_TRUE(one.data->links.empty());
+        EXPECT_FALSE(one.data->claim.expected_hits) << one.text;
+        EXPECT_TRUE(one.data->claim.links.empty());
         ++from[description.substr(25, description.find(": ") - 25)];
         texts.insert(one.text);
     }

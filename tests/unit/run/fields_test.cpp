@@ -52,16 +52,15 @@ std::set<std::string> listed() {
 template <class T>
 class Fields : public testing::Test {};
 
-using Structures =
-    testing::Types<cases::SourceLocation, cases::Viewport, cases::Rect, cases::Attribute,
-                   cases::DepthBias, cases::DepthState, cases::ClipDistances, cases::Multisample,
-                   cases::BlendEquation, cases::Blend, cases::ColorOutput, cases::ColorTarget,
-                   cases::Draw, cases::Target, cases::Corners, cases::Blit, cases::ExpectedHits,
-                   cases::Case, cases::Relation, cases::Variation, capture::StrayWrite,
-                   diff::Difference, diff::Consistency, diff::Finding, diff::Outcome,
-                   capture::DeviceInfo, report::Pictures, report::Geometry, report::SampleValue,
-                   report::SampleEvidence, report::PlannedCase, report::RunHeader, report::RunEnd,
-                   capture::Failure, capture::RendererOptions, capture::Rendered, WorkerOptions>;
+using Structures = testing::Types<
+    cases::SourceLocation, cases::Viewport, cases::Rect, cases::Attribute, cases::DepthBias,
+    cases::DepthState, cases::ClipDistances, cases::Multisample, cases::BlendEquation, cases::Blend,
+    cases::ColorOutput, cases::ColorTarget, cases::Draw, cases::Target, cases::Corners, cases::Blit,
+    cases::ExpectedHits, cases::Claim, cases::Case, cases::Relation, cases::Variation,
+    capture::StrayWrite, diff::Difference, diff::Consistency, diff::Finding, diff::Outcome,
+    capture::DeviceInfo, report::Pictures, report::Geometry, report::SampleValue,
+    report::SampleEvidence, report::PlannedCase, report::RunHeader, report::RunEnd,
+    capture::Failure, capture::RendererOptions, capture::Rendered, WorkerOptions>;
 TYPED_TEST_SUITE(Fields, Structures);
 
 TYPED_TEST(Fields, AreAllListed) {
