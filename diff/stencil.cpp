@@ -87,13 +87,9 @@ std::optional<Finding> StencilComparison::judge(size_t index, cases::SampleId id
         return std::nullopt;
     }
     Finding finding = finding_at(FindingKind::value, case_.target, id);
-    finding.level = expectation_.profile;
-    for (const cases::Profile profile : cases::kProfiles) {
-        if (profile < expectation_.profile && !is_allowed(attribution_.at(profile, index))) {
-            finding.level = profile;
-            break;
-        }
-    }
+    finding.level = loosest_wrong(expectation_.profile, [&](cases::Profile profile) {
+        return !is_allowed(attribution_.at(profile, index));
+    });
     finding.quantity = "stencil";
     finding.expected =
         ref::stencil::to_text(allowed(attribution_.at(finding.level, index)), ", ", kMostTold);

@@ -155,7 +155,7 @@ constexpr std::array kRules = {
          "Drawn with d and again with -d, otherwise alike, a triangle that the plane cuts has each "
          "of its samples hit exactly once along the cut, samples on the plane included, and where "
          "it crosses an edge that two such triangles share, these hit together once.",
-         "vertexpostproc-clipping", "", "ref/expectation/narrowing_complements.cpp"},
+         "vertexpostproc-clipping", "", "ref/expectation/complement_sets.cpp"},
     Rule{rule::cull_distance, Profile::vulkan,
          "A triangle whose cull distances are all negative is not drawn",
          "It is discarded if one of the cull distances is negative at all three vertices, and "

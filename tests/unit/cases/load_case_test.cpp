@@ -354,7 +354,7 @@ cull = "cull"
         const auto same = std::find_if(all.begin(), all.end(),
                                        [&](const Case& c) { return c.id == pairs[i].id; });
         ASSERT_NE(same, all.end());
-        EXPECT_EQ(pairs[i].claim.parameters, same->parameters);
+        EXPECT_EQ(pairs[i].claim.parameters, same->claim.parameters);
         EXPECT_EQ(pairs[i].draws[0].positions, same->draws[0].positions);
         EXPECT_EQ(pairs[i].draws[0].cull, same->draws[0].cull);
     }

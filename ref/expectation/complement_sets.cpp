@@ -1,16 +1,12 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// Triangles with complementary clip distances: a triangle and its complement, and sets of such
-// pairs where the cut crosses edges that the triangles share.
+#include "ref/expectation/complement_sets.hpp"
+
 #include <algorithm>
-#include <array>
 #include <iterator>
-#include <optional>
 #include <utility>
 
 #include "ref/coverage/outline.hpp"
-#include "ref/expectation/narrowing.hpp"
 
 namespace ref {
 
@@ -20,28 +16,46 @@ constexpr EdgeLabel kFirstUserEdge = kFirstClipEdge + static_cast<EdgeLabel>(Cli
 
 }  // namespace
 
-bool Narrowing::is_inside_whole(const FixedPoint& p, const TriangleSetup& setup) const {
+ComplementSets::ComplementSets(const cases::Case& c, cases::Profile profile,
+                               const std::vector<cases::Triangle>& triangles,
+                               TriangleSetups& setups, const Predicates& predicates,
+                               SharedEdges& edges)
+    : case_(c),
+      profile_(profile),
+      triangles_(triangles),
+      setups_(setups),
+      predicates_(predicates),
+      edges_(edges),
+      complements_(complements_of(c, triangles)) {}
+
+std::vector<FixedHits> ComplementSets::of(const FixedPoint& p, uint32_t sample,
+                                          std::span<const Hit> hits, std::vector<bool>& is_paired) {
+    sample_ = sample;
+    std::vector<FixedHits> out = complementary_pairs(p, hits, is_paired);
+    join_pairs(p, hits, out);
+    return out;
+}
+
+bool ComplementSets::is_inside_whole(const FixedPoint& p, const TriangleSetup& setup) const {
     if (setup.kind != TriangleSetup::Kind::outlines || setup.may_be_culled ||
         setup.tested.empty() || !setup.window.must_touch(p)) {
         return false;
     }
+    SharedEdges::Near near{};
     for (const Outline* const outline : setup.outlines()) {
-        const Outline& o = *outline;
-        for (uint32_t i = 0; i < o.count; ++i) {
-            const std::array<Box, 2> ends{o.boxes[i], o.boxes[(i + 1) % o.count]};
-            if (o.edge[i] < kFirstUserEdge && predicates_.is_in_hull(ends, p)) {
-                return false;
-            }
+        if (!edges_.find_near(p, *outline, kFirstUserEdge, near)) {
+            return false;
         }
     }
-    return std::all_of(setup.tested.begin(), setup.tested.end(),
+    return !near[0] && !near[1] && !near[2] &&
+           std::all_of(setup.tested.begin(), setup.tested.end(),
                        [&](const Outline& o) { return predicates_.is_inside_whole(setup, o, p); });
 }
 
-std::vector<Narrowing::Fixed> Narrowing::complementary_pairs(const FixedPoint& p,
-                                                             std::span<const Hit> hits,
-                                                             std::vector<bool>& is_paired) const {
-    std::vector<Fixed> out;
+std::vector<FixedHits> ComplementSets::complementary_pairs(const FixedPoint& p,
+                                                           std::span<const Hit> hits,
+                                                           std::vector<bool>& is_paired) const {
+    std::vector<FixedHits> out;
     if (complements_.empty()) {
         return out;
     }
@@ -77,11 +91,11 @@ std::vector<Narrowing::Fixed> Narrowing::complementary_pairs(const FixedPoint& p
     return out;
 }
 
-bool Narrowing::add_whole_sides(const FixedPoint& p, uint32_t whole, uint32_t member,
-                                std::vector<Side>& sides) {
+bool ComplementSets::add_whole_sides(const FixedPoint& p, uint32_t whole, uint32_t member,
+                                     std::vector<Side>& sides) {
     // No text promises a shared edge after clipping by the view volume.
     const bool is_literal = profile_ == cases::Profile::vulkan;
-    std::array<bool, 3> has_edge{};
+    SharedEdges::Near near{};
     for (const uint32_t t : {whole, complements_[whole].partner}) {
         const TriangleSetup& setup = setups_[t];
         if (setup.kind != TriangleSetup::Kind::outlines || setup.orientation == 0 ||
@@ -99,39 +113,21 @@ bool Narrowing::add_whole_sides(const FixedPoint& p, uint32_t whole, uint32_t me
             }
         }
         for (const Outline* const outline : setup.outlines()) {
-            const Outline& o = *outline;
-            for (uint32_t i = 0; i < o.count; ++i) {
-                const std::array<Box, 2> ends{o.boxes[i], o.boxes[(i + 1) % o.count]};
-                if (o.edge[i] >= kFirstUserEdge || !predicates_.is_in_hull(ends, p)) {
-                    continue;
-                }
-                if (o.edge[i] >= kFirstClipEdge) {
-                    return false;
-                }
-                has_edge.at(o.edge[i]) = true;
+            if (!edges_.find_near(p, *outline, kFirstUserEdge, near)) {
+                return false;
             }
         }
     }
-    const cases::Triangle& triangle = triangles_[whole];
-    for (uint32_t e = 0; e < 3; ++e) {
-        if (!has_edge.at(e)) {
-            continue;
-        }
-        const uint32_t a = vertex_numbers_.of(triangle.draw, triangle.vertex[e]);
-        const uint32_t b = vertex_numbers_.of(triangle.draw, triangle.vertex[(e + 1) % 3]);
-        sides.push_back(
-            {edge_number(triangle, e), (a < b) == (setups_[whole].orientation > 0), member});
-    }
-    return has_edge[0] || has_edge[1] || has_edge[2];
+    return edges_.add(whole, near, member, sides);
 }
 
-int Narrowing::count_of_wholes(const FixedPoint& p, std::span<const uint32_t> wholes) const {
+int ComplementSets::count_of_wholes(const FixedPoint& p, std::span<const uint32_t> wholes) const {
     int open = 0;
     int cut = 0;  // by the view volume
     for (const uint32_t t : wholes) {
         const TriangleSetup& setup = setups_[t];
         const auto turns = [&](int8_t index) {
-            return winding_of(p, setup, setup.tested[static_cast<size_t>(index)]);
+            return edges_.winding_of(p, setup, setup.tested[static_cast<size_t>(index)]);
         };
         const int one = turns(setup.tested_unclipped);
         open += one;
@@ -140,8 +136,8 @@ int Narrowing::count_of_wholes(const FixedPoint& p, std::span<const uint32_t> wh
     return open == cut ? open : -1;
 }
 
-std::optional<Narrowing::Fixed> Narrowing::joined_set(const FixedPoint& p,
-                                                      std::span<const Hit> hits, uint32_t first) {
+std::optional<FixedHits> ComplementSets::joined_set(const FixedPoint& p, std::span<const Hit> hits,
+                                                    uint32_t first) {
     std::vector<uint32_t> wholes{first};  // the earlier triangle of each pair
     std::vector<Side> sides;
     for (size_t k = 0; k < wholes.size(); ++k) {
@@ -150,7 +146,7 @@ std::optional<Narrowing::Fixed> Narrowing::joined_set(const FixedPoint& p,
             return std::nullopt;
         }
         for (size_t i = before; i < sides.size(); ++i) {
-            for (const EdgeOwner& owner : triangles_at(sides[i].edge)) {
+            for (const EdgeOwner& owner : edges_.triangles_at(sides[i].edge)) {
                 if (setups_[owner.triangle].kind == TriangleSetup::Kind::nothing) {
                     continue;
                 }
@@ -180,7 +176,7 @@ std::optional<Narrowing::Fixed> Narrowing::joined_set(const FixedPoint& p,
     if (count_of_wholes(p, wholes) != 1) {
         return std::nullopt;
     }
-    Fixed out;
+    FixedHits out;
     out.count = out.least = 1;
     out.is_complement = true;
     for (const uint32_t whole : wholes) {
@@ -200,16 +196,16 @@ std::optional<Narrowing::Fixed> Narrowing::joined_set(const FixedPoint& p,
     return out;
 }
 
-void Narrowing::join_pairs(const FixedPoint& p, std::span<const Hit> hits,
-                           std::vector<Fixed>& pairs) {
+void ComplementSets::join_pairs(const FixedPoint& p, std::span<const Hit> hits,
+                                std::vector<FixedHits>& pairs) {
     std::vector<bool> is_joined(hits.size());
-    std::vector<Fixed> joined;
-    for (const Fixed& pair : pairs) {
+    std::vector<FixedHits> joined;
+    for (const FixedHits& pair : pairs) {
         const uint32_t first = hits[pair.members[0]].triangle;
         if (pair.least > 0 || !complements_[first].fills || is_joined[pair.members[0]]) {
             continue;
         }
-        std::optional<Fixed> set = joined_set(p, hits, first);
+        std::optional<FixedHits> set = joined_set(p, hits, first);
         if (!set) {
             continue;
         }
@@ -218,7 +214,7 @@ void Narrowing::join_pairs(const FixedPoint& p, std::span<const Hit> hits,
         }
         joined.push_back(*std::move(set));
     }
-    std::erase_if(pairs, [&](const Fixed& pair) { return is_joined[pair.members[0]]; });
+    std::erase_if(pairs, [&](const FixedHits& pair) { return is_joined[pair.members[0]]; });
     std::move(joined.begin(), joined.end(), std::back_inserter(pairs));
 }
 

@@ -1,13 +1,10 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// Sets of hits of which the whole picture fixes how many there are: pairs of triangles at both
-// sides of an edge, and closed chains of them.
+#include "ref/expectation/fixed_sets.hpp"
+
 #include <algorithm>
 #include <iterator>
 #include <numeric>
-
-#include "ref/expectation/narrowing.hpp"
 
 namespace ref {
 
@@ -22,43 +19,103 @@ uint32_t root_of(std::vector<uint32_t>& parent, uint32_t m) {
     return m;
 }
 
+constexpr int kAnyEdge = 256;
+
 }  // namespace
 
-uint64_t Narrowing::edge_number(const cases::Triangle& triangle, uint32_t edge) {
-    const uint32_t a = vertex_numbers_.of(triangle.draw, triangle.vertex[edge]);
-    const uint32_t b = vertex_numbers_.of(triangle.draw, triangle.vertex[(edge + 1) % 3]);
-    return uint64_t{std::min(a, b)} << 32U | std::max(a, b);
+FixedSets::FixedSets(const cases::Case& c, cases::Profile profile,
+                     const std::vector<cases::Triangle>& triangles, TriangleSetups& setups,
+                     const Predicates& predicates, ValueDiscards& discards, bool is_by_draw)
+    : case_(c),
+      profile_(profile),
+      triangles_(triangles),
+      setups_(setups),
+      predicates_(predicates),
+      discards_(discards),
+      is_by_draw_(is_by_draw),
+      edges_(c, triangles, setups, predicates_),
+      complements_(c, profile, triangles, setups, predicates_, edges_) {}
+
+bool FixedSets::may_be_taken_away(uint32_t t, const FixedPoint& p) {
+    const cases::Draw& draw = case_.draws[triangles_[t].draw];
+    const auto x = static_cast<uint32_t>(p.x >> kFixedBits);
+    const auto y = static_cast<uint32_t>(p.y >> kFixedBits);
+    return takes_away_pixel(draw, x, y) ||
+           (takes_away_by_value(draw) &&
+            discards_.at(t, {x, y, sample_, draw.layer}) != Sign::not_negative);
 }
 
-std::span<const Narrowing::EdgeOwner> Narrowing::triangles_at(uint64_t edge) {
-    if (edge_owners_.empty()) {
-        edge_owners_.reserve(3 * setups_.known().size());
-        for (const uint32_t t : setups_.known()) {
-            for (uint32_t e = 0; e < 3; ++e) {
-                edge_owners_.push_back({edge_number(triangles_[t], e), t});
-            }
-        }
-        std::sort(edge_owners_.begin(), edge_owners_.end(),
-                  [](const EdgeOwner& a, const EdgeOwner& b) {
-                      return a.edge < b.edge || (a.edge == b.edge && a.triangle < b.triangle);
-                  });
+bool FixedSets::add_sides(const FixedPoint& p, const Hit& hit, uint32_t member,
+                          std::vector<Side>& sides) {
+    const TriangleSetup& setup = setups_[hit.triangle];
+    // "Coverage is set for all fragments generated from shared edges" of a conservative draw.
+    if (setup.area.is_on() || setup.kind != TriangleSetup::Kind::outlines ||
+        setup.orientation == 0 || setup.may_be_culled || !setup.window.may_write(sample_) ||
+        !setup.window.must_touch(p) || may_be_taken_away(hit.triangle, p)) {
+        return false;
     }
-    const auto by_edge = [](const EdgeOwner& a, const EdgeOwner& b) { return a.edge < b.edge; };
-    const auto [begin, end] =
-        std::equal_range(edge_owners_.begin(), edge_owners_.end(), EdgeOwner{edge, 0}, by_edge);
-    return {begin, end};
+    const bool is_literal = profile_ == cases::Profile::vulkan;
+    if (is_literal && setup.is_clipped) {
+        return false;  // no text promises a shared edge after clipping
+    }
+    SharedEdges::Near near{};
+    for (const Outline* const outline : setup.outlines()) {
+        if (std::any_of(outline->cuts.begin(), outline->cuts.end(),
+                        [&](const DistanceCut& cut) { return cut.must.at(p) < 0; })) {
+            return false;  // a clip distance decides
+        }
+        // The pairwise rule contradicts itself where many triangles meet in a vertex.
+        if (is_literal && std::ranges::any_of(outline->vertices(), [&](const Box& box) {
+                return predicates_.is_in_hull({&box, 1}, p);
+            })) {
+            return false;
+        }
+        if (!edges_.find_near(p, *outline, kAnyEdge, near)) {
+            return false;
+        }
+    }
+    return edges_.add(hit.triangle, near, member, sides);
 }
 
-std::vector<Narrowing::Fixed> Narrowing::fixed_sets(const FixedPoint& p,
-                                                    std::span<const Hit> hits) {
+int FixedSets::count_of(const FixedPoint& p, std::span<const Hit> hits,
+                        const std::vector<uint32_t>& members) const {
+    // Cut by the depth planes or by all, by the clip distances or not: every member in the same
+    // way.
+    std::array<int, 4> count{};
+    bool has_unclipped = true;
+    for (const uint32_t m : members) {
+        const TriangleSetup& setup = setups_[hits[m].triangle];
+        const int open = setup.has_outline ? edges_.winding_of(p, setup, setup.unclipped) : 0;
+        const int cut = setup.is_clipped ? edges_.winding_of(p, setup, *setup.clipped) : open;
+        const auto tested = [&](int8_t index, int otherwise) {
+            return index < 0
+                       ? otherwise
+                       : edges_.winding_of(p, setup, setup.tested[static_cast<size_t>(index)]);
+        };
+        const int tested_open = tested(setup.tested_unclipped, open);
+        has_unclipped = has_unclipped && setup.has_outline;
+        count[0] += cut;
+        count[1] += tested(setup.tested_clipped, cut);
+        count[2] += open;
+        count[3] += tested_open;
+    }
+    const size_t models = has_unclipped ? 4 : 2;
+    if (std::any_of(count.begin(), count.begin() + models, [&](int c) { return c != count[0]; })) {
+        return -1;
+    }
+    return count[0] >= 0 && count[0] <= static_cast<int>(members.size()) ? count[0] : -1;
+}
+
+std::vector<FixedHits> FixedSets::of(const FixedPoint& p, uint32_t sample,
+                                     std::span<const Hit> hits) {
+    sample_ = sample;
     std::vector<bool> is_paired(hits.size(), false);
-    std::vector<Fixed> out = complementary_pairs(p, hits, is_paired);
-    join_pairs(p, hits, out);
+    std::vector<FixedHits> out = complements_.of(p, sample, hits, is_paired);
     std::vector<bool> is_open(hits.size());
     for (size_t m = 0; m < hits.size(); ++m) {
         is_open[m] = hits[m].coverage == Coverage::either && !is_paired[m];
     }
-    if (depth_ != nullptr || follows_courses_) {
+    if (is_by_draw_) {
         // Sets of one draw alone: meshes drawn one over the other are told apart by depth, or by
         // the stencil.
         std::vector<bool> is_left = is_open;
@@ -69,7 +126,7 @@ std::vector<Narrowing::Fixed> Narrowing::fixed_sets(const FixedPoint& p,
             for (; end < hits.size() && triangles_[hits[end].triangle].draw == draw; ++end) {
                 takes_part[end] = is_open[end];
             }
-            for (Fixed& set : closed_sets(p, hits, takes_part)) {
+            for (FixedHits& set : closed_sets(p, hits, takes_part)) {
                 for (const uint32_t m : set.members) {
                     is_left[m] = false;
                 }
@@ -79,7 +136,7 @@ std::vector<Narrowing::Fixed> Narrowing::fixed_sets(const FixedPoint& p,
         }
         is_open = is_left;
     }
-    std::vector<Fixed> closed = closed_sets(p, hits, is_open);
+    std::vector<FixedHits> closed = closed_sets(p, hits, is_open);
     out.insert(out.end(), std::make_move_iterator(closed.begin()),
                std::make_move_iterator(closed.end()));
     if (profile_ == cases::Profile::direct3d) {
@@ -88,10 +145,10 @@ std::vector<Narrowing::Fixed> Narrowing::fixed_sets(const FixedPoint& p,
     return out;
 }
 
-void Narrowing::add_decided_sets(const FixedPoint& p, std::span<const Hit> hits,
-                                 std::vector<Fixed>& sets) {
+void FixedSets::add_decided_sets(const FixedPoint& p, std::span<const Hit> hits,
+                                 std::vector<FixedHits>& sets) {
     std::vector<bool> takes_part(hits.size(), true);
-    for (const Fixed& set : sets) {
+    for (const FixedHits& set : sets) {
         for (const uint32_t m : set.members) {
             takes_part[m] = false;
         }
@@ -110,7 +167,7 @@ void Narrowing::add_decided_sets(const FixedPoint& p, std::span<const Hit> hits,
         sides.clear();
         add_sides(p, Hit(all[m]), static_cast<uint32_t>(m), sides);
         for (const Side& side : sides) {
-            for (const EdgeOwner& owner : triangles_at(side.edge)) {
+            for (const EdgeOwner& owner : edges_.triangles_at(side.edge)) {
                 const uint32_t t = owner.triangle;
                 const bool is_drawn = setups_[t].kind != TriangleSetup::Kind::nothing;
                 if (is_drawn && std::none_of(all.begin(), all.end(),
@@ -124,8 +181,8 @@ void Narrowing::add_decided_sets(const FixedPoint& p, std::span<const Hit> hits,
     if (!has_open) {
         return;
     }
-    for (const Fixed& set : closed_sets(p, all, takes_part)) {
-        Fixed open;
+    for (const FixedHits& set : closed_sets(p, all, takes_part)) {
+        FixedHits open;
         uint32_t sure = 0;
         for (const uint32_t m : set.members) {
             sure += all[m].coverage == Coverage::must ? 1U : 0U;
@@ -142,8 +199,8 @@ void Narrowing::add_decided_sets(const FixedPoint& p, std::span<const Hit> hits,
     }
 }
 
-FixedSet Narrowing::told_set(const FixedPoint& p, std::span<const Hit> hits,
-                             const Fixed& set) const {
+FixedSet FixedSets::told(const FixedPoint& p, std::span<const Hit> hits,
+                         const FixedHits& set) const {
     FixedSet out;
     out.triangles = set.decided;
     uint32_t sure = 0;
@@ -176,9 +233,9 @@ FixedSet Narrowing::told_set(const FixedPoint& p, std::span<const Hit> hits,
     return out;
 }
 
-std::vector<Narrowing::Fixed> Narrowing::closed_sets(const FixedPoint& p, std::span<const Hit> hits,
-                                                     const std::vector<bool>& takes_part) {
-    std::vector<Fixed> out;
+std::vector<FixedHits> FixedSets::closed_sets(const FixedPoint& p, std::span<const Hit> hits,
+                                              const std::vector<bool>& takes_part) {
+    std::vector<FixedHits> out;
     const auto n = static_cast<uint32_t>(hits.size());
     std::vector<Side> sides;
     std::vector<bool> is_free(n, true);
@@ -228,7 +285,7 @@ std::vector<Narrowing::Fixed> Narrowing::closed_sets(const FixedPoint& p, std::s
         }
         out[slot[root]].members.push_back(m);
     }
-    std::erase_if(out, [&](Fixed& set) {
+    std::erase_if(out, [&](FixedHits& set) {
         const int count = count_of(p, hits, set.members);
         set.count = set.least = static_cast<uint32_t>(std::max(count, 0));
         return count < 0;

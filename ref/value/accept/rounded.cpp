@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
-#include <iterator>
 
 #include "ref/value/accept/judge_candidates.hpp"
 

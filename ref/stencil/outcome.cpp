@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
+#include "ref/stencil/outcome.hpp"
+
 #include <algorithm>
 #include <iterator>
 #include <map>
@@ -9,7 +11,6 @@
 #include <vector>
 
 #include "cases/model/sample.hpp"
-#include "ref/stencil/outcome.hpp"
 
 namespace ref::stencil {
 
