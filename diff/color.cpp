@@ -109,6 +109,7 @@ Finding ColorComparison::finding_of(size_t index, cases::SampleId id,
     finding.quantity = "color";
     finding.expected = verdict.expected;
     finding.got = unit_.text_of(capture_.color[index]);
+    finding.overflows = verdict.may_overflow && unit_.has_overflown(capture_.color[index]);
     finding.level = level;
     return finding;
 }

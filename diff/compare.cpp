@@ -71,6 +71,13 @@ class Comparison {
             verdict_.error = error;
             return std::move(verdict_);
         }
+        if (expectation_.must_samples == 0) {
+            verdict_.shows_nothing = true;
+            verdict_.error =
+                "the case has no sample that must be covered, so a black picture would pass; add a "
+                "control triangle";
+            return std::move(verdict_);
+        }
         const size_t count = capture_.sample_count();
         verdict_.expected_hits.resize(count);
         verdict_.device_hits.resize(count);
@@ -159,10 +166,6 @@ class Comparison {
             if (case_.target.has_instruments && capture_.attribute_count <= a) {
                 return fmt::format("the capture lacks attribute {} of the case", a);
             }
-        }
-        if (expectation_.must_samples == 0) {
-            return "the case has no sample that must be covered, so a black picture would pass; "
-                   "add a control triangle";
         }
         return {};
     }

@@ -51,6 +51,8 @@ struct Finding {
     std::string door = {};               // of a picture through a door that differs: its word
     // Of what the whole case gave, as a query's count: no sample is wrong, and the place is (0, 0).
     bool of_case = false;
+    // Of a colour: it may lie beyond the range of binary16, and is no number. No journal holds it.
+    bool overflows = false;
     static void fields(auto&& visit, auto&... f) {
         visit("kind", f.kind...);
         visit("rule", f.rule...);
@@ -170,6 +172,7 @@ struct Verdict : Outcome {
     cases::Profile profile = cases::Profile::direct3d;
     std::string
         error;  // not empty: the case or the capture cannot be judged (status error), and why
+    bool shows_nothing = false;  // the error: a picture without any triangle would pass
     std::vector<uint8_t>
         expected_hits;  // nominal hits a sample, saturated at 254; 255 where several are allowed
     std::vector<uint8_t> device_hits;  // saturated at 255

@@ -305,7 +305,7 @@ constexpr std::array kRules = {
          "Of several colour targets each holds what the shader writes to its location, cleared, "
          "converted, blended and masked as its own format and state say, whatever those of the "
          "others are. Blend constants and the logical operation are one for all of them.",
-         "interfaces-fragmentoutput", "", "ref/color/neighbour.hpp"},
+         "interfaces-fragmentoutput", "", "cases/fault/neighbour.hpp"},
     Rule{rule::write_consistent, Profile::vulkan, "A fragment writes all its attachments, or none",
          "Different color attachments of one draw receive the same fragments, and additive "
          "blending of exactly representable values is exact.",

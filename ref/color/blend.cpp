@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "cases/base/number_text.hpp"
 #include "ref/color/blend_order.hpp"
 #include "ref/color/interval.hpp"
@@ -236,6 +239,23 @@ std::string Unit::text_of(const Color& color) const {
         }
     }
     return out;
+}
+
+bool Unit::may_overflow(const Color& color) const {
+    constexpr int kLargest = 65504;  // of binary16
+    return std::ranges::any_of(std::array{0U, 1U, 2U, 3U}, [&](uint32_t k) {
+        const mpq_class low = abs(color[k].low), high = abs(color[k].high);
+        return Component(cases::component_of(format, k)).exists() &&
+               !Component::is_anything(color[k]) && sgn(color[k].low) * sgn(color[k].high) > 0 &&
+               std::max(low, high) > kLargest && std::min(low, high) >= kLargest / 2;
+    });
+}
+
+bool Unit::has_overflown(const std::array<uint32_t, 4>& codes) const {
+    return std::ranges::any_of(std::array{0U, 1U, 2U, 3U}, [&](uint32_t k) {
+        const cases::ComponentFormat c = cases::component_of(format, k);
+        return c.bits != 0 && is_floating(c.kind) && !std::isfinite(Component(c).number(codes[k]));
+    });
 }
 
 std::string Unit::text_of(const std::array<uint32_t, 4>& codes) const {

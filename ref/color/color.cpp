@@ -11,12 +11,12 @@
 #include <glm/vector_relational.hpp>
 #include <utility>
 
+#include "cases/fault/neighbour.hpp"
 #include "cases/model/rule_ids.hpp"
 #include "cases/model/sample.hpp"
 #include "ref/color/color_steps.hpp"
 #include "ref/color/component_filter.hpp"
 #include "ref/color/logic.hpp"
-#include "ref/color/neighbour.hpp"
 
 namespace ref {
 
@@ -246,7 +246,7 @@ ColorReference::~ColorReference() = default;
 
 bool ColorReference::is_of_neighbour(const Sequence& sequence, cases::SampleId id,
                                      const std::array<uint32_t, 4>& codes) {
-    using color::Taken;
+    using cases::Taken;
     // Asked without the value that was written, as below, it may be right: then nothing is mixed
     // up.
     if (leaves(sequence, id, nullptr, codes)) {
@@ -256,7 +256,7 @@ bool ColorReference::is_of_neighbour(const Sequence& sequence, cases::SampleId i
     for (uint32_t k = 0; k < count; ++k) {
         for (const Taken taken : {Taken::state, Taken::color, Taken::clear, Taken::all}) {
             cases::Case other = case_;
-            if (k != case_.target.judged_color && color::take_from(other, k, taken)) {
+            if (k != case_.target.judged_color && cases::take_from(other, k, taken)) {
                 mistakes_.push_back(std::make_unique<Mistake>(std::move(other), expectation_));
             }
         }
@@ -374,7 +374,9 @@ ColorVerdict ColorReference::judge(size_t index, cases::SampleId id,
     }
     const glm::vec4* last = witness ? witness->written : nullptr;
     for (size_t k = 0; k < std::min<size_t>(sets.size(), 3); ++k) {
-        verdict.expected += (k == 0 ? "" : "; or ") + unit_.text_of(color_of(sets[k], id, last));
+        const color::Color color = color_of(sets[k], id, last);
+        verdict.expected += (k == 0 ? "" : "; or ") + unit_.text_of(color);
+        verdict.may_overflow = verdict.may_overflow || unit_.may_overflow(color);
     }
     verdict.expected += sets.size() > 3 ? "; or others" : "";
     verdict.kind = ColorVerdict::Kind::value;

@@ -44,7 +44,10 @@ struct ColorVerdict {
     Kind kind = Kind::ok;
     std::string rule;      // of value: "blend.equation", "store.unorm", ...
     std::string expected;  // the colours that are allowed
-    uint32_t hits = 0;     // of missing, extra, twice: how many fragments the colour tells of
+    // Some of these lie beyond the largest number of binary16, which a format of 16-bit floats may
+    // then store as no number, and reach down to its upper half.
+    bool may_overflow = false;
+    uint32_t hits = 0;  // of missing, extra, twice: how many fragments the colour tells of
     // Of missing and twice: the triangle of which a fragment is missing or is there once more.
     std::optional<uint32_t> triangle;
 };

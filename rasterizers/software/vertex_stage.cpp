@@ -1,17 +1,54 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// The part of a draw that works on vertices and whole triangles: projection, facing, culling.
+#include "rasterizers/software/vertex_stage.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
-#include "rasterizers/software/draw_command.hpp"
 #include "rasterizers/software/snapping.hpp"
 
 namespace software {
 
-WindowVertex DrawCommand::project(const ClipVertex& v) const {
+// Turned so that the provoking vertex is the first, or the last.
+size_t VertexStage::barycentric_of(const Primitive& primitive, size_t k) const {
+    const auto provoking = static_cast<size_t>(
+        std::find(primitive.vertex.begin(), primitive.vertex.end(), primitive.provoking) -
+        primitive.vertex.begin());
+    size_t turn = draw_.provoking == cases::ProvokingVertex::last ? 2 : 3;
+    turn += device_.fault == "barycentric-rotated"_fault ? 1 : 0;
+    const bool keeps_order =
+        device_.first_strip_order && turn == 2 && draw_.topology == cases::Topology::triangle_strip;
+    return keeps_order ? k : (k + 3 - provoking + turn) % 3;
+}
+
+std::array<ClipVertex, 3> VertexStage::triangle_of(const Primitive& primitive) {
+    std::array<ClipVertex, 3> triangle;
+    for (size_t k = 0; k < 3; ++k) {
+        const uint32_t v = cached_vertex(primitive.vertex[k]);
+        const uint32_t value_vertex = cached_vertex(primitive.values[k]);
+        triangle[k].position = draw_.positions[v];
+        triangle[k].source = v;
+        triangle[k].distance = distances_of(v, primitive, k);
+        for (size_t a = 0; a < draw_.attributes.size(); ++a) {
+            const cases::Attribute& attribute = draw_.attributes[a];
+            const bool flat = attribute.interpolation == cases::Interpolation::flat &&
+                              device_.fault != "flat-smooth"_fault &&
+                              device_.fault != "clip-flat-piece"_fault;
+            if (attribute.source == cases::Source::barycentric) {
+                const auto number =
+                    static_cast<glm::vec4::length_type>(barycentric_of(primitive, k));
+                triangle[k].values[a][number] = 1;
+            }
+            if (attribute.source == cases::Source::vertex) {
+                triangle[k].values[a] = attribute.values[flat ? primitive.provoking : value_vertex];
+            }
+        }
+    }
+    return triangle;
+}
+
+WindowVertex VertexStage::project(const ClipVertex& v) const {
     const auto mad = [&](float a, float b, float c) {
         return device_.fused ? std::fma(a, b, c) : a * b + c;
     };
@@ -72,7 +109,7 @@ WindowVertex DrawCommand::project(const ClipVertex& v) const {
     return out;
 }
 
-bool DrawCommand::is_front(int64_t area, const std::array<ClipVertex, 3>& whole) const {
+bool VertexStage::is_front(int64_t area, const std::array<ClipVertex, 3>& whole) const {
     bool clockwise = area > 0;
     if (device_.fault == "face-unclipped-w"_fault) {
         int negative = 0;
@@ -85,7 +122,7 @@ bool DrawCommand::is_front(int64_t area, const std::array<ClipVertex, 3>& whole)
     return device_.fault == "front-face-inverted"_fault ? !front : front;
 }
 
-bool DrawCommand::is_culled(bool front) const {
+bool VertexStage::is_culled(bool front) const {
     switch (draw_.cull) {
         case cases::CullMode::none:
             return false;
@@ -100,7 +137,7 @@ bool DrawCommand::is_culled(bool front) const {
 }
 
 // Which vertex's data a reader of vertex v gets.
-uint32_t DrawCommand::cached_vertex(uint32_t v) {
+uint32_t VertexStage::cached_vertex(uint32_t v) {
     if (device_.fault != "vertex-cache-aliased"_fault) {
         return v;
     }
@@ -112,7 +149,7 @@ uint32_t DrawCommand::cached_vertex(uint32_t v) {
 }
 
 // What the distances of vertex v are for a primitive.
-glm::vec4 DrawCommand::distances_of(uint32_t v, const Primitive& primitive, size_t k) const {
+glm::vec4 VertexStage::distances_of(uint32_t v, const Primitive& primitive, size_t k) const {
     const std::vector<glm::vec4>& all = draw_.distances.clip;
     if (all.empty()) {
         return glm::vec4(0.0F);
@@ -125,7 +162,7 @@ glm::vec4 DrawCommand::distances_of(uint32_t v, const Primitive& primitive, size
     return device_.fault == "distance-rotated"_fault ? glm::vec4(d.y, d.z, d.w, d.x) : d;
 }
 
-bool DrawCommand::is_distance_culled(const Primitive& primitive) const {
+bool VertexStage::is_distance_culled(const Primitive& primitive) const {
     const cases::ClipDistances& d = draw_.distances;
     const auto is_out = [&](uint32_t v, uint32_t k) {
         const float c = d.cull[v][static_cast<glm::vec4::length_type>(k)];

@@ -9,7 +9,7 @@
 
 #include "cases/model/case.hpp"
 
-namespace ref::color {
+namespace cases {
 
 enum class Taken : uint8_t {
     state,  // blending and write mask
@@ -20,6 +20,6 @@ enum class Taken : uint8_t {
 
 // Whether that changes the case; not for colours of another class, which mean nothing to the format
 // of the judged one. `location`: of the other target.
-bool take_from(cases::Case& c, uint32_t location, Taken taken);
+bool take_from(Case& c, uint32_t location, Taken taken);
 
-}  // namespace ref::color
+}  // namespace cases
