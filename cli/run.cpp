@@ -15,6 +15,7 @@
 #include "cli/commands.hpp"
 #include "cli/diagnose.hpp"
 #include "cli/options/parse.hpp"
+#include "cli/options/run_options.hpp"
 #include "cli/prepare/ci.hpp"
 #include "cli/prepare/command_lines.hpp"
 #include "cli/prepare/device_answer.hpp"
@@ -337,10 +338,16 @@ int run_told(const Program& program, const RunOptions& options, const RunTeller*
     return Conduct(program, *prepared, std::move(config), signals, teller).run(std::move(**worker));
 }
 
+int carry_out(const Program& program, const RunOptions& options) {
+    return run_told(program, options, nullptr);
+}
+
 }  // namespace
 
-int run_command(const Program& program, const RunOptions& options) {
-    return run_told(program, options, nullptr);
+Command run_command() {
+    return make_command<RunOptions>(
+        {"run", kChecking, "draw cases on a device and compare with the exact reference", nullptr},
+        declare_run, carry_out, check_run);
 }
 
 int run_with(const Program& program, const RunOptions& options, const RunTeller& teller) {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <utility>
 
@@ -55,21 +56,15 @@ bool shows_like(const CaseRecord& record, const Symptom& symptom) {
                        });
 }
 
-// The cases of the texts that are one, and their numbers among the texts.
-std::pair<std::vector<cases::Case>, std::vector<size_t>> load_all(
-    const std::vector<std::string>& texts) {
-    std::pair<std::vector<cases::Case>, std::vector<size_t>> all;
-    for (size_t k = 0; k < texts.size(); ++k) {
-        if (std::optional<cases::Case> c = load_one(texts[k], std::to_string(k))) {
-            all.first.push_back(std::move(*c));
-            all.second.push_back(k);
-        }
+// The records of candidates, which are drawn under their numbers.
+std::vector<CaseRecord> drawn(const std::vector<Candidate>& candidates,
+                              const run::DrawAndJudge& draw) {
+    std::vector<cases::Case> cases;
+    for (const Candidate& candidate : candidates) {
+        cases.push_back(candidate.data);
+        cases.back().id = std::to_string(cases.size() - 1);
     }
-    return all;
-}
-
-std::vector<CaseRecord> records_of(const run::DrawAndJudge& draw, std::vector<cases::Case> cases) {
-    return cases.empty() ? std::vector<CaseRecord>() : draw(std::move(cases), {}).records;
+    return draw(std::move(cases), {}).records;
 }
 
 // The reduced case once more, now by whichever rule it fails and with what only a suite wants of it
@@ -80,12 +75,11 @@ Document like_failure(const Document& document, const Symptom& symptom,
     if (symptom.status != Status::fail) {
         return document;
     }
-    const Shows shown = [&](const std::vector<std::string>& texts) {
-        std::vector<bool> out(texts.size(), false);
-        const auto [cases, of] = load_all(texts);
-        const std::vector<CaseRecord> records = records_of(draw, cases);
-        for (size_t k = 0; k < of.size(); ++k) {
-            out[of[k]] = shows_like(records[k], symptom);
+    const Shows shown = [&](const std::vector<Candidate>& candidates) {
+        const std::vector<CaseRecord> records = drawn(candidates, draw);
+        std::vector<bool> out;
+        for (const CaseRecord& record : records) {
+            out.push_back(shows_like(record, symptom));
         }
         return out;
     };
@@ -96,7 +90,7 @@ Document like_failure(const Document& document, const Symptom& symptom,
 // else some rule that it does exercise.
 Document described(Document document, const Symptom& symptom) {
     set(document, "description", text("A device showed here: " + to_text(symptom) + "."));
-    const std::optional<cases::Case> c = load_one(to_text(document), "described");
+    const std::optional<cases::Case> c = load_one(document, "described");
     if (!c) {
         return document;
     }
@@ -119,24 +113,47 @@ Document described(Document document, const Symptom& symptom) {
 // What of a document's neighbours passes, in sentences.
 std::vector<std::string> passing(const Document& document, const run::DrawAndJudge& draw) {
     constexpr size_t kAtOnce = 64;
-    const std::vector<Neighbour> all = neighbours(document);
+    std::vector<Neighbour> all = neighbours(document);
     std::vector<bool> judged(all.size(), false), passes(all.size(), false);
     for (size_t begin = 0; begin < all.size(); begin += kAtOnce) {
         std::vector<cases::Case> cases;
-        std::vector<size_t> of;
         for (size_t k = begin; k < std::min(begin + kAtOnce, all.size()); ++k) {
-            if (std::optional<cases::Case> c = load_one(all[k].text, std::to_string(k))) {
-                cases.push_back(std::move(*c));
-                of.push_back(k);
-            }
+            cases.push_back(std::move(all[k].data));
+            cases.back().id = std::to_string(k);
         }
-        const std::vector<CaseRecord> records = records_of(draw, cases);
-        for (size_t k = 0; k < of.size(); ++k) {
-            passes[of[k]] = records[k].status == Status::pass;
-            judged[of[k]] = passes[of[k]] || symptom_of(records[k]).has_value();
+        const size_t count = cases.size();
+        const std::vector<CaseRecord> records = draw(std::move(cases), {}).records;
+        for (size_t k = 0; k < count; ++k) {
+            passes[begin + k] = records[k].status == Status::pass;
+            judged[begin + k] = passes[begin + k] || symptom_of(records[k]).has_value();
         }
     }
     return sentences(all, judged, passes);
+}
+
+// Whether some attribute may differ from vertex to vertex: the only one of a case may be the same
+// everywhere.
+bool has_varying_attribute(const Document& document) {
+    size_t count = 0, constants = 0;
+    if (const Document* draws = document.find("draw")) {
+        for (const Document& one : draws->array) {
+            if (const Document* attributes = one.find("attribute")) {
+                count += attributes->array.size();
+                constants += static_cast<size_t>(std::ranges::count_if(
+                    attributes->array,
+                    [](const Document& a) { return a.find("constant") != nullptr; }));
+            }
+        }
+    }
+    return count != 1 || constants != 1;
+}
+
+// The word for the format of a document's colours; empty without one.
+std::string format_of(const Document& document) {
+    const Document* target = document.find("target");
+    const Document* color = target == nullptr ? nullptr : target->find("color");
+    const Document* format = color == nullptr ? nullptr : color->find("format");
+    return format == nullptr ? "" : format->string;
 }
 
 // "with 1 sample" of "not with 1 sample", of which a sentence would make a double negative.
@@ -181,21 +198,26 @@ std::string need_text(const Entry& entry) {
     return text;
 }
 
-std::set<std::string> essentials_of(const std::string& text) {
-    const auto document = cases::read_toml(text, "fuzz");
-    std::set<std::string> words = document ? essentials(*document) : std::set<std::string>();
-    if (const auto c = load_one(text, "fuzz"); c && has_thin_triangle(*c)) {
-        words.insert(kThinTriangle);
+Facts facts_of(const std::string& text) {
+    Facts facts;
+    if (const auto document = cases::read_toml(text, "fuzz")) {
+        facts.essentials = essentials(*document);
+        facts.has_varying_attribute = has_varying_attribute(*document);
     }
-    return words;
+    if (const auto c = load_one(text, "fuzz")) {
+        if (has_thin_triangle(*c)) {
+            facts.essentials.insert({Trait::thin_triangle});
+        }
+        if (c->target.color) {
+            facts.format = c->target.color->format;
+        }
+    }
+    return facts;
 }
 
-std::set<std::string> facts_of(const std::string& text) {
-    std::set<std::string> words = with_implied(essentials_of(text));
-    if (const auto c = load_one(text, "fuzz"); c && c->target.color) {
-        words.insert("format " + std::string(cases::word_of(c->target.color->format)));
-    }
-    return words;
+void Entry::set_text(std::string other) {
+    text = std::move(other);
+    facts = facts_of(text);
 }
 
 std::vector<Symptom> symptoms_of(const CaseRecord& record) {
@@ -237,24 +259,24 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
     std::set<std::string> unsupported;  // texts that the device cannot draw
     bool has_died = false;              // the last of what was drawn, in place of the symptom
     const auto is_at_end = [&] { return is_over && is_over(); };
-    const Shows shown = [&](const std::vector<std::string>& texts) {
-        std::vector<bool> out(texts.size(), false);
-        const auto [cases, of] = load_all(texts);
-        const std::vector<CaseRecord> records = records_of(draw, cases);
-        for (size_t k = 0; k < of.size() && !is_at_end(); ++k) {
+    const Shows shown = [&](const std::vector<Candidate>& candidates) {
+        std::vector<bool> out(candidates.size(), false);
+        const std::vector<CaseRecord> records = drawn(candidates, draw);
+        for (size_t k = 0; k < out.size() && !is_at_end(); ++k) {
             if (records[k].status == Status::unsupported) {
-                unsupported.insert(texts[of[k]]);
+                unsupported.insert(candidates[k].text);
             }
             has_died = symptom.status == Status::fail && (records[k].status == Status::crash ||
                                                           records[k].status == Status::timeout ||
                                                           records[k].status == Status::device_lost);
-            out[of[k]] = shows(records[k], symptom) && (!sound_at || is_sound(cases[k], *sound_at));
+            out[k] = shows(records[k], symptom) &&
+                     (!sound_at || is_sound(candidates[k].data, *sound_at));
         }
         return out;
     };
     // A worker may die for another reason, and a death says nothing of a wrong picture.
     constexpr int kMostDeaths = 3;
-    for (int deaths = 0; !shown({to_text(*document)}).front(); ++deaths) {
+    for (int deaths = 0; !shown({{to_text(*document), *original}}).front(); ++deaths) {
         if (!has_died || deaths == kMostDeaths || is_at_end()) {
             return std::nullopt;
         }
@@ -266,32 +288,36 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
     if (is_at_end()) {
         Entry cut;
         cut.symptom = symptom;
-        cut.text = to_text(reduced.document);
+        cut.set_text(to_text(reduced.document));
         return cut;
     }
     // Once more, for what it shows is told.
     const std::optional<cases::Case> smallest = load_one(to_text(reduced.document), "reduced");
-    const CaseRecord last = smallest ? records_of(draw, {*smallest}).front() : CaseRecord();
+    const CaseRecord last = smallest ? draw({*smallest}, {}).records.front() : CaseRecord();
     Entry entry;
     entry.symptom = symptom;
     // What the reducer brought in, as a constant for values, is no need of the cause.
-    const std::set<std::string> before = essentials_of(text);
-    const std::set<std::string> after =
-        essentials_of(to_text(like_failure(reduced.document, symptom, draw, options)));
+    const Essentials before = facts_of(text).essentials;
+    const Essentials after =
+        facts_of(to_text(like_failure(reduced.document, symptom, draw, options))).essentials;
     std::set_intersection(after.begin(), after.end(), before.begin(), before.end(),
                           std::inserter(entry.essentials, entry.essentials.end()));
-    entry.text = to_text(described(reduced.document, symptom));
-    if (const auto c = load_one(entry.text, "reduced");
-        c && !is_sound(*c, cases::Profile::vulkan)) {
-        entry.text =
+    std::string kept = to_text(described(reduced.document, symptom));
+    if (const auto c = load_one(kept, "reduced"); c && !is_sound(*c, cases::Profile::vulkan)) {
+        kept =
             "# At profile vulkan a picture without a triangle would pass: a suite wants one "
             "more.\n" +
-            entry.text;
+            kept;
     }
+    entry.set_text(std::move(kept));
     for (size_t k = 0; k < reduced.needs.size(); ++k) {
         if (unsupported.contains(reduced.need_texts[k])) {
             entry.undrawn.push_back(without_not(reduced.needs[k]));
         } else {
+            const auto asked = cases::read_toml(reduced.need_texts[k], "asked");
+            const std::string format = asked ? format_of(*asked) : "";
+            entry.needs_format =
+                entry.needs_format || (!format.empty() && format != format_of(reduced.document));
             entry.needs.push_back(reduced.needs[k]);
         }
     }
@@ -305,12 +331,15 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
             *std::min_element(last.outcome.findings.begin(), last.outcome.findings.end(),
                               [](const auto& a, const auto& b) { return a.level < b.level; });
         const Symptom first{Status::fail, leading.kind, leading.rule, leading.level, {}};
-        entry.shown_first = first == symptom ? "" : to_text(first);
+        entry.shown_first = first == symptom ? std::nullopt : std::optional(first);
     }
     const auto shown_by = std::ranges::find_if(last.outcome.findings, [&](const diff::Finding& f) {
         return f.kind == symptom.kind && f.rule == symptom.rule;
     });
-    entry.seen = shown_by == last.outcome.findings.end() ? "" : seen_text(*shown_by);
+    if (shown_by != last.outcome.findings.end()) {
+        entry.seen = seen_text(*shown_by);
+        entry.overflows = shown_by->overflows;
+    }
     for (const Symptom& other : symptoms_of(last)) {
         entry.also.insert({other.kind, other.rule});
     }

@@ -286,6 +286,9 @@ CaseRecord RunLoop::undrawn_record(const Slot& slot, size_t k, const Rendered& r
                                      : is_lost      ? Status::device_lost
                                                     : Status::error,
                                      rendered.reason);
+    record.error_kind = rendered.status == Rendered::Status::not_built
+                            ? report::ErrorKind::not_built
+                            : report::ErrorKind::other;
     record.drawn.messages = rendered.messages;
     if (!is_unsupported) {
         record.death.output = slot.client->output_since_batch();

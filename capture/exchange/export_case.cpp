@@ -264,6 +264,7 @@ class Needs {
         add(d.topology == cases::Topology::triangle_fan, "fan");
         add(d.indices.has_value(), "indices");
         add(d.primitive_restart, "restart");
+        add(d.primitive_restart && d.topology == cases::Topology::triangle_list, "restart-list");
         add_positions(d);
         const cases::Viewport whole{0,
                                     0,

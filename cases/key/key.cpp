@@ -90,7 +90,7 @@ constexpr auto kTarget = std::to_array<Key>({
     whole("stencil_clear", 0, kStencilBits).tries(kStencils).plain("0"),
     word("attachments", kAttachments).near(kEquals).pipeline(),
     table("color", kTargetColorKeys).plain("none"),
-    other("judged", 0, kMaxColorTargets - 1).plain("0"),
+    other("judged", 0, kMaxColorTargets - 1).as("judged_color").plain("0"),
 });
 
 constexpr auto kTargetColor = std::to_array<Key>({
@@ -148,7 +148,7 @@ constexpr auto kDraw = std::to_array<Key>({
     word("order", kDirections).shape(),
     table("clip_distance", kDistanceKeys).plain("none"),
     table("cull_distance", kDistanceKeys).plain("none"),
-    table("attribute", kAttributeKeys).plain("none"),
+    table("attribute", kAttributeKeys).as("attributes").plain("none"),
 });
 
 constexpr auto kViewport = std::to_array<Key>({other("rect"), other("depth")});
@@ -183,8 +183,8 @@ constexpr auto kStencil = std::to_array<Key>({
     bits("compare_mask", kAllBits).tries(kStencils).plain("0xff"),
     bits("write_mask", kAllBits).tries(kStencils).plain("0xff"),
     bits("reference", kStencilBits).tries(kStencils).plain("0"),
-    table("front", kStencilFaceKeys),
-    table("back", kStencilFaceKeys),
+    table("front", kStencilFaceKeys).plain("as for both"),
+    table("back", kStencilFaceKeys).plain("as for both"),
 });
 constexpr size_t kFaceTables = 2;
 
@@ -193,7 +193,7 @@ constexpr auto kFragDepth = std::to_array<Key>({
     number("other"),
     // A depth is written by the pixel, not by the face.
     word("where", Words(kWords<Discard>).first(static_cast<size_t>(Discard::front))).near(kEquals),
-    word("from", kDepthSources),
+    word("from", kDepthSources).plain(""),
     word("layout", kWords<DepthLayout>).near(kEquals),
 });
 
@@ -217,18 +217,18 @@ constexpr auto kBlend = std::to_array<Key>({
 });
 
 constexpr auto kAttribute = std::to_array<Key>({
-    other("name").silent(),
+    other("name").plain("attribute0, attribute1, ...").silent(),
     word("source", kWords<Source>).any_word().pipeline(),
     word("interpolation", kWords<Interpolation>).near("{} interpolation").pipeline(),
     word("auxiliary", kWords<Auxiliary>).near(kEquals).pipeline(),
     other("values").silent(),
     other("constant"),
     other("plane"),
-    word("from", kMadeValues),
-    whole("seed", 0, INT64_MAX),
-    other("components", 1, 4),
+    word("from", kMadeValues).plain(""),
+    whole("seed", 0, INT64_MAX).plain("1"),
+    other("components", 1, 4).plain("3, or 1 of random"),
     word("probe", kWords<Probe>).pipeline(),
-    other("sample", 0, 15),
+    other("sample", 0, 15).as("probe_sample"),
     other("offset"),
     other("texture"),
 });
@@ -258,8 +258,8 @@ constexpr auto kBlit = std::to_array<Key>({
 
 constexpr auto kExpect = std::to_array<Key>({other("hits")});
 constexpr auto kRelation = std::to_array<Key>({other("scissor-tiles"), other("doors")});
-constexpr auto kOpenRange =
-    std::to_array<Key>({other("from"), other("to"), other("step"), other("nominal")});
+constexpr auto kOpenRange = std::to_array<Key>(
+    {other("from"), other("to"), other("step").plain("1"), other("nominal").plain("`from`")});
 
 }  // namespace
 

@@ -20,11 +20,11 @@ enum class KeyKind : uint8_t {
     word,    // one of Key::words, in the order of the member's enumeration (or of false and true)
     flag,    // true or false
     whole,   // an integer of least..most
-    bits,    // the same; case files have it in hexadecimal digits
+    bits,    // an integer of least..most, in hexadecimal digits
     number,  // rounded to the nearest binary32
-    share,   // the same, of 0..1
+    share,   // a number of 0..1
     table,   // a table with keys of its own
-    other,   // what code of its own reads and writes
+    other,   // a value that code of its own reads and writes
 };
 
 struct KeyTable;
@@ -59,7 +59,7 @@ struct Key {
         return kind == KeyKind::flag || !words.empty() || !numbers.empty();
     }
 
-    // --- what the rows are written with ---
+    // --- calls that rows are written with ---
     constexpr Key as(std::string_view of_model) const { return with(&Key::field, of_model); }
     constexpr Key plain(std::string_view value) const { return with(&Key::absent, value); }
     constexpr Key near(std::string_view phrase) const { return with(&Key::neighbour, phrase); }

@@ -386,24 +386,20 @@ std::string note_of(const std::vector<std::pair<std::string, TomlValue>>& nomina
 
 }  // namespace
 
-ExpectedAll<std::vector<Case>> load_text(std::string_view toml, const std::string& file_name,
-                                         const std::string& id_base, Contents contents) {
-    const Expected<TomlValue> root = read_toml(toml, file_name);
-    if (!root) {
-        return tl::unexpected(Errors{root.error()});
-    }
+ExpectedAll<std::vector<Case>> load_tree(const TomlValue& root, const std::string& id_base,
+                                         Contents contents) {
     if (id_base == kLimitsCase) {
         return tl::unexpected(Errors{
-            {root->where, fmt::format("runs tell of the device itself under the id '{}'; rename "
-                                      "the file",
-                                      kLimitsCase)}});
+            {root.where, fmt::format("runs tell of the device itself under the id '{}'; rename "
+                                     "the file",
+                                     kLimitsCase)}});
     }
-    const ExpectedAll<Matrix> matrix = read_matrix(root->find("matrix"), root->find("leaves"));
+    const ExpectedAll<Matrix> matrix = read_matrix(root.find("matrix"), root.find("leaves"));
     if (!matrix) {
         return tl::unexpected(matrix.error());
     }
     const ExpectedAll<std::vector<OpenName>> open =
-        read_open(contents == Contents::all ? root->find("fuzz") : nullptr, *matrix);
+        read_open(contents == Contents::all ? root.find("fuzz") : nullptr, *matrix);
     if (!open) {
         return tl::unexpected(open.error());
     }
@@ -412,7 +408,7 @@ ExpectedAll<std::vector<Case>> load_text(std::string_view toml, const std::strin
         nominal.emplace_back(name.key, name.value(name.nominal));
     }
     Errors errors;
-    check_expectation_keys(*root, *matrix, errors);
+    check_expectation_keys(root, *matrix, errors);
     std::vector<Case> cases;
     std::set<std::string> used;
     for (const size_t leaf : matrix->leaves) {
@@ -429,7 +425,7 @@ ExpectedAll<std::vector<Case>> load_text(std::string_view toml, const std::strin
         if (contents == Contents::ids) {
             Case& c = cases.emplace_back();
             c.id = id;
-            c.claim.where = {root->where.file, 1, 1};
+            c.claim.where = {root.where.file, 1, 1};
             c.claim.parameters = std::move(texts);
             continue;
         }
@@ -437,9 +433,9 @@ ExpectedAll<std::vector<Case>> load_text(std::string_view toml, const std::strin
             parameters.emplace_back(key, &value);
         }
         LeafContext context(std::move(parameters));
-        Case c = CaseLoader(*root, context).load();
+        Case c = CaseLoader(root, context).load();
         if (context.errors().empty()) {
-            read_expectation(context, *root, leaf_text, c);
+            read_expectation(context, root, leaf_text, c);
         }
         if (!context.errors().empty()) {
             for (Error error : context.errors()) {
@@ -466,6 +462,12 @@ ExpectedAll<std::vector<Case>> load_text(std::string_view toml, const std::strin
         return tl::unexpected(errors);
     }
     return cases;
+}
+
+ExpectedAll<std::vector<Case>> load_text(std::string_view toml, const std::string& file_name,
+                                         const std::string& id_base, Contents contents) {
+    const Expected<TomlValue> root = read_toml(toml, file_name);
+    return root ? load_tree(*root, id_base, contents) : tl::unexpected(Errors{root.error()});
 }
 
 }  // namespace cases

@@ -24,8 +24,10 @@ class DistanceReader {
         : context_(context),
           table_(table),
           name_(std::move(name)),
-          source_(source),
-          positions_(positions) {}
+          positions_(positions),
+          values_(context, source,
+                  {"a " + name_, true, "; write half_space",
+                   [this](const Number&, float value) { return refusal(value); }}) {}
 
     bool read(std::vector<float>& out) {
         const size_t before = context_.errors().size();
@@ -49,89 +51,33 @@ class DistanceReader {
                            name_ + " has no values; write values, constant, plane or half_space");
             return false;
         }
-        out.assign(source_.vertices.size(), 0.0F);
-        const bool is_read = found == table_.find("values")     ? values(*found, out)
-                             : found == table_.find("constant") ? constant(*found, out)
-                             : found == table_.find("plane")    ? plane(*found, out)
-                                                                : half_space(*found, out);
-        if (is_negated) {
-            std::transform(out.begin(), out.end(), out.begin(), [](float d) { return -d; });
+        const bool is_constant = found == table_.find("constant");
+        const bool is_read = is_constant || found == table_.find("values")
+                                 ? values_.read_values(*found, is_constant)
+                             : found == table_.find("plane") ? values_.read_plane(*found)
+                                                             : half_space(*found);
+        for (const glm::vec4& value : values_.all) {
+            out.push_back(is_negated ? -value.x : value.x);
         }
         return is_read && context_.errors().size() == before;
     }
 
   private:
-    bool store(const Number& n, const SourceLocation& where, float& out) {
-        out = round_to_binary32(n).value;
-        const float size = std::fabs(out);
-        if (size > 0 && !(size >= kMinDistance && size <= kMaxDistance)) {
-            context_.error(where, fmt::format("a {} is {:g}; write 0 or a number of magnitude "
-                                              "2^-60 to 2^60",
-                                              name_, out));
-            return false;
-        }
-        return true;
-    }
-
-    bool values(const TomlValue& value, std::vector<float>& out) {
-        if (!context_.array(value, "values")) {
-            return false;
-        }
-        if (value.array.size() != out.size()) {
-            context_.error(value.where, fmt::format("values has {} entries for {} vertices",
-                                                    value.array.size(), out.size()));
-            return false;
-        }
-        for (size_t v = 0; v < out.size(); ++v) {
-            const std::optional<Number> n = context_.number(value.array[v], "a " + name_);
-            if (!n || !store(*n, value.array[v].where, out[v])) {
-                return false;
-            }
-        }
-        return true;
-    }
-
-    bool constant(const TomlValue& value, std::vector<float>& out) {
-        const std::optional<Number> n = context_.number(value, "a " + name_);
-        float distance = 0;
-        if (!n || !store(*n, value.where, distance)) {
-            return false;
-        }
-        std::fill(out.begin(), out.end(), distance);
-        return true;
-    }
-
-    bool plane(const TomlValue& value, std::vector<float>& out) {
-        if (!check_plane_keys(context_, value.where)) {
-            return false;
-        }
-        for (size_t v = 0; v < out.size(); ++v) {
-            const ExactVertex& vertex = source_.vertices[v];
-            const std::optional<PixelPosition> at =
-                pixel_position(vertex, source_.space, source_.viewport);
-            if (!at) {
-                context_.error(value.where,
-                               fmt::format("plane has no x and y at vertex {}, whose w is 0; "
-                                           "write half_space",
-                                           v));
-                return false;
-            }
-            const Names names = plane_names(context_, vertex, *at);
-            const std::optional<Number> n = context_.number(value, "plane", names);
-            if (!n || !store(*n, value.where, out[v])) {
-                return false;
-            }
-        }
-        return true;
+    std::string refusal(float value) const {
+        const float size = std::fabs(value);
+        return size > 0 && !(size >= kMinDistance && size <= kMaxDistance)
+                   ? fmt::format("a {} is {:g}; write 0 or a number of magnitude 2^-60 to 2^60",
+                                 name_, value)
+                   : std::string();
     }
 
     // a x + b y + c z + d w of the clip-space position, exact, then rounded once.
-    bool half_space(const TomlValue& value, std::vector<float>& out) {
+    bool half_space(const TomlValue& value) {
         const std::optional<std::vector<Number>> k = context_.numbers(value, "half_space", 4);
         if (!k) {
             return false;
         }
-        for (size_t v = 0; v < out.size(); ++v) {
+        for (size_t v = 0; v < values_.all.size(); ++v) {
             Number sum;
             for (size_t c = 0; c < 4; ++c) {
                 const float p = positions_[v][static_cast<glm::vec4::length_type>(c)];
@@ -144,7 +90,7 @@ class DistanceReader {
                 }
                 sum.value += (*k)[c].value * mpq_class(static_cast<double>(p));
             }
-            if (!store(sum, value.where, out[v])) {
+            if (!values_.store(v, 0, sum, value.where)) {
                 return false;
             }
         }
@@ -154,8 +100,8 @@ class DistanceReader {
     LeafContext& context_;
     const TomlValue& table_;
     std::string name_;
-    const AttributeSource& source_;
     const std::vector<glm::vec4>& positions_;
+    VertexValues values_;
 };
 
 // Reads the tables of one kind; returns how many there are.

@@ -18,25 +18,13 @@ namespace {
 // "minDepthBounds must be between 0.0 and 1.0, inclusive" (Vulkan specification,
 // vkCmdSetDepthBounds), as maxDepthBounds must.
 std::optional<DepthBounds> read_bounds(LeafContext& context, const TomlValue& value) {
-    const auto numbers = context.numbers(value, "bounds", 2);
-    if (!numbers) {
-        return std::nullopt;
-    }
-    for (size_t k = 0; k < 2; ++k) {
-        if ((*numbers)[k].value < 0 || (*numbers)[k].value > 1) {
-            context.error(value.array[k].where,
-                          "a depth bound is outside 0..1, which Vulkan does not allow");
-            return std::nullopt;
-        }
-    }
-    const DepthBounds out{round_to_binary32((*numbers)[0]).value,
-                          round_to_binary32((*numbers)[1]).value};
-    if (out.min > out.max) {
+    const auto ends = context.depths(value, "bounds", "a depth bound");
+    if (ends && ends->front() > ends->back()) {
         context.error(value.where,
                       "no depth lies in bounds whose minimum is larger than their maximum; write "
                       "[minimum, maximum]");
     }
-    return out;
+    return ends ? std::optional(DepthBounds{ends->front(), ends->back()}) : std::nullopt;
 }
 
 }  // namespace

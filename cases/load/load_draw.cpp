@@ -308,19 +308,10 @@ class DrawLoader {
     }
 
     void read_depth(const TomlValue& depth) {
-        const std::optional<std::vector<Number>> numbers = context_.numbers(depth, "depth", 2);
-        if (!numbers) {
-            return;
+        if (const auto ends = context_.depths(depth, "depth", "depth")) {
+            draw_.viewport.min_depth = ends->front();
+            draw_.viewport.max_depth = ends->back();
         }
-        for (const size_t i : {0U, 1U}) {
-            if ((*numbers)[i].value < 0 || (*numbers)[i].value > 1) {
-                context_.error(depth.array[i].where,
-                               "depth is outside 0..1, which Vulkan does not allow");
-                return;
-            }
-        }
-        draw_.viewport.min_depth = round_to_binary32((*numbers)[0]).value;
-        draw_.viewport.max_depth = round_to_binary32((*numbers)[1]).value;
     }
 
     void check_viewport(const TomlValue& rect) {
@@ -418,14 +409,14 @@ class DrawLoader {
 
     // A surface has its positions already, and nothing that exact vertices are needed for.
     void refuse_with_surface() {
-        for (const char* key :
-             {"attribute", "mirror", "rotate", "offset", "winding", "first", "order"}) {
-            if (const TomlValue* value = table_.find(key)) {
-                context_.error(
-                    value->where,
-                    fmt::format("{} does not go with the generator \"surface\"; leave it "
-                                "out",
-                                key));
+        for (const Key& key : kDrawKeys.keys) {
+            const bool is_refused = key.has(Key::kShape) || key.name == "attribute";
+            const TomlValue* value = is_refused ? table_.find(key.name) : nullptr;
+            if (value != nullptr && key.name != "generate") {
+                context_.error(value->where,
+                               fmt::format("{} does not go with the generator \"surface\"; leave "
+                                           "it out",
+                                           key.name));
             }
         }
     }
@@ -443,11 +434,6 @@ class DrawLoader {
         std::vector<uint32_t> indices;
         for (const TomlValue& element : value.array) {
             if (element.is(Kind::string) && element.string == "restart") {
-                if (draw_.topology == Topology::triangle_list) {
-                    context_.error(element.where,
-                                   "\"restart\" needs a strip or a fan; a list has no restart");
-                    return false;
-                }
                 draw_.primitive_restart = true;
                 indices.push_back(kRestartIndex);
                 continue;
@@ -497,10 +483,13 @@ class DrawLoader {
                            fmt::format("{} {} make no triangle; write at least 3",
                                        *std::max_element(pieces.begin(), pieces.end()),
                                        draw_.indices ? "indices" : "vertices"));
-        } else if (draw_.topology == Topology::triangle_list && pieces[0] % 3 != 0) {
-            notes.push_back(fmt::format("{}: the last {} of {} {} make no triangle", name,
-                                        pieces[0] % 3, pieces[0],
-                                        draw_.indices ? "indices" : "vertices"));
+        }
+        for (const size_t piece : pieces) {
+            if (draw_.topology == Topology::triangle_list && piece > 3 && piece % 3 != 0) {
+                notes.push_back(fmt::format("{}: the last {} of {} {} make no triangle", name,
+                                            piece % 3, piece,
+                                            draw_.indices ? "indices" : "vertices"));
+            }
         }
     }
 

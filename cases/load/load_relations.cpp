@@ -140,29 +140,23 @@ std::vector<Relation> load_relations(LeafContext& context, const TomlValue& valu
     for (const TomlValue& element : value.array) {
         Relation relation;
         std::vector<Relation> found;
-        if (element.is(TomlValue::Kind::table) && element.find("doors") != nullptr) {
-            context.known_keys(element, kRelationKeys);
-            found = load_doors(context, *element.find("doors"));
-        } else if (element.is(TomlValue::Kind::table)) {
-            context.known_keys(element, kRelationKeys);
-            const TomlValue* tile = element.find("scissor-tiles");
-            if (tile == nullptr ||
-                !context.array_of(*tile, "scissor-tiles", 2, "[width, height]")) {
-                continue;
+        if (!element.is(TomlValue::Kind::table)) {
+            if (const auto word = context.word(element, "a relation", kPlainWords)) {
+                relation.kind = kPlainKinds[*word];
+                found = {relation};
             }
+        } else if (context.known_keys(element, kRelationKeys);
+                   const TomlValue* doors = element.find("doors")) {
+            found = load_doors(context, *doors);
+        } else if (const TomlValue* tile = element.find("scissor-tiles");
+                   tile != nullptr &&
+                   context.array_of(*tile, "scissor-tiles", 2, "[width, height]")) {
             relation.kind = RelationKind::scissor_tiles;
             for (size_t k = 0; k < 2; ++k) {
                 relation.tile[k] = static_cast<uint32_t>(
                     context.integer(tile->array[k], "a tile's side", 1, kMaxTargetSize)
                         .value_or(1));
             }
-            found = {relation};
-        } else {
-            const std::optional<size_t> word = context.word(element, "a relation", kPlainWords);
-            if (!word) {
-                continue;
-            }
-            relation.kind = kPlainKinds[*word];
             found = {relation};
         }
         if (!context.errors().empty()) {

@@ -15,6 +15,8 @@
 
 namespace cases {
 
+struct TomlValue;
+
 // How much of a case is read.
 enum class Contents : uint8_t {
     all,
@@ -27,7 +29,11 @@ ExpectedAll<std::vector<Case>> load_text(std::string_view toml, const std::strin
                                          const std::string& id_base,
                                          Contents contents = Contents::all);
 
-// Does the same with a file. The id is the path below `suite_root` without ".toml"; a file outside
+// The cases of a document that has been read or made.
+ExpectedAll<std::vector<Case>> load_tree(const TomlValue& root, const std::string& id_base,
+                                         Contents contents = Contents::all);
+
+// All leaves of a file. The id is the path below `suite_root` without ".toml"; a file outside
 // the root has its stem as id.
 ExpectedAll<std::vector<Case>> load_file(const std::filesystem::path& file,
                                          const std::filesystem::path& suite_root);

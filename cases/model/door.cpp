@@ -322,7 +322,7 @@ uint32_t vertex_shift(Door door) {
 uint32_t split_of(Door door, const Draw& draw) {
     if ((door != Door::multi_indirect && door != Door::indirect_after_count &&
          door != Door::multi_draw) ||
-        draw.topology != Topology::triangle_list) {
+        draw.topology != Topology::triangle_list || draw.primitive_restart) {
         return 0;
     }
     const size_t elements = draw.indices ? draw.indices->size() : draw.positions.size();

@@ -248,6 +248,21 @@ std::optional<std::vector<Number>> LeafContext::numbers(const TomlValue& value,
     return result;
 }
 
+std::optional<std::array<float, 2>> LeafContext::depths(const TomlValue& value,
+                                                        const std::string& what, const char* each) {
+    const std::optional<std::vector<Number>> ends = numbers(value, what, 2);
+    std::array<float, 2> out{};
+    for (size_t k = 0; ends && k < 2; ++k) {
+        if ((*ends)[k].value < 0 || (*ends)[k].value > 1) {
+            error(value.array[k].where,
+                  fmt::format("{} is outside 0..1, which Vulkan does not allow", each));
+            return std::nullopt;
+        }
+        out.at(k) = round_to_binary32((*ends)[k]).value;
+    }
+    return ends ? std::optional(out) : std::nullopt;
+}
+
 std::optional<float> LeafContext::binary32(const TomlValue& value, const std::string& what) {
     const std::optional<Number> n = number(value, what);
     return n ? binary32(*n, value.where, what) : std::nullopt;

@@ -57,8 +57,8 @@ class LeafContext {
     std::optional<std::string> text(const TomlValue& value, const std::string& what);
     // The index of a word in a list; a matrix key may stand for it.
     std::optional<size_t> word(const TomlValue& value, const std::string& what, Words words);
-    // What a table says under a key, if it is there, read as the key's row has it. A mistake leaves
-    // the member as it is, and the result is false. `most` is for a range that ends early.
+    // Reads a key as its row has it, if the table has the key. A mistake leaves the member as it
+    // is, and the result is false. `most` is for a range that ends early.
     template <class T>
     bool read(const TomlValue& table, const Key& key, T& member,
               std::optional<int64_t> most = std::nullopt) {
@@ -90,7 +90,7 @@ class LeafContext {
         const Key* key = keys.find(name);
         return key == nullptr || read(table, *key, member, most);
     }
-    // The same of all words, flags and numbers that the structure has members for, and those of
+    // Reads all words, flags and numbers that the structure has members for, and those of
     // structures in it that are no table of their own.
     template <class T>
     void read_all(const TomlValue& table, const KeyTable& keys, T& out) {
@@ -121,6 +121,9 @@ class LeafContext {
     // An array of numbers, exactly `count` of them.
     std::optional<std::vector<Number>> numbers(const TomlValue& value, const std::string& what,
                                                size_t count);
+    // An array of two numbers of 0..1; `each` names one in errors.
+    std::optional<std::array<float, 2>> depths(const TomlValue& value, const std::string& what,
+                                               const char* each);
     // Rounded to the nearest binary32; too large ones are an error.
     std::optional<float> binary32(const TomlValue& value, const std::string& what);
     std::optional<float> binary32(const Number& n, const SourceLocation& where,

@@ -36,13 +36,15 @@ size_t group_of(const Draw& draw) {
     return draw.topology == Topology::triangle_list && !draw.indices ? 3 : 0;
 }
 
-// `count` components of each entry; the same at every vertex is `constant`.
-void add_values(TableText& table, const std::vector<std::vector<float>>& values, size_t group) {
+// Components of each vertex from `first` on; if all vertices are alike, as `constant`.
+void add_values(TableText& table, const std::vector<glm::vec4>& values, uint32_t first,
+                uint32_t count, size_t group) {
     std::vector<std::string> items;
-    for (const std::vector<float>& value : values) {
+    for (const glm::vec4& value : values) {
         std::vector<std::string> components;
-        for (const float component : value) {
-            components.push_back(number_toml(component, Reading::nearest));
+        for (uint32_t k = first; k < std::min(first + count, 4U); ++k) {
+            components.push_back(
+                number_toml(value[static_cast<glm::vec4::length_type>(k)], Reading::nearest));
         }
         items.push_back(components.size() == 1 ? components[0] : list_toml(components, ","));
     }
@@ -218,12 +220,8 @@ std::string distances_text(const char* name, const std::vector<glm::vec4>& dista
                            uint32_t count, size_t group) {
     std::string out;
     for (uint32_t k = 0; k < std::min(count, 4U); ++k) {
-        std::vector<std::vector<float>> values;
-        for (const glm::vec4& distance : distances) {
-            values.push_back({distance[static_cast<glm::vec4::length_type>(k)]});
-        }
         TableText table(kDistanceKeys);
-        add_values(table, values, group);
+        add_values(table, distances, k, 1, group);
         out += fmt::format("[[draw.{}]]\n{}", name, table.lines());
     }
     return out;
@@ -236,14 +234,7 @@ std::string attribute_text(const Attribute& attribute, size_t index, size_t grou
         table.add("name", string_toml(attribute.name));
     }
     if (attribute.source == Source::vertex) {
-        std::vector<std::vector<float>> values;
-        for (const glm::vec4& value : attribute.values) {
-            std::vector<float>& components = values.emplace_back();
-            for (uint32_t k = 0; k < std::min(attribute.components, 4U); ++k) {
-                components.push_back(value[static_cast<glm::vec4::length_type>(k)]);
-            }
-        }
-        add_values(table, values, group);
+        add_values(table, attribute.values, 0, attribute.components, group);
     }
     if (attribute.probe == Probe::at_sample) {
         table.add("sample", std::to_string(attribute.probe_sample));

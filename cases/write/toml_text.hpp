@@ -40,7 +40,7 @@ std::string mask_toml(uint32_t mask);
 class TableText {
   public:
     explicit TableText(const KeyTable& keys) : keys_(keys) {}
-    // Replaces what the key had.
+    // Replaces the value that the key had.
     void add(std::string_view key, std::string value);
     void add(std::string_view key, const TableText& table) { add(key, table.in_line()); }
     // Each word, flag and number of a structure that is not as usual, and those of structures in it

@@ -14,7 +14,7 @@
 #include "cases/model/device.hpp"
 #include "cases/model/rule.hpp"
 #include "cases/select/selector.hpp"
-#include "cli/options/parse.hpp"
+#include "cli/options/run_options.hpp"
 #include "cli/prepare/claims.hpp"
 #include "cli/prepare/command_lines.hpp"
 #include "cli/prepare/device_answer.hpp"

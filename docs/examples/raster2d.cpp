@@ -129,7 +129,8 @@ int main(int argc, char** argv) {
     }
     const fs::path from = argv[1], to = argv[2];
     const bool reverse_ties = argc > 3 && std::string(argv[3]) == "--reverse-ties";
-    const std::set<std::string> can = {"strip", "fan", "indices", "restart", "beyond-viewport"};
+    const std::set<std::string> can = {"strip",   "fan",          "indices",
+                                       "restart", "restart-list", "beyond-viewport"};
     const Json index = read_json(from / "index.json");
     for (const Json& entry : index["cases"]) {
         const fs::path folder = to / entry["folder"].get<std::string>();

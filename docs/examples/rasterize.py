@@ -18,8 +18,8 @@ import pathlib
 import sys
 
 # What a case may need; everything else is left out (docs/schema/case-1.json).
-CAN = {"samples", "sample-locations", "strip", "fan", "indices", "restart", "beyond-viewport", "perspective",
-       "viewport", "depth-range", "scissor", "cull", "provoking-last"}
+CAN = {"samples", "sample-locations", "strip", "fan", "indices", "restart", "restart-list", "beyond-viewport",
+       "perspective", "viewport", "depth-range", "scissor", "cull", "provoking-last"}
 # What changes only planes that are not delivered here.
 CAN |= {"color", "blend", "color-write-mask", "stencil", "resolve"}
 GRID = 256  # snapped positions are whole numbers of 1/256 pixel

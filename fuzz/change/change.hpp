@@ -25,13 +25,12 @@ Words change_state(Document& document, Dice& dice, const Document* other);
 // What does not: vertices and indices, viewports, scissors, numbers of any key.
 Words change_geometry(Document& document, Dice& dice, const Document* other);
 
-// --- parts of changes of a state: depth bounds, gl_FragDepth, logical operations, queries, stencil
-// states, and what a blit has instead of draws ---
+// --- parts of changes of a state: depth bounds, gl_FragDepth, logical operations and alpha,
+// queries, stencil states, and what a blit has instead of draws ---
 Words change_bounds(Document& document, Dice& dice);
 Words change_frag_depth(Document& document, Dice& dice);
-Words change_logic(Document& document, Dice& dice);
 Words change_query(Document& document, Dice& dice);
-Words change_alpha(Document& document, Dice& dice);
+Words change_codes(Document& document, Dice& dice);
 Words change_fragment_size(Document& document, Dice& dice);
 Words change_stencil(Document& document, Dice& dice);
 Words change_blit(Document& document, Dice& dice);

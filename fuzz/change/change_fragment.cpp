@@ -12,20 +12,12 @@
 #include <vector>
 
 #include "cases/model/target.hpp"
-#include "cases/model/words.hpp"
 #include "fuzz/change/change.hpp"
 #include "fuzz/reduce/measure.hpp"
 
 namespace fuzz {
 
 namespace {
-
-template <class Change>
-void for_each_draw(Document& document, Change&& change) {
-    if (Document* draws = find(document, "draw")) {
-        std::ranges::for_each(draws->array, change);
-    }
-}
 
 void add_number(const Document* value, std::vector<double>& all) {
     if (const auto number = value == nullptr ? std::nullopt : value_of(*value);
@@ -112,8 +104,6 @@ Words change_bounds(Document& document, Dice& dice) {
 }
 
 Words change_frag_depth(Document& document, Dice& dice) {
-    static constexpr std::array<std::string_view, 3> kPatterns = {"odd-columns", "odd-rows",
-                                                                  "checker"};
     Words words;
     Document* draw = any_draw(document, dice, words);
     if (draw == nullptr) {
@@ -138,13 +128,12 @@ Words change_frag_depth(Document& document, Dice& dice) {
         if (dice.one_in(2)) {
             const double other = near_depth(depths, dice);
             set(written, "other", number(other));
-            set(written, "where", text(std::string(dice.of(kPatterns))));
+            set_any(written, cases::kFragDepthKeys, "where", dice);
             words += fmt::format(" or {}", other);
         }
     }
     if (dice.one_in(4)) {
-        const auto& layouts = cases::kWords<cases::DepthLayout>;
-        set(written, "layout", text(std::string(layouts[dice.below(layouts.size())])));
+        set_any(written, cases::kFragDepthKeys, "layout", dice);
     }
     set(*draw, "frag_depth", std::move(written));
     return words;
@@ -165,8 +154,9 @@ Words change_fragment_size(Document& document, Dice& dice) {
     return fmt::format("{}fragments of {} x {} pixels", words, width, height);
 }
 
-Words change_alpha(Document& document, Dice& dice) {
-    static constexpr std::array<std::string_view, 2> kKeys = {"alpha_to_one", "alpha_to_coverage"};
+Words change_codes(Document& document, Dice& dice) {
+    static constexpr std::array<std::string_view, 3> kKeys = {"logic", "alpha_to_one",
+                                                              "alpha_to_coverage"};
     Words words;
     Document* draw = any_draw(document, dice, words);
     Document* color = draw == nullptr ? nullptr : one_color(*draw);
@@ -177,26 +167,9 @@ Words change_alpha(Document& document, Dice& dice) {
     if (drops(color, key, dice)) {
         return fmt::format("{}without {}", words, key);
     }
-    set(*color, std::string(key), boolean(true));
+    words += set_any(*color, cases::kColorKeys, key, dice);
     without_instruments(document, dice);
-    return fmt::format("{}{}", words, key);
-}
-
-Words change_logic(Document& document, Dice& dice) {
-    Words words;
-    Document* draw = any_draw(document, dice, words);
-    Document* color = draw == nullptr ? nullptr : one_color(*draw);
-    if (color == nullptr) {
-        return {};
-    }
-    if (drops(color, "logic", dice)) {
-        return words + "without a logical operation";
-    }
-    const auto& ops = cases::kWords<cases::LogicOp>;
-    const std::string_view op = ops[dice.below(ops.size())];
-    set(*color, "logic", text(std::string(op)));
-    without_instruments(document, dice);
-    return fmt::format("{}the logical operation {}", words, op);
+    return words;
 }
 
 Words change_query(Document& document, Dice& dice) {
@@ -217,11 +190,7 @@ Words change_query(Document& document, Dice& dice) {
             }
         }
     });
-    const auto& kinds = cases::kWords<cases::Query>;
-    const std::string_view kind =
-        dice.one_in(3) ? kinds.at(1 + dice.below(kinds.size() - 1)) : "occlusion-precise";
-    set(*draw, "query", text(std::string(kind)));
-    return fmt::format("{}the query {}", words, kind);
+    return words + set_any(*draw, cases::kDrawKeys, "query", dice);
 }
 
 }  // namespace fuzz

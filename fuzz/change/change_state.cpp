@@ -155,19 +155,10 @@ Words remove_key(Document& document, Dice& dice) {
     if (key == "vertices" || key == "size" || key == "values" || key == "space") {
         return {};
     }
-    erase(*in, key);
     if (key == "color") {  // of the target or of a draw: neither goes without the other
-        if (Document* target = find(document, "target")) {
-            erase(*target, "color");
-            erase(*target, "judged");
-            erase(*target, "attachments");
-            erase(*target, "resolve");
-        }
-        if (Document* draws = find(document, "draw")) {
-            for (Document& draw : draws->array) {
-                erase(draw, "color");
-            }
-        }
+        erase_color(document);
+    } else {
+        erase(*in, key);
     }
     return fmt::format("{}without {}", words, key);
 }
@@ -325,9 +316,8 @@ Words change_state(Document& document, Dice& dice, const Document* other) {
            : kind < 20 ? change_draws(document, dice, other)
            : kind < 21 ? change_bounds(document, dice)
            : kind < 22 ? change_frag_depth(document, dice)
-           : kind < 23 ? change_logic(document, dice)
-           : kind < 24 ? change_query(document, dice)
-           : kind < 25 ? change_alpha(document, dice)
+           : kind < 24 ? change_codes(document, dice)
+           : kind < 25 ? change_query(document, dice)
            : kind < 26 ? change_fragment_size(document, dice)
                        : change_stencil(document, dice);
 }

@@ -39,7 +39,7 @@ Source::Made made_of(Document document, const std::string& description, uint64_t
     set(document, "description", text(description));
     Source::Made made;
     made.text = to_text(document);
-    made.data = load_one(made.text, std::to_string(number));
+    made.data = load_one(document, std::to_string(number));
     return made;
 }
 
@@ -80,7 +80,7 @@ std::optional<std::string> refusal(const Start& start, const std::vector<cases::
     for (const cases::OpenName& name : names) {
         values.emplace_back(name.key, name.value(name.key == asked.key ? number : name.nominal));
     }
-    const auto loaded = cases::load_text(to_text(closed(start, values)), "fuzz", "open");
+    const auto loaded = cases::load_tree(closed(start, values), "open");
     return loaded ? std::nullopt : std::optional(loaded.error().front().message);
 }
 
@@ -168,7 +168,7 @@ void ChangedSource::enter(uint64_t group) {
             }
             add(words, one);
         }
-        if (!words.empty() && load_one(to_text(changed), "group")) {
+        if (!words.empty() && load_one(changed, "group")) {
             document_ = std::move(changed);
             words_ = std::move(words);
             return;
@@ -232,7 +232,7 @@ Source::Made ChangedSource::make_open(uint64_t number) const {
             values.emplace_back(name.key, std::move(value));
         }
         const uint64_t refused = made.refused;
-        if (auto c = load_one(to_text(closed(*start_, values)), std::to_string(number))) {
+        if (auto c = load_one(closed(*start_, values), std::to_string(number))) {
             if (Document document = document_of(std::move(*c)); !document.table.empty()) {
                 made =
                     made_of(std::move(document),

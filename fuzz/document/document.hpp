@@ -4,6 +4,7 @@
 // A case file as a tree that can be changed and written down again.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,6 +33,17 @@ Document* find(Document& table, std::string_view key);
 Document& set(Document& table, std::string_view key, Document value);
 // Whether there was such an entry.
 bool erase(Document& table, std::string_view key);
+// Removes an element of a list, and with its last one the key; false if there is none.
+bool erase_at(Document* table, std::string_view key, size_t element);
+// Removes the colour target with all that needs one; false if there is none.
+bool erase_color(Document& document);
+// Calls change(draw) for each draw.
+template <class Change>
+void for_each_draw(Document& document, Change&& change) {
+    if (Document* draws = find(document, "draw")) {
+        std::ranges::for_each(draws->array, change);
+    }
+}
 
 // Whether two trees say the same: kinds, values (floats by their bits, all NaNs alike) and
 // keys, in any order. Where they stand in files does not matter.

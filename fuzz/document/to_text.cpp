@@ -19,7 +19,7 @@ namespace {
 
 constexpr size_t kColumns = 100;  // of a line, where values allow it
 
-// Keys stand as their rows do, those of triangles behind the others, and last what no row has.
+// Keys stand as their rows do, those of triangles behind the others, and last those without a row.
 std::vector<const cases::TomlEntry*> ordered(const Document& table, const cases::KeyTable* keys) {
     std::vector<std::pair<std::pair<int, const cases::Key*>, const cases::TomlEntry*>> entries;
     for (const cases::TomlEntry& entry : table.table) {

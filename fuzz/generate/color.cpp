@@ -128,7 +128,7 @@ std::string color_of(const Pose& pose, Dice& dice) {
         numbers.push_back(component(pose, k, dice));
     }
     // An alpha that keeps no sample or all of them: of others nothing is known.
-    if (!pose.is_default("alpha-to-coverage") && dice.one_in(2)) {
+    if (!pose.is_default("alpha_to_coverage") && dice.one_in(2)) {
         numbers.back() = dice.one_in(2) ? "0" : "1";
     }
     return fmt::format("[{}]", fmt::join(numbers, ", "));
@@ -146,13 +146,13 @@ std::string color_keys_of(const Pose& pose, size_t number, size_t draws, std::st
                                             : fmt::format(", blend = \"{}\"", pose.value("blend"));
     }
     keys += is_plain ? "" : logic(pose, is_last, turn);
-    if (!pose.is_default("write-mask") && has()) {
-        keys += fmt::format(", write_mask = \"{}\"", pose.value("write-mask"));
+    if (!pose.is_default("write_mask") && has()) {
+        keys += fmt::format(", write_mask = \"{}\"", pose.value("write_mask"));
     }
-    if (!pose.is_default("alpha-to-one") && has()) {
+    if (!pose.is_default("alpha_to_one") && has()) {
         keys += ", alpha_to_one = true";
     }
-    if (!pose.is_default("alpha-to-coverage") && has()) {
+    if (!pose.is_default("alpha_to_coverage") && has()) {
         keys += ", alpha_to_coverage = true";
     }
     return fmt::format("{{ {} }}", keys);

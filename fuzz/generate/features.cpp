@@ -7,14 +7,15 @@ namespace fuzz {
 
 namespace {
 
-// The words of a key behind what stands for its absence, if no word does.
+// The words of a key, behind a word for its absence if none of them is.
 std::vector<std::string_view> words(const cases::KeyTable& keys, std::string_view name,
                                     std::string_view absent = {}) {
+    const cases::Key* key = keys.find(name);
     std::vector<std::string_view> all;
-    if (!absent.empty()) {
+    if (!absent.empty() || key == nullptr) {
         all.push_back(absent);
     }
-    if (const cases::Key* key = keys.find(name)) {
+    if (key != nullptr) {
         all.insert(all.end(), key->words.begin(), key->words.end());
     }
     return all;
@@ -35,46 +36,46 @@ const std::vector<Feature>& features() {
          {"none", "additive", "alpha", "premultiplied", "multiply", "reverse-subtract", "min",
           "max", "factors"}},
         {"second", {"false", "true"}},
-        {"alpha-to-one", {"false", "true"}},
+        {"alpha_to_one", {"false", "true"}},
         {"color-from", {"value", "attribute"}},
-        {"write-mask", {"rgba", "rgb", "r", "gb", "ra"}},
+        {"write_mask", {"rgba", "rgb", "r", "gb", "ra"}},
         {"logic", words(cases::kColorKeys, "logic", "none")},
         {"query", {"none", "occlusion", "occlusion-precise", "statistics"}},
         {"stencil", {"false", "true"}},
-        {"stencil-clear", {"0", "given"}},
+        {"stencil_clear", {"0", "given"}},
         {"stencil-compare",
          {"always", "equal", "not-equal", "less", "less-or-equal", "greater", "greater-or-equal",
           "never"}},
         {"stencil-ops", {"count", "same", "faces"}},
         {"stencil-masks", {"whole", "given"}},
         {"resolve", {"none", "average", "sample-zero"}},
-        {"depth-resolve", {"none", "sample-zero", "min", "max", "average"}},
-        {"sample-locations", {"standard", "own"}},
+        {"depth_resolve", {"none", "sample-zero", "min", "max", "average"}},
+        {"sample_locations", {"standard", "own"}},
         {"draws", {"1", "2", "3"}},
         {"topology", words(cases::kDrawKeys, "topology")},
         {"indices", {"none", "given", "restart"}},
         {"space", {"pixels", "clip"}},
         {"cull", {"none", "back", "front"}},
-        {"front-face", words(cases::kDrawKeys, "front_face")},
+        {"front_face", words(cases::kDrawKeys, "front_face")},
         {"provoking", words(cases::kDrawKeys, "provoking")},
-        {"depth-volume", words(cases::kDrawKeys, "depth_volume")},
+        {"depth_volume", words(cases::kDrawKeys, "depth_volume")},
         {"compare",
          {"always", "less", "less-or-equal", "greater", "greater-or-equal", "equal", "not-equal",
           "never"}},
         {"depth-write", {"true", "false"}},
         {"depth-bounds", {"none", "ends", "below", "above", "one-depth", "whole"}},
-        {"frag-depth", {"none", "value", "odd-columns", "odd-rows", "checker", "frag-coord"}},
+        {"frag_depth", {"none", "value", "odd-columns", "odd-rows", "checker", "frag-coord"}},
         {"depth-layout", words(cases::kFragDepthKeys, "layout")},
         {"bias", {"none", "constant", "slope", "both", "clamped"}},
         {"depth-clamp", {"false", "true"}},
         {"depth-clip", {"default", "true", "false"}},
-        {"sample-mask", {"all", "given"}},
-        {"shader-mask", {"all", "given"}},
+        {"sample_mask", {"all", "given"}},
+        {"shader_mask", {"all", "given"}},
         {"sample-shading", {"off", "half", "full", "least"}},
         {"discard", {"none", "odd-columns", "odd-rows", "checker", "front", "back"}},
-        {"discard-by", words(cases::kDrawKeys, "discard_by")},
-        {"early-tests", {"false", "true"}},
-        {"rasterizer-discard", {"none", "first-draw"}},
+        {"discard_by", words(cases::kDrawKeys, "discard_by")},
+        {"early_tests", {"false", "true"}},
+        {"rasterizer_discard", {"none", "first-draw"}},
         {"attributes", {"none", "one", "two", "three"}},
         {"interpolation", {"smooth", "noperspective", "flat", "mixed"}},
         {"auxiliary", words(cases::kAttributeKeys, "auxiliary")},
@@ -87,7 +88,7 @@ const std::vector<Feature>& features() {
         {"complement", {"false", "true"}},
         {"viewport", {"target", "inner", "beyond", "flipped", "fractional", "depth"}},
         {"scissor", {"target", "inner", "beyond", "thin"}},
-        {"viewport-index", {"0", "other"}},
+        {"viewport_index", {"0", "other"}},
         {"relation",
          {"none", "same-twice", "other-clears", "write-masks", "fewer-attributes",
           "more-attributes", "scissor-tiles"}},
@@ -95,9 +96,9 @@ const std::vector<Feature>& features() {
         {"z", {"half", "plane", "beyond"}},
         // Drawn apart (kFeaturesApart of pose.cpp): they stay last.
         {"conservative", {"none", "overestimate", "underestimate", "extra"}},
-        {"fragment-size", {"1x1", "2x1", "2x2", "1x2", "4x2", "2x4", "4x4"}},
+        {"fragment_size", {"1x1", "2x1", "2x2", "1x2", "4x2", "2x4", "4x4"}},
         {"fragment-input", {"none", "sample-mask-in", "shading-rate"}},
-        {"alpha-to-coverage", {"false", "true"}},
+        {"alpha_to_coverage", {"false", "true"}},
     };
     return kAll;
 }

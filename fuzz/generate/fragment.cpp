@@ -25,7 +25,7 @@ double normal(float depth) {
 // The depths of fragments from a vertex's: as viewport and volume map it.
 double mapped(const Pose& pose, std::array<double, 2> viewport, double z) {
     const auto [near, far] = viewport;
-    return pose.is_default("depth-volume") ? near + (far - near) * z
+    return pose.is_default("depth_volume") ? near + (far - near) * z
                                            : (far + near) / 2 + (far - near) / 2 * z;
 }
 
@@ -84,8 +84,8 @@ std::string bias_of(const Pose& pose, Dice& turn, Dice& control) {
         parts.push_back(fmt::format("clamp = {}", turn.fraction(-8, 8, 64)));
     }
     if (has_constant && control.one_in(4)) {
-        constexpr std::array<std::string_view, 3> kOfR = {"format", "force-unorm", "float"};
-        const std::string_view representation = control.of(kOfR);
+        const std::string_view representation =
+            control.of(cases::kWords<cases::DepthBiasRepresentation>);
         if (representation != "format") {
             parts.push_back(fmt::format("representation = \"{}\"", representation));
         }
@@ -131,9 +131,9 @@ std::array<double, 2> vertex_depths(const Pose& pose) {
 std::string frag_depth_of(const Pose& pose, size_t number, size_t draws,
                           std::array<double, 2> viewport, StoredDepths& stored, Dice& state,
                           Dice& dice) {
-    const bool is_coord = pose.is("frag-depth", "frag-coord");
+    const bool is_coord = pose.is("frag_depth", "frag-coord");
     // An early draw may store its triangles' own depths.
-    const bool is_own = pose.is_default("frag-depth") || (number + 1 < draws && state.one_in(3));
+    const bool is_own = pose.is_default("frag_depth") || (number + 1 < draws && state.one_in(3));
     if ((is_own || is_coord) && pose.is("z", "half")) {
         stored.add(mapped(pose, viewport, 0.5));
     }
@@ -170,9 +170,9 @@ std::string frag_depth_of(const Pose& pose, size_t number, size_t draws,
     };
     const double value = depth();
     std::string keys = fmt::format("value = {}", value);
-    if (!pose.is("frag-depth", "value")) {
+    if (!pose.is("frag_depth", "value")) {
         const double other = depth();
-        keys += fmt::format(", other = {}, where = \"{}\"", other, pose.value("frag-depth"));
+        keys += fmt::format(", other = {}, where = \"{}\"", other, pose.value("frag_depth"));
         stored.add(std::clamp(other, least, most));
     }
     stored.add(std::clamp(value, least, most));
@@ -200,11 +200,11 @@ std::string discard_of(const Pose& pose, Dice& dice) {
     if (pose.is_default("discard")) {
         return {};
     }
-    const std::string by = pose.is_default("discard-by")
+    const std::string by = pose.is_default("discard_by")
                                ? ""
-                               : fmt::format("discard_by = \"{}\"\n", pose.value("discard-by"));
+                               : fmt::format("discard_by = \"{}\"\n", pose.value("discard_by"));
     const bool has_values = !pose.is_default("attributes") && pose.is_default("source") &&
-                            pose.is_default("probe") && pose.is_default("shader-mask") &&
+                            pose.is_default("probe") && pose.is_default("shader_mask") &&
                             !pose.value("relation").ends_with("-attributes");
     if (!has_values || !dice.one_in(3)) {
         return fmt::format("discard = \"{}\"\n{}", pose.value("discard"), by);

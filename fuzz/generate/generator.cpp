@@ -109,10 +109,12 @@ class CaseWriter {
     void line(fmt::format_string<Args...> format, Args&&... args) {
         text_ += fmt::format(format, std::forward<Args>(args)...) + '\n';
     }
-    // A key whose word is the feature's value.
-    void word(std::string_view key, std::string_view feature) {
-        if (!pose_.is_default(feature)) {
-            line("{} = \"{}\"", key, pose_.value(feature));
+    // A key that is a feature: its word is the feature's value, or it is true.
+    void word(std::string_view key) {
+        const std::string_view value = pose_.value(key);
+        if (!pose_.is_default(key)) {
+            const std::string_view quote = value == "true" ? "" : "\"";
+            line("{} = {}{}{}", key, quote, value, quote);
         }
     }
 
@@ -125,13 +127,13 @@ class CaseWriter {
         if (layers_ > 1) {
             line("layers = {}", layers_);
         }
-        word("depth", "depth");
+        word("depth");
         if (!pose_.is_default("compare") || !pose_.is_default("depth-bounds")) {
             const double clear = dice_.fraction(0, 8, 8);
             line("depth_clear = {}", clear);
             stored_ = StoredDepths(pose_, clear);
         }
-        if (!pose_.is_default("sample-locations")) {
+        if (!pose_.is_default("sample_locations")) {
             std::vector<std::string> places;
             for (uint32_t s = 0; s < samples_; ++s) {
                 const uint64_t y = state_.below(16), x = state_.below(16);
@@ -139,16 +141,16 @@ class CaseWriter {
             }
             line("sample_locations = {}", joined(places));
         }
-        word("resolve", "resolve");
-        word("depth_resolve", "depth-resolve");
+        word("resolve");
+        word("depth_resolve");
+        word("stencil");
         if (!pose_.is_default("stencil")) {
-            line("stencil = true");
             stencil_clear_ = stencil_clear_of(pose_, dice_);
             if (stencil_clear_ != 0) {
                 line("stencil_clear = {}", stencil_clear_);
             }
         }
-        word("attachments", "attachments");
+        word("attachments");
         if (!pose_.is_default("color")) {
             line("[target.color]\nformat = \"{}\"", pose_.value("color"));
             if (dice_.one_in(2)) {
@@ -161,21 +163,21 @@ class CaseWriter {
     // dynamic in every driver (viewport, scissor, vertices) is each case's own.
     void write_draw(size_t number) {
         line("\n[[draw]]");
-        word("topology", "topology");
-        word("cull", "cull");
-        word("front_face", "front-face");
-        word("provoking", "provoking");
-        word("depth_volume", "depth-volume");
+        word("topology");
+        word("cull");
+        word("front_face");
+        word("provoking");
+        word("depth_volume");
         if (layers_ > 1) {
             line("layer = {}", dice_.below(layers_));
         }
-        if (!pose_.is_default("viewport-index")) {
+        if (!pose_.is_default("viewport_index")) {
             line("viewport_index = {}", number);
         }
-        if (!pose_.is_default("sample-mask")) {
+        if (!pose_.is_default("sample_mask")) {
             line("sample_mask = {}", turn_.between(1, (int64_t{1} << samples_) - 1));
         }
-        if (!pose_.is_default("shader-mask")) {
+        if (!pose_.is_default("shader_mask")) {
             line("shader_mask = {}", dice_.between(1, (int64_t{1} << samples_) - 1));
         }
         if (!pose_.is_default("sample-shading")) {
@@ -192,20 +194,18 @@ class CaseWriter {
                 line("conservative_extra = {}", number == 0 ? 0.25 : 0.75);
             }
         }
-        if (!pose_.is_default("fragment-size") && (draws_ == 1 || number != 1)) {
-            const std::string_view size = pose_.value("fragment-size");
+        if (!pose_.is_default("fragment_size") && (draws_ == 1 || number != 1)) {
+            const std::string_view size = pose_.value("fragment_size");
             line("fragment_size = [{}, {}]", size.front(), size.back());
         }
         const bool is_last = number + 1 == draws_;
         const std::string discard =
             is_last || !state_.one_in(3) ? discard_of(pose_, state_) : std::string();
         text_ += discard;
-        if (number == 0 && !pose_.is_default("rasterizer-discard")) {
+        if (number == 0 && !pose_.is_default("rasterizer_discard")) {
             line("rasterizer_discard = true");
         }
-        if (!pose_.is_default("early-tests")) {
-            line("early_tests = true");
-        }
+        word("early_tests");
         if (const std::string query = query_of(pose_, number, draws_, turn_); !query.empty()) {
             line("query = \"{}\"", query);
         }
@@ -393,8 +393,8 @@ std::string case_text(uint64_t seed, const Pose& pose, uint64_t pose_number, uin
             .write();
     Dice beside(seed, kBesideStream, turn);
     // These are of one target alone.
-    const bool is_alone = !pose.is_default("second") || !pose.is_default("alpha-to-one") ||
-                          !pose.is_default("alpha-to-coverage");
+    const bool is_alone = !pose.is_default("second") || !pose.is_default("alpha_to_one") ||
+                          !pose.is_default("alpha_to_coverage");
     if (pose.is_default("blit") && !is_alone && beside.one_in(4)) {
         text = beside_others(std::move(text), beside);
     }
@@ -408,7 +408,7 @@ bool is_case(uint64_t seed, const Pose& pose, uint64_t pose_number) {
     // No fragment shader is built for these (cmake/Shaders.cmake).
     const bool has_source = !pose.is_default("source"), has_probe = !pose.is_default("probe");
     if ((!pose.is_default("color") && (has_source || has_probe)) ||
-        (!pose.is_default("shader-mask") &&
+        (!pose.is_default("shader_mask") &&
          (pose.is("source", "barycentric") || pose.is("probe", "query-lod")))) {
         return false;
     }

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "cases/model/words.hpp"
 #include "fuzz/generate/color.hpp"
 
 namespace fuzz {
@@ -22,9 +23,9 @@ std::string list_of(const std::vector<std::string>& words) {
 }
 
 std::string interpolation_of(const Pose& pose, size_t attribute) {
-    static constexpr std::array<std::string_view, 3> kModes = {"smooth", "noperspective", "flat"};
-    const std::string_view mode =
-        pose.is("interpolation", "mixed") ? kModes.at(attribute % 3) : pose.value("interpolation");
+    const std::string_view mode = pose.is("interpolation", "mixed")
+                                      ? cases::kWords<cases::Interpolation>.at(attribute % 3)
+                                      : pose.value("interpolation");
     return mode == "smooth" ? "" : fmt::format("interpolation = \"{}\"\n", mode);
 }
 

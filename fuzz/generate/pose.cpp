@@ -34,30 +34,30 @@ constexpr size_t kFactors = 8;  // of "blend"
 constexpr std::array<Need, 36> kNeeds = {{
     {"second", "blend", kFactors},
     {"second", "attachments", 1},
-    {"alpha-to-one", "attachments", 1},
-    {"alpha-to-one", "color", kAny},
-    {"discard-by", "discard", 1},
+    {"alpha_to_one", "attachments", 1},
+    {"alpha_to_one", "color", kAny},
+    {"discard_by", "discard", 1},
     {"logic", "attachments", 1},
-    {"depth-layout", "frag-depth", 1},
+    {"depth-layout", "frag_depth", 1},
     {"depth-bounds", "draws", 1},
     {"resolve", "samples", 1},
     {"resolve", "color", kAny},
-    {"depth-resolve", "samples", 1},
-    {"sample-locations", "samples", 1},
-    {"sample-mask", "samples", 1},
-    {"shader-mask", "samples", 1},
+    {"depth_resolve", "samples", 1},
+    {"sample_locations", "samples", 1},
+    {"sample_mask", "samples", 1},
+    {"shader_mask", "samples", 1},
     {"sample-shading", "samples", 1},
     {"attachments", "color", kAny},
     {"blend", "color", kAny},
     {"color-from", "color", kAny},
-    {"write-mask", "color", kAny},
+    {"write_mask", "color", kAny},
     {"stencil-masks", "stencil", 1},
     {"stencil-ops", "stencil", 1},
     {"stencil-compare", "stencil", 1},
     {"stencil-compare", "draws", 1},
-    {"stencil-clear", "stencil", 1},
+    {"stencil_clear", "stencil", 1},
     {"compare", "draws", 1},
-    {"rasterizer-discard", "draws", 1},
+    {"rasterizer_discard", "draws", 1},
     {"bias", "z", 1},
     {"depth-clamp", "z", 2},
     {"interpolation", "attributes", 1},
@@ -65,7 +65,7 @@ constexpr std::array<Need, 36> kNeeds = {{
     {"source", "attributes", 1},
     {"probe", "attributes", 1},
     {"provoking", "attributes", 1},
-    {"viewport-index", "draws", 1},
+    {"viewport_index", "draws", 1},
     {"complement", "clip-distances", 1},
     {"complement", "draws", 1},
 }};
@@ -77,17 +77,17 @@ struct Company {
 };
 constexpr std::array<Company, 24> kCompany = {{
     {"second", {"draws", "draws", "samples", "color-from"}},
-    {"alpha-to-one", {"blend", "blend", "draws", "color-from"}},
-    {"discard", {"attributes", "auxiliary", "discard-by", "draws"}},
+    {"alpha_to_one", {"blend", "blend", "draws", "color-from"}},
+    {"discard", {"attributes", "auxiliary", "discard_by", "draws"}},
     {"query", {"indices", "topology", "w", "clip-distances"}},
-    {"query", {"draws", "compare", "discard", "early-tests"}},
-    {"query", {"sample-mask", "stencil-compare", "frag-depth", "cull"}},
-    {"frag-depth", {"draws", "compare", "depth-bounds", "bias"}},
-    {"frag-depth", {"viewport", "depth-clamp", "samples", "early-tests"}},
-    {"logic", {"draws", "write-mask", "blend", "color"}},
+    {"query", {"draws", "compare", "discard", "early_tests"}},
+    {"query", {"sample_mask", "stencil-compare", "frag_depth", "cull"}},
+    {"frag_depth", {"draws", "compare", "depth-bounds", "bias"}},
+    {"frag_depth", {"viewport", "depth-clamp", "samples", "early_tests"}},
+    {"logic", {"draws", "write_mask", "blend", "color"}},
     {"logic", {"color", "color-from", "cull", "draws"}},
-    {"blend", {"draws", "draws", "write-mask", "color-from"}},
-    {"write-mask", {"draws", "draws", "color-from", "color"}},
+    {"blend", {"draws", "draws", "write_mask", "color-from"}},
+    {"write_mask", {"draws", "draws", "color-from", "color"}},
     {"interpolation", {"w", "w", "topology", "provoking"}},
     {"auxiliary", {"w", "w", "samples", "probe"}},
     {"probe", {"w", "w", "samples", "topology"}},
@@ -169,13 +169,14 @@ size_t value_of(size_t feature, size_t first, Dice& dice) {
             return static_cast<size_t>(at - row.values.begin());
         }
     }
-    return first + dice.below(row.values.size() - first);
+    // A key that has no row any more has no words: its feature has but the default.
+    return row.values.size() == first ? 0 : first + dice.below(row.values.size() - first);
 }
 
 // The sizes of fragments, but for one pixel, that have at most so many samples.
 std::vector<size_t> sizes_of_fragments(const Pose& pose, size_t most) {
     const size_t samples = std::stoul(std::string(pose.value("samples")));
-    const std::vector<std::string_view>& sizes = features()[index_of("fragment-size")].values;
+    const std::vector<std::string_view>& sizes = features()[index_of("fragment_size")].values;
     const auto side = [](char digit) { return static_cast<size_t>(digit - '0'); };
     std::vector<size_t> out;
     for (size_t k = 1; k < sizes.size(); ++k) {
@@ -214,19 +215,19 @@ Pose Poses::draw(size_t candidate) const {
     // Hits are counted by blending, which a logical operation switches off, and queries are judged
     // by the hits.
     if (!pose.is_default("query")) {
-        for (const char* other : {"logic", "attachments", "second", "alpha-to-one"}) {
+        for (const char* other : {"logic", "attachments", "second", "alpha_to_one"}) {
             set(other, 0);
         }
     }
     if (!pose.is_default("second")) {
         set("blend", kFactors);
     }
-    if (!pose.is_default("early-tests") && pose.is_default("discard") &&
-        pose.is_default("frag-depth")) {
-        set(dice.one_in(2) ? "discard" : "frag-depth", 1);
+    if (!pose.is_default("early_tests") && pose.is_default("discard") &&
+        pose.is_default("frag_depth")) {
+        set(dice.one_in(2) ? "discard" : "frag_depth", 1);
     }
     // Depths that are equal are compared now and then.
-    if (!pose.is_default("compare") && pose.is_default("z") && pose.is_default("frag-depth") &&
+    if (!pose.is_default("compare") && pose.is_default("z") && pose.is_default("frag_depth") &&
         !dice.one_in(4)) {
         set("z", 1);
     }
@@ -245,14 +246,14 @@ Pose Poses::draw(size_t candidate) const {
         switch_on(index_of("samples"));
     }
     if (pose.is("depth-layout", "unchanged")) {
-        set("frag-depth", 5);  // gl_FragCoord.z, which alone is the fragment's own depth
+        set("frag_depth", 5);  // gl_FragCoord.z, which alone is the fragment's own depth
     }
     // Of a fragment's own depth with a bias neither is known.
-    if (!pose.is_default("depth-layout") || pose.is("frag-depth", "frag-coord")) {
+    if (!pose.is_default("depth-layout") || pose.is("frag_depth", "frag-coord")) {
         set("bias", 0);
     }
     if (pose.is("attachments", "color") &&
-        (!pose.is_default("depth-bounds") || !pose.is_default("frag-depth"))) {
+        (!pose.is_default("depth-bounds") || !pose.is_default("frag_depth"))) {
         set("attachments", 2);  // with a depth
     }
     // Colours of integers are resolved so, and no others.
@@ -289,8 +290,8 @@ std::optional<Pose> Poses::apart(const Pose& pose) const {
         leave_out({"clip-distances", "cull-distances", "complement"});
         set("conservative", 1 + number % 3);
     } else if (count_ % kPosesApart == kFirstOfFragments) {
-        leave_out({"clip-distances", "cull-distances", "complement", "discard", "discard-by",
-                   "early-tests", "frag-depth", "depth-layout", "sample-shading", "shader-mask"});
+        leave_out({"clip-distances", "cull-distances", "complement", "discard", "discard_by",
+                   "early_tests", "frag_depth", "depth-layout", "sample-shading", "shader_mask"});
         // Blocks begin at the target's first pixel, not at those of these.
         switch_on(number % 2 == 0 ? "scissor" : "viewport", 1);
         if (pose.is_default("color") && pose.is_default("source")) {
@@ -299,10 +300,10 @@ std::optional<Pose> Poses::apart(const Pose& pose) const {
         }
         const bool has_mask = out.is("fragment-input", "sample-mask-in");
         const std::vector<size_t> sizes = sizes_of_fragments(pose, has_mask ? 16 : 32);
-        set("fragment-size", sizes[number / 6 % sizes.size()]);
+        set("fragment_size", sizes[number / 6 % sizes.size()]);
     } else if (count_ % kPosesApart == kFirstOfAlpha && number % 2 == 0) {
-        leave_out({"query", "early-tests"});
-        set("alpha-to-coverage", 1);
+        leave_out({"query", "early_tests"});
+        set("alpha_to_coverage", 1);
         set("attachments", 2);  // with a depth
         switch_on("color", 1 + number / 2 % kColorsOfNumbers);
         switch_on("samples", number % 3 == 0 ? 0 : 1);

@@ -26,12 +26,16 @@ Source::Made GeneratedSource::make(uint64_t number) const {
     return made;
 }
 
+static std::optional<cases::Case> only(cases::ExpectedAll<std::vector<cases::Case>> loaded) {
+    return loaded && loaded->size() == 1 ? std::optional(std::move(loaded->front())) : std::nullopt;
+}
+
 std::optional<cases::Case> load_one(const std::string& text, const std::string& id) {
-    auto loaded = cases::load_text(text, "fuzz", id);
-    if (!loaded || loaded->size() != 1) {
-        return std::nullopt;
-    }
-    return std::move(loaded->front());
+    return only(cases::load_text(text, "fuzz", id));
+}
+
+std::optional<cases::Case> load_one(const cases::TomlValue& document, const std::string& id) {
+    return only(cases::load_tree(document, id));
 }
 
 }  // namespace fuzz

@@ -52,7 +52,8 @@ class GeneratedSource : public Source {
     Pose pose_;
 };
 
-// The case of a text with one leaf; nothing if it is no such text.
+// The case of a text or document with one leaf; nothing if it is no such one.
 std::optional<cases::Case> load_one(const std::string& text, const std::string& id);
+std::optional<cases::Case> load_one(const cases::TomlValue& document, const std::string& id);
 
 }  // namespace fuzz

@@ -9,14 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "cases/model/words.hpp"
+
 namespace fuzz {
 
 namespace {
-
-constexpr std::array<std::string_view, 8> kOps = {
-    "keep",   "zero",           "replace",        "increment-clamp", "decrement-clamp",
-    "invert", "increment-wrap", "decrement-wrap",
-};
 
 // Values near the ends of a byte, and near what the first operations leave, come more often.
 uint32_t near_value(uint32_t clear, Dice& dice) {
@@ -56,7 +53,7 @@ std::vector<std::string> face_keys(const Pose& pose, size_t number, uint32_t cle
         key("pass", counts);
     } else {
         for (const std::string_view outcome : {"fail", "depth_fail", "pass"}) {
-            key(outcome, turn.of(kOps));
+            key(outcome, turn.of(cases::kWords<cases::StencilOp>));
         }
     }
     keys.push_back(fmt::format("reference = {}", near_value(clear, dice)));
@@ -71,7 +68,7 @@ std::vector<std::string> face_keys(const Pose& pose, size_t number, uint32_t cle
 
 uint32_t stencil_clear_of(const Pose& pose, Dice& dice) {
     static constexpr std::array<uint32_t, 6> kClears = {1, 2, 127, 128, 254, 255};
-    return pose.is_default("stencil-clear") ? 0 : dice.of(kClears);
+    return pose.is_default("stencil_clear") ? 0 : dice.of(kClears);
 }
 
 std::string stencil_of(const Pose& pose, size_t number, uint32_t clear, Dice& turn, Dice& dice) {

@@ -16,10 +16,6 @@ namespace fuzz {
 
 namespace {
 
-bool is_case(const std::string& text) {
-    return cases::load_text(text, "case.toml", "case").has_value();
-}
-
 class Finder {
   public:
     explicit Finder(const Document& document) : document_(document) {}
@@ -41,11 +37,10 @@ class Finder {
     }
 
   private:
-    void add(Document changed, const std::string& place, const std::string& value,
+    void add(const Document& changed, const std::string& place, const std::string& value,
              const std::string& now) {
-        std::string text = to_text(changed);
-        if (is_case(text)) {
-            all_.push_back({std::move(text), place, value, now});
+        if (auto loaded = cases::load_tree(changed, "case"); loaded && !loaded->empty()) {
+            all_.push_back({std::move(loaded->front()), place, value, now});
         }
     }
 
@@ -72,7 +67,7 @@ class Finder {
                 continue;
             }
             set(*table, key.name, text(std::string(word)));
-            add(std::move(changed), place, std::string(word), now);
+            add(changed, place, std::string(word), now);
         }
     }
 
@@ -86,8 +81,7 @@ class Finder {
                 Document* to = fuzz::find(changed, "target");
                 set(*to, "samples", number(samples));
                 erase(*to, "sample_locations");
-                add(std::move(changed), "{}",
-                    fmt::format("{} sample{}", samples, samples > 1 ? "s" : ""),
+                add(changed, "{}", fmt::format("{} sample{}", samples, samples > 1 ? "s" : ""),
                     fmt::format("{}", now));
             }
         }

@@ -8,12 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "cases/model/case.hpp"
 #include "fuzz/document/document.hpp"
 
 namespace fuzz {
 
 struct Neighbour {
-    std::string text;   // of a case file, which loads
+    cases::Case data;
     std::string place;  // what has another value, alike for all neighbours there: "the format {}"
     std::string value;  // "rgba16-float"
     std::string now;    // the value that the document has

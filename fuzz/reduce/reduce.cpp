@@ -30,8 +30,10 @@ Key key_of(const std::string& text) {
     return {cases::checksum(1, text), cases::checksum(2, text)};
 }
 
-bool loads(const std::string& text) {
-    return cases::load_text(text, "case.toml", "case").has_value();
+// The case of a document, if it is one of no leaves or some: the first of them.
+std::optional<cases::Case> load(const Document& document) {
+    auto loaded = cases::load_tree(document, "case");
+    return loaded && !loaded->empty() ? std::optional(std::move(loaded->front())) : std::nullopt;
 }
 
 // What a step makes of a document, if it is simpler.
@@ -43,29 +45,29 @@ std::optional<Document> applied(const Step& step, const Document& document, cons
     return after;
 }
 
-// A step, the text that it leads to and whether that is taken. The document is made again when it
-// is wanted: those of large cases are many times as large as their texts.
-struct Candidate {
+// A step and the case that it leads to. The document is made again when it is wanted:
+// those of large cases are many times as large as their texts.
+struct Stepped {
     const Step* step = nullptr;
     std::string text;
-    bool is_taken = false;
+    std::optional<cases::Case> data;
 };
 
-// The candidates of some steps whose texts are taken, in their order.
-template <class IsTaken>
-std::vector<Candidate> candidates(const Document& document, std::span<const Step> steps,
-                                  const IsTaken& is_taken) {
+// Those of some steps, in their order, whose texts are wanted and that are cases.
+template <class IsWanted>
+std::vector<Stepped> stepped(const Document& document, std::span<const Step> steps,
+                             const IsWanted& is_wanted) {
     const Measure before = measure(document);
-    std::vector<Candidate> all(steps.size());
+    std::vector<Stepped> all(steps.size());
     cases::for_each_index(all.size(), [&](size_t k) {
-        Candidate& candidate = all[k];
-        candidate.step = &steps[k];
         if (const std::optional<Document> after = applied(steps[k], document, before)) {
-            candidate.text = to_text(*after);
-            candidate.is_taken = is_taken(candidate.text);
+            Stepped& one = all[k];
+            one.step = &steps[k];
+            one.text = to_text(*after);
+            one.data = is_wanted(one.text) ? load(*after) : std::nullopt;
         }
     });
-    std::erase_if(all, [](const Candidate& c) { return !c.is_taken; });
+    std::erase_if(all, [](const Stepped& one) { return !one.data; });
     return all;
 }
 
@@ -157,30 +159,32 @@ class Reducer {
     }
 
     // Asks about all of the texts that have no answer yet, in one call.
-    void ask(const std::vector<std::string>& texts) {
-        std::vector<std::string> open;
-        for (const std::string& text : texts) {
-            if (answers_.emplace(key_of(text), false).second) {
-                open.push_back(text);
+    void ask(std::vector<Candidate> candidates) {
+        std::vector<Key> keys;
+        std::erase_if(candidates, [&](const Candidate& c) {
+            const Key key = key_of(c.text);
+            const bool is_open = answers_.emplace(key, false).second;
+            if (is_open) {
+                keys.push_back(key);
             }
-        }
-        if (open.empty()) {
+            return !is_open;
+        });
+        if (keys.empty()) {
             return;
         }
         ++out_.rounds;
-        out_.tried += open.size();
-        const std::vector<bool> answers = shows_(open);
-        if (answers.size() != open.size()) {
+        out_.tried += keys.size();
+        const std::vector<bool> answers = shows_(candidates);
+        if (answers.size() != keys.size()) {
             throw std::logic_error("the reducer needs one answer a text");
         }
-        if (is_over()) {
-            for (const std::string& text : open) {
-                answers_.erase(key_of(text));
+        const bool is_cut = is_over();
+        for (size_t k = 0; k < keys.size(); ++k) {
+            if (is_cut) {
+                answers_.erase(keys[k]);
+            } else {
+                answers_[keys[k]] = answers[k];
             }
-            return;
-        }
-        for (size_t k = 0; k < open.size(); ++k) {
-            answers_[key_of(open[k])] = answers[k];
         }
     }
 
@@ -188,14 +192,13 @@ class Reducer {
     // many of these as do so together. The stage where to go on, or nothing if no step showed it.
     std::optional<Stage> take_some(std::span<const Stage> stages) {
         std::deque<std::vector<Step>> kept;  // candidates point to them
-        std::vector<Candidate> batch;
+        std::vector<Stepped> batch;
         for (const Stage stage : stages) {
             const std::span<const Step> steps = kept.emplace_back(steps_of(out_.document, stage));
             for (size_t at = 0; at < steps.size() && !is_spent(); at += options_.batch) {
                 const size_t count = std::min(options_.batch, steps.size() - at);
-                for (Candidate& c : candidates(
-                         out_.document, steps.subspan(at, count),
-                         [&](const auto& text) { return !is_refused(text) && loads(text); })) {
+                for (Stepped& c : stepped(out_.document, steps.subspan(at, count),
+                                          [&](const auto& text) { return !is_refused(text); })) {
                     if (batch.size() == options_.batch) {
                         if (const std::optional<Stage> found = settle(batch)) {
                             return found;
@@ -209,17 +212,17 @@ class Reducer {
         return settle(batch);
     }
 
-    std::optional<Stage> settle(std::vector<Candidate>& batch) {
+    std::optional<Stage> settle(std::vector<Stepped>& batch) {
         if (batch.empty() || is_spent()) {
             return std::nullopt;
         }
-        std::vector<std::string> texts;
-        for (const Candidate& c : batch) {
-            texts.push_back(c.text);
+        std::vector<Candidate> asked;
+        for (Stepped& c : batch) {
+            asked.push_back({c.text, std::move(*c.data)});
         }
-        ask(texts);
-        std::vector<Candidate*> good;
-        for (Candidate& c : batch) {
+        ask(std::move(asked));
+        std::vector<Stepped*> good;
+        for (Stepped& c : batch) {
             if (const auto answer = answers_.find(key_of(c.text));
                 answer != answers_.end() && answer->second) {
                 good.push_back(&c);
@@ -235,23 +238,24 @@ class Reducer {
 
     // All of the candidates that show it at once, or the first half, quarter, ... of them: the most
     // that do so still. The first alone is known to.
-    void take(const std::vector<Candidate*>& good) {
+    void take(const std::vector<Stepped*>& good) {
         std::vector<Together> chain;
         std::vector<std::string> texts;
+        std::vector<Candidate> asked;
         for (size_t count = good.size(); count > 1 && texts.size() < options_.batch; count /= 2) {
             std::vector<const Step*> steps;
             for (size_t k = 0; k < count; ++k) {
                 steps.push_back(good[k]->step);
             }
             Together together = applied_together(out_.document, steps);
-            std::string text = to_text(together.document);
-            if (loads(text)) {
+            if (std::optional<cases::Case> data = load(together.document)) {
+                texts.push_back(to_text(together.document));
+                asked.push_back({texts.back(), std::move(*data)});
                 chain.push_back(std::move(together));
-                texts.push_back(std::move(text));
             }
         }
         if (!is_spent()) {
-            ask(texts);
+            ask(std::move(asked));
         }
         const Measure before = measure(out_.document);
         Together next = applied_together(out_.document, {good.front()->step});
@@ -276,8 +280,8 @@ class Reducer {
         for (const Stage stage : kStages) {
             std::vector<Step> steps = steps_of(out_.document, stage);
             std::erase_if(steps, [](const Step& step) { return step.need.empty(); });
-            for (Candidate& c : candidates(out_.document, steps,
-                                           [&](const auto& text) { return is_refused(text); })) {
+            for (Stepped& c : stepped(out_.document, steps,
+                                      [&](const auto& text) { return is_refused(text); })) {
                 if (told.insert(c.text).second) {
                     out_.needs.push_back(c.step->need);
                     out_.need_texts.push_back(std::move(c.text));
@@ -300,7 +304,7 @@ std::vector<Simpler> simpler(const Document& document) {
     std::unordered_set<std::string> seen = {to_text(document)};
     for (const Stage stage : kStages) {
         const std::vector<Step> steps = steps_of(document, stage);
-        for (Candidate& c : candidates(document, steps, loads)) {
+        for (Stepped& c : stepped(document, steps, [](const auto&) { return true; })) {
             if (seen.insert(std::move(c.text)).second) {
                 out.push_back({*applied(*c.step, document, before), c.step->words, c.step->need});
             }

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "cases/model/case.hpp"
 #include "fuzz/document/document.hpp"
 
 namespace fuzz {
@@ -27,8 +28,13 @@ struct Simpler {
 // does not load, stays the same text or is no simpler by measure.hpp is left out.
 std::vector<Simpler> simpler(const Document& document);
 
-// For each text of a case file: whether it still shows the finding. As many answers as texts.
-using Shows = std::function<std::vector<bool>(const std::vector<std::string>& texts)>;
+// A case that may show the finding still, and the text of its file.
+struct Candidate {
+    std::string text;
+    cases::Case data;
+};
+// For each of some candidates: whether it shows the finding. As many answers.
+using Shows = std::function<std::vector<bool>(const std::vector<Candidate>& candidates)>;
 
 struct ReduceOptions {
     size_t batch = 64;          // texts that are asked about at once, at least 1

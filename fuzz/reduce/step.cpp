@@ -39,6 +39,15 @@ void name_in_draw(const Document& document, size_t draw, const std::string& what
     step.need = is_alone ? "not " + what : fmt::format("not {} in draw {}", what, draw);
 }
 
+Step& add_in_draw(const Document& document, size_t draw, const std::string& what,
+                  std::function<bool(Document&)> apply, std::vector<Step>& steps) {
+    Step& step = steps.emplace_back();
+    name_in_draw(document, draw, what, step);
+    step.draw = draw;
+    step.apply = std::move(apply);
+    return step;
+}
+
 std::vector<Range> parts_of(size_t count) {
     std::vector<Range> parts;
     for (size_t size = count; size > 1;) {

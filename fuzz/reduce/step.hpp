@@ -43,8 +43,8 @@ enum class Phase : uint8_t { in_place, removal, reshape, draws, target };
 struct Step {
     Stage stage = Stage::draws;
     Phase phase = Phase::in_place;
-    std::string words;  // "draw 0 without scissor"
-    std::string need;   // "not without scissor in draw 0", or nothing
+    std::string words = {};  // "draw 0 without scissor"
+    std::string need = {};   // "not without scissor in draw 0", or nothing
     // What a removal removes: elements [begin, end) of list `of` in that draw.
     size_t draw = 0, begin = 0, end = 0;
     std::string_view of = {};
@@ -75,6 +75,9 @@ size_t draw_count(const Document& document);
 Document* draw_at(Document& document, size_t draw);
 // The words and the need of a step in a draw; a draw that is alone is not named.
 void name_in_draw(const Document& document, size_t draw, const std::string& what, Step& step);
+// Appends a step of a draw.
+Step& add_in_draw(const Document& document, size_t draw, const std::string& what,
+                  std::function<bool(Document&)> apply, std::vector<Step>& steps);
 
 // Halves, quarters, ... and single ones of `count` things as [begin, end), the largest first; not
 // all of them at once.

@@ -17,12 +17,6 @@ namespace {
 
 using cases::counted;
 
-void for_each_draw(Document& document, const std::function<void(Document&)>& change) {
-    if (Document* draws = find(document, "draw")) {
-        std::ranges::for_each(draws->array, change);
-    }
-}
-
 size_t whole(const Document* value, size_t otherwise) {
     const std::optional<double> number = value == nullptr ? std::nullopt : value_of(*value);
     return number && *number >= 0 && *number < 1e6 ? static_cast<size_t>(*number) : otherwise;
@@ -78,18 +72,6 @@ bool with_layers(Document& document, size_t layers) {
     return true;
 }
 
-bool without_color(Document& document) {
-    Document* target = find(document, "target");
-    if (target == nullptr || !erase(*target, "color")) {
-        return false;
-    }
-    erase(*target, "judged");
-    erase(*target, "attachments");
-    erase(*target, "resolve");
-    for_each_draw(document, [](Document& draw) { erase(draw, "color"); });
-    return true;
-}
-
 // The list of a key becomes one of its elements.
 bool take_one(Document& table, size_t judged) {
     Document* color = find(table, "color");
@@ -123,17 +105,11 @@ bool without_color_at(Document& document, size_t location) {
     if (judged == location) {
         return false;
     }
-    const auto drop = [location](Document& table) {
-        Document* list = find(table, "color");
-        if (list != nullptr && location < list->array.size()) {
-            list->array.erase(list->array.begin() + static_cast<std::ptrdiff_t>(location));
-        }
-    };
     if (judged > location) {
         set(*target, "judged", number(static_cast<double>(judged - 1)));
     }
-    drop(*target);
-    for_each_draw(document, drop);
+    erase_at(target, "color", location);
+    for_each_draw(document, [&](Document& draw) { erase_at(&draw, "color", location); });
     return true;
 }
 
@@ -186,47 +162,22 @@ bool without_attribute(Document& document, size_t draw, size_t attribute) {
             }
         }
     }
-    attributes->array.erase(attributes->array.begin() + static_cast<ptrdiff_t>(attribute));
-    if (attributes->array.empty()) {
-        erase(*table, "attribute");
-    }
-    return true;
-}
-
-bool without_distance(Document& document, size_t draw, const char* key, size_t distance) {
-    Document* table = draw_at(document, draw);
-    Document* distances = table == nullptr ? nullptr : find(*table, key);
-    if (distances == nullptr || distance >= distances->array.size()) {
-        return false;
-    }
-    distances->array.erase(distances->array.begin() + static_cast<ptrdiff_t>(distance));
-    if (distances->array.empty()) {
-        erase(*table, key);
-    }
-    return true;
+    return erase_at(table, "attribute", attribute);
 }
 
 void add_feature(const std::string& words, std::function<bool(Document&)> apply,
                  std::vector<Step>& steps) {
-    Step step;
-    step.words = words;
-    step.need = "not " + words;
-    step.apply = std::move(apply);
-    steps.push_back(std::move(step));
+    steps.push_back({.words = words, .need = "not " + words, .apply = std::move(apply)});
 }
 
 void add_input(const Document& document, size_t draw, std::string_view of, size_t k,
                const std::string& words, std::function<bool(Document&)> apply,
                std::vector<Step>& steps) {
-    Step step;
+    Step& step = add_in_draw(document, draw, words, std::move(apply), steps);
     step.phase = Phase::removal;
-    name_in_draw(document, draw, words, step);
-    step.draw = draw;
     step.begin = k;
     step.end = k + 1;
     step.of = of;
-    step.apply = std::move(apply);
-    steps.push_back(std::move(step));
 }
 
 }  // namespace
@@ -244,15 +195,7 @@ void add_feature_steps(const Document& document, std::vector<Step>& steps) {
     for (size_t k = 0; relations != nullptr && k < relations->array.size(); ++k) {
         add_feature(
             fmt::format("without relation {}", k),
-            [k](Document& d) {
-                Document* list = find(d, "relations");
-                if (list == nullptr || k >= list->array.size()) {
-                    return false;
-                }
-                list->array.erase(list->array.begin() + static_cast<ptrdiff_t>(k));
-                return !list->array.empty() || erase(d, "relations");
-            },
-            steps);
+            [k](Document& d) { return erase_at(&d, "relations", k); }, steps);
         steps.back().phase = Phase::removal;
         steps.back().begin = k;
         steps.back().end = k + 1;
@@ -295,7 +238,7 @@ void add_feature_steps(const Document& document, std::vector<Step>& steps) {
                 fmt::format("without colour target {}", k),
                 [k](Document& d) { return without_color_at(d, k); }, steps);
         }
-        add_feature("without a colour target", without_color, steps);
+        add_feature("without a colour target", erase_color, steps);
         add_feature(fmt::format("with the format {}", kPlainFormat), with_plain_format, steps);
     }
 }
@@ -316,7 +259,7 @@ void add_input_steps(const Document& document, std::vector<Step>& steps) {
                 add_input(
                     document, draw, key, k,
                     fmt::format("without {} distance {}", std::string_view(key).substr(0, 4), k),
-                    [draw, key, k](Document& d) { return without_distance(d, draw, key, k); },
+                    [draw, key, k](Document& d) { return erase_at(draw_at(d, draw), key, k); },
                     steps);
             }
         }

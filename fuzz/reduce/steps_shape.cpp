@@ -23,19 +23,16 @@ std::string span_of(std::string_view noun, const Range& range) {
 // Leaves out elements [begin, end) of the indices or vertices of a draw.
 void add_removal(const Document& document, size_t draw, const Range& elements,
                  const std::string& what, std::vector<Step>& steps) {
-    Step step;
-    step.phase = Phase::removal;
-    name_in_draw(document, draw, what, step);
-    step.need.clear();
-    step.draw = draw;
-    step.begin = elements.begin;
-    step.end = elements.end;
-    step.of = "vertices";
-    step.apply = [draw, elements](Document& d) {
+    const auto apply = [draw, elements](Document& d) {
         Document* table = draw_at(d, draw);
         return table != nullptr && remove_elements(*table, elements.begin, elements.end);
     };
-    steps.push_back(std::move(step));
+    Step& step = add_in_draw(document, draw, what, apply, steps);
+    step.phase = Phase::removal;
+    step.need.clear();
+    step.begin = elements.begin;
+    step.end = elements.end;
+    step.of = "vertices";
 }
 
 // Strips and fans end sooner or begin later: by half, a quarter, ... or one of their triangles.
@@ -138,12 +135,9 @@ bool without_indices(Document& document, size_t draw) {
 
 void add_reshape(const Document& document, size_t draw, const std::string& what,
                  bool (*apply)(Document&, size_t), std::vector<Step>& steps) {
-    Step step;
-    step.phase = Phase::reshape;
-    step.draw = draw;
-    name_in_draw(document, draw, what, step);
-    step.apply = [draw, apply](Document& d) { return apply(d, draw); };
-    steps.push_back(std::move(step));
+    add_in_draw(
+        document, draw, what, [draw, apply](Document& d) { return apply(d, draw); }, steps)
+        .phase = Phase::reshape;
 }
 
 }  // namespace

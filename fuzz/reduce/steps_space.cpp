@@ -88,12 +88,7 @@ bool shorter(Document& document, size_t draw, size_t vertex, size_t length) {
 
 void add_vertices(const Document& document, size_t draw, const std::string& words,
                   std::function<bool(Document&)> apply, std::vector<Step>& steps) {
-    Step step;
-    name_in_draw(document, draw, words, step);
-    step.need.clear();
-    step.draw = draw;
-    step.apply = std::move(apply);
-    steps.push_back(std::move(step));
+    add_in_draw(document, draw, words, std::move(apply), steps).need.clear();
 }
 
 }  // namespace

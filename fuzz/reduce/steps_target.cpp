@@ -172,7 +172,7 @@ bool is_empty(const Box& box) {
 
 // What goes beyond all that is drawn: around the triangles within viewports and scissors.
 Crop around_triangles(const Document& document) {
-    const auto loaded = cases::load_text(to_text(document), "case.toml", "case");
+    const auto loaded = cases::load_tree(document, "case");
     if (!loaded || loaded->empty()) {
         return {};
     }
@@ -201,11 +201,7 @@ Crop around_triangles(const Document& document) {
 
 void add_target(const std::string& words, std::function<bool(Document&)> apply,
                 std::vector<Step>& steps) {
-    Step step;
-    step.phase = Phase::target;
-    step.words = words;
-    step.apply = std::move(apply);
-    steps.push_back(std::move(step));
+    steps.push_back({.phase = Phase::target, .words = words, .apply = std::move(apply)});
 }
 
 void add_crop(const Crop& crop, const std::string& words, std::vector<Step>& steps) {

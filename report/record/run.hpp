@@ -206,12 +206,17 @@ struct Evidence {
     std::vector<SampleEvidence> samples;  // wrong ones and some of their neighbours
 };
 
+// The errors that a hunt counts by themselves, as it makes cases by chance: a picture without any
+// triangle would pass; nobody built a shader for the combination of features.
+enum class ErrorKind : uint8_t { other, shows_nothing, not_built };
+
 // A case with its end.
 struct CaseRecord : PlannedCase {
     CaseRecord() = default;
     CaseRecord(PlannedCase planned) : PlannedCase(std::move(planned)) {}
     Status status = Status::not_run;
     std::string reason;  // why unsupported, skipped, error, lost, crashed; one sentence
+    ErrorKind error_kind = ErrorKind::other;  // of an error; no journal holds it
     Known known;
     Drawn drawn;
     WorkerEnd death;

@@ -125,6 +125,12 @@ bool each_feature(void* structure, Visit&& visit) {
             DEVICE_CLASSES_FEATURE(depthClipEnable)
             return true;
         }
+        case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PRIMITIVE_TOPOLOGY_LIST_RESTART_FEATURES_EXT: {
+            auto& s =
+                *static_cast<VkPhysicalDevicePrimitiveTopologyListRestartFeaturesEXT*>(structure);
+            DEVICE_CLASSES_FEATURE(primitiveTopologyListRestart)
+            return true;
+        }
         case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_CONTROL_FEATURES_EXT: {
             auto& s = *static_cast<VkPhysicalDeviceDepthClipControlFeaturesEXT*>(structure);
             DEVICE_CLASSES_FEATURE(depthClipControl)

@@ -189,9 +189,11 @@ static void make_device(void) {
     VkPhysicalDeviceDepthClipEnableFeaturesEXT clip = {0};
     VkPhysicalDeviceDepthClipControlFeaturesEXT control = {0};
     VkPhysicalDeviceFragmentShaderBarycentricFeaturesKHR barycentric = {0};
+    VkPhysicalDevicePrimitiveTopologyListRestartFeaturesEXT restart = {0};
     VkPhysicalDeviceFeatures has, wanted;
     VkDeviceCreateInfo info = {0};
-    uint32_t count = 16, k, needs_last = 0, needs_clip = 0, needs_control = 0, needs_barycentric = 0;
+    uint32_t count = 16, k, needs_last = 0, needs_clip = 0, needs_control = 0, needs_barycentric = 0,
+             needs_restart = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families);
     while (queue_family < count && (families[queue_family].queueFlags & needed) != needed) {
         ++queue_family;
@@ -212,6 +214,7 @@ static void make_device(void) {
         needs_clip |= d->depth_clip != 0;
         needs_control |= d->is_symmetric;
         needs_barycentric |= d->has_barycentrics;
+        needs_restart |= d->restart && d->topology == VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     }
     NEED(has.independentBlend >= wanted.independentBlend, "independentBlend");
     NEED(has.depthClamp >= wanted.depthClamp, "depthClamp");
@@ -232,6 +235,8 @@ static void make_device(void) {
     control.depthClipControl = VK_TRUE;
     barycentric.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADER_BARYCENTRIC_FEATURES_KHR;
     barycentric.fragmentShaderBarycentric = VK_TRUE;
+    restart.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PRIMITIVE_TOPOLOGY_LIST_RESTART_FEATURES_EXT;
+    restart.primitiveTopologyListRestart = VK_TRUE;
 #define ENABLE(is_needed, name, features)             \
     if (is_needed) {                                  \
         NEED(has_extension(name), "the extension " name); \
@@ -242,6 +247,7 @@ static void make_device(void) {
     ENABLE(needs_last, VK_EXT_PROVOKING_VERTEX_EXTENSION_NAME, provoking)
     ENABLE(needs_clip, VK_EXT_DEPTH_CLIP_ENABLE_EXTENSION_NAME, clip)
     ENABLE(needs_control, VK_EXT_DEPTH_CLIP_CONTROL_EXTENSION_NAME, control)
+    ENABLE(needs_restart, VK_EXT_PRIMITIVE_TOPOLOGY_LIST_RESTART_EXTENSION_NAME, restart)
     ENABLE(needs_barycentric, VK_KHR_FRAGMENT_SHADER_BARYCENTRIC_EXTENSION_NAME, barycentric)
     queues.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
     queues.queueFamilyIndex = queue_family;

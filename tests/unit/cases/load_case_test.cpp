@@ -307,7 +307,7 @@ cull = "cull"
         EXPECT_FLOAT_EQ(all[i].draws[0].positions[1].x, i < 4 ? 1.0F : 0.0F);
     }
     EXPECT_EQ(all[5].claim.parameters, (std::vector<std::pair<std::string, std::string>>{
-                                     {"zoom", "0.5"}, {"cull", "none"}, {"deep", "-2"}}));
+                                           {"zoom", "0.5"}, {"cull", "none"}, {"deep", "-2"}}));
 }
 
 // Every pair of values of two keys is left; ids, order, parameters and expectations are those of
@@ -354,7 +354,7 @@ cull = "cull"
         const auto same = std::find_if(all.begin(), all.end(),
                                        [&](const Case& c) { return c.id == pairs[i].id; });
         ASSERT_NE(same, all.end());
-        EXPECT_EQ(pairs[i].claim.parameters, same->parameters);
+        EXPECT_EQ(pairs[i].claim.parameters, same->claim.parameters);
         EXPECT_EQ(pairs[i].draws[0].positions, same->draws[0].positions);
         EXPECT_EQ(pairs[i].draws[0].cull, same->draws[0].cull);
     }

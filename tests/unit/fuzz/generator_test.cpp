@@ -113,7 +113,7 @@ using testing::UnorderedElementsAre;
 // At a depth that is stored, and at its neighbour among binary32: there a test is right or wrong.
 TEST(Generator, BoundsLieAtAndBesideStoredDepths) {
     EXPECT_THAT(
-        seen_in(pose_of({{"depth-bounds", "ends"}, {"frag-depth", "value"}, {"draws", "2"}}),
+        seen_in(pose_of({{"depth-bounds", "ends"}, {"frag_depth", "value"}, {"draws", "2"}}),
                 [](const cases::Case& c, const auto& see) {
                     const auto& bounds = c.draws[1].depth.bounds;
                     see(!bounds, "no test");  // some devices have none
@@ -154,34 +154,34 @@ TEST(Generator, WrittenDepthsMeetStoredOnesAndKeepPromises) {
                 std::fabs(written->other - written->value) > 0,
             "two");
     };
-    EXPECT_THAT(seen_in(pose_of({{"frag-depth", "checker"}, {"draws", "2"}, {"compare", "less"}}),
+    EXPECT_THAT(seen_in(pose_of({{"frag_depth", "checker"}, {"draws", "2"}, {"compare", "less"}}),
                         see_depths),
                 UnorderedElementsAre("equal", "just more", "two"));
     for (const std::string_view z : {"half", "plane"}) {
         for (const std::string_view viewport : {"target", "depth"}) {
-            EXPECT_THAT(seen_in(pose_of({{"frag-depth", "value"},
+            EXPECT_THAT(seen_in(pose_of({{"frag_depth", "value"},
                                          {"depth-layout", "greater"},
                                          {"z", z},
                                          {"viewport", viewport}}),
                                 see_depths),
                         testing::Contains("greater"));
-            EXPECT_THAT(seen_in(pose_of({{"frag-depth", "value"},
+            EXPECT_THAT(seen_in(pose_of({{"frag_depth", "value"},
                                          {"depth-layout", "less"},
-                                         {"depth-volume", "negative-one-to-one"},
+                                         {"depth_volume", "negative-one-to-one"},
                                          {"z", z},
                                          {"viewport", viewport}}),
                                 see_depths),
                         testing::Contains("less"));
         }
     }
-    EXPECT_THAT(seen_in(pose_of({{"frag-depth", "value"},
+    EXPECT_THAT(seen_in(pose_of({{"frag_depth", "value"},
                                  {"depth-layout", "greater"},
                                  {"depth-clamp", "true"},
                                  {"z", "beyond"}}),
                         see_depths),
                 IsSupersetOf({"clamped", "greater"}));
     EXPECT_THAT(
-        seen_in(pose_of({{"frag-depth", "frag-coord"}, {"depth-layout", "less"}}), see_depths),
+        seen_in(pose_of({{"frag_depth", "frag-coord"}, {"depth-layout", "less"}}), see_depths),
         IsSupersetOf({"its own", "less"}));
 }
 
@@ -210,7 +210,7 @@ TEST(Generator, LogicalOperationsCombineCodes) {
 // By values that are of either sign, of any of the attributes.
 TEST(Generator, ShadersDiscardByAttributes) {
     EXPECT_THAT(
-        seen_in(pose_of({{"discard", "checker"}, {"discard-by", "demote"}, {"attributes", "two"}}),
+        seen_in(pose_of({{"discard", "checker"}, {"discard_by", "demote"}, {"attributes", "two"}}),
                 [](const cases::Case& c, const auto& see) {
                     const cases::Draw& draw = c.draws[0];
                     EXPECT_EQ(draw.discard_by, cases::DiscardBy::demote);
@@ -313,14 +313,14 @@ TEST(Generator, AlphaTakesSamplesAwayAndIsReplaced) {
         see(c.draws[0].color.alpha_to_one && !color.alpha_to_one, "to one before");
         see(c.draws[0].color.alpha_to_coverage && !color.alpha_to_coverage, "some before");
     };
-    EXPECT_THAT(seen_in(pose_of({{"alpha-to-coverage", "true"},
+    EXPECT_THAT(seen_in(pose_of({{"alpha_to_coverage", "true"},
                                  {"samples", "4"},
                                  {"color", "rgba8-unorm"},
                                  {"attachments", "color+depth"},
                                  {"draws", "2"}}),
                         see_alpha),
                 UnorderedElementsAre("none", "all", "some", "some before"));
-    EXPECT_THAT(seen_in(pose_of({{"alpha-to-one", "true"},
+    EXPECT_THAT(seen_in(pose_of({{"alpha_to_one", "true"},
                                  {"color", "rgba8-unorm"},
                                  {"attachments", "color"},
                                  {"draws", "2"}}),
@@ -330,7 +330,7 @@ TEST(Generator, AlphaTakesSamplesAwayAndIsReplaced) {
 
 TEST(Generator, FragmentsOfSeveralPixelsReadWhatIsTheirs) {
     for (const std::string_view input : {"sample-mask-in", "shading-rate"}) {
-        EXPECT_THAT(seen_in(pose_of({{"fragment-size", "2x2"},
+        EXPECT_THAT(seen_in(pose_of({{"fragment_size", "2x2"},
                                      {"fragment-input", input},
                                      {"attributes", "two"},
                                      {"draws", "2"}}),

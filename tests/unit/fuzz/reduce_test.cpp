@@ -14,6 +14,7 @@
 #include "cases/base/checksum.hpp"
 #include "cases/load/loader.hpp"
 #include "cases/model/triangle.hpp"
+#include "cases/wire/case_bytes.hpp"
 #include "fuzz/reduce/measure.hpp"
 #include "reduce_documents.hpp"
 #include "suite_documents.hpp"
@@ -29,11 +30,11 @@ using Property = std::function<bool(const Case&)>;
 
 // The cases that have the property show the finding.
 Shows shows_with(const Property& property) {
-    return [property](const std::vector<std::string>& texts) {
-        EXPECT_FALSE(texts.empty());
+    return [property](const std::vector<Candidate>& candidates) {
+        EXPECT_FALSE(candidates.empty());
         std::vector<bool> answers;
-        for (const std::string& text : texts) {
-            answers.push_back(property(load(text)));
+        for (const Candidate& candidate : candidates) {
+            answers.push_back(property(candidate.data));
         }
         return answers;
     };
@@ -70,12 +71,16 @@ bool has_scissor(const Case& c) {
     });
 }
 
+std::vector<Candidate> candidate(const Document& document) {
+    return {{to_text(document), load(to_text(document))}};
+}
+
 // Nothing that is one step simpler shows the finding, asked anew.
 void expect_minimal(const Reduced& reduced, const Shows& shows) {
     EXPECT_TRUE(reduced.is_minimal);
     const Measure least = measure(reduced.document);
     for (const Simpler& one : simpler(reduced.document)) {
-        EXPECT_FALSE(shows({to_text(one.document)}).front()) << one.step << " of\n"
+        EXPECT_FALSE(shows(candidate(one.document)).front()) << one.step << " of\n"
                                                              << to_text(reduced.document);
         EXPECT_LT(measure(one.document), least) << one.step;
     }
@@ -113,7 +118,7 @@ TEST(Reduce, LeavesNoTriangleBesideARestart) {
         "8]\n[[draw]]\ntopology = \"triangle-strip\"\n"
         "vertices = [[0, 0], [1, 0], [0, 1], [2, 2], [8, 2], [2, 8], [8, 8]]\n"
         "indices = [0, 1, 2, \"restart\", 3, 4, 5, 6]\n");
-    ASSERT_TRUE(shows({to_text(document)}).front());
+    ASSERT_TRUE(shows(candidate(document)).front());
     const Reduced reduced = reduce(document, shows);
     expect_minimal(reduced, shows);
     const Case c = load(to_text(reduced.document));
@@ -148,7 +153,7 @@ TEST(Reduce, FindsTwoOfThreeHundredTriangles) {
         return covers(c, 11, 5.5) && covers(c, 33, 21.5) && c.draws[0].attributes.size() == 1;
     });
     const Document document = many_triangles(300);
-    ASSERT_TRUE(shows({to_text(document)}).front());
+    ASSERT_TRUE(shows(candidate(document)).front());
     const Reduced reduced = reduce(document, shows);
     expect_minimal(reduced, shows);
     const Case c = load(to_text(reduced.document));
@@ -232,12 +237,13 @@ Reduced checked(const Document& document, const Shows& shows,
                 std::map<std::string, size_t>& kinds) {
     const ReduceOptions kOptions = {.batch = 32};
     std::set<std::string> asked;
-    const Shows once = [&](const std::vector<std::string>& texts) {
-        EXPECT_LE(texts.size(), kOptions.batch);
-        for (const std::string& text : texts) {
-            EXPECT_TRUE(asked.insert(text).second) << "asked twice:\n" << text;
+    const Shows once = [&](const std::vector<Candidate>& candidates) {
+        EXPECT_LE(candidates.size(), kOptions.batch);
+        for (const Candidate& one : candidates) {
+            EXPECT_TRUE(asked.insert(one.text).second) << "asked twice:\n" << one.text;
+            EXPECT_EQ(cases::to_bytes(one.data), cases::to_bytes(load(one.text))) << one.text;
         }
-        return shows(texts);
+        return shows(candidates);
     };
     Reduced reduced = reduce(document, once, kOptions);
     EXPECT_EQ(asked.size(), reduced.tried);
@@ -383,10 +389,10 @@ TEST(Reduce, EndsAtAMinimumByStepsOfAllKinds) {
             }),
             kinds);
     for (uint32_t seed = 0; seed < 8; ++seed) {
-        const Shows shows = [seed](const std::vector<std::string>& texts) {
+        const Shows shows = [seed](const std::vector<Candidate>& candidates) {
             std::vector<bool> answers;
-            for (const std::string& text : texts) {
-                answers.push_back(cases::stable_hash(text, seed) % 8 < seed);
+            for (const Candidate& one : candidates) {
+                answers.push_back(cases::stable_hash(one.text, seed) % 8 < seed);
             }
             return answers;
         };
@@ -435,10 +441,10 @@ vertices = [[0, 0], [0, 0], [0, 0]]
             return find(find(d, "draw")->array[0], "vertices")->array[1].array[0];
         };
         x(document) = number(want.given);
-        const Reduced reduced = reduce(document, [&](const std::vector<std::string>& texts) {
+        const Reduced reduced = reduce(document, [&](const std::vector<Candidate>& candidates) {
             std::vector<bool> answers;
-            for (const std::string& text : texts) {
-                Document d = read(text);
+            for (const Candidate& one : candidates) {
+                Document d = read(one.text);
                 const double given = value_of(x(d)).value_or(0);
                 answers.push_back(given >= want.low && given <= want.high);
             }
@@ -492,7 +498,7 @@ size = [1, 1]
 vertices = [[0, 0], [0, 0], [0, 0]]
 )");
     EXPECT_TRUE(simpler(document).empty());
-    const Reduced reduced = reduce(document, [](const std::vector<std::string>&) {
+    const Reduced reduced = reduce(document, [](const std::vector<Candidate>&) {
         ADD_FAILURE() << "asked";
         return std::vector<bool>();
     });

@@ -51,6 +51,8 @@ TEST(Assemble, IndicesAndRestart) {
     EXPECT_EQ(vertices(triangle_list, 4, {{3, 2, 1, 0}}), (std::vector<Numbers>{{3, 2, 1}}));
     EXPECT_EQ(vertices(triangle_strip, 7, {{0, 1, 2, 3, kCut, 4, 5, kCut, 4, 5, 6}}, true),
               (std::vector<Numbers>{{0, 1, 2}, {1, 3, 2}, {4, 5, 6}}));
+    EXPECT_EQ(vertices(triangle_list, 5, {{3, 4, kCut, 0, 1, 2, 4, kCut, kCut, 2, 3, 4}}, true),
+              (std::vector<Numbers>{{0, 1, 2}, {2, 3, 4}}));
     EXPECT_EQ(vertices(triangle_fan, 6, {{0, 1, 2, kCut, kCut, 3, 4, 5}}, true),
               (std::vector<Numbers>{{1, 2, 0}, {4, 5, 3}}));
 }
