@@ -150,7 +150,7 @@ TEST(Keys, AreReadAndWrittenByTheirRow) {
                 }
                 const Expected<std::string> again = to_toml(loaded->front());
                 ASSERT_TRUE(again) << text;
-                written += again->find(std::string(key.name) + " ") != std::string::npos ? 1 : 0;
+                written += again->find(std::string(key.name) + " ") != std::string::npos ? 1U : 0U;
             }
             // Where triangles begin, and what vertices are, is written as positions.
             const bool is_moved = key.has(Key::kShape) || key.name == "space";
