@@ -147,7 +147,8 @@ struct RendererOptions {
 
 // The outcome for one case.
 struct Rendered {
-    enum class Status { drawn, unsupported, device_lost, error } status = Status::error;
+    // not_built: an error of its own kind; no shader was built for the combination of features.
+    enum class Status { drawn, unsupported, device_lost, not_built, error } status = Status::error;
     std::string reason;                 // of unsupported, device_lost, error
     Capture capture;                    // if drawn
     std::span<std::byte> placed;        // if not empty: the capture's planes, which are not in it
@@ -247,4 +248,4 @@ const RendererKind* find_renderer(RendererKinds kinds, std::string_view name);
 template <>
 inline constexpr size_t cases::kValueCount<capture::Stage> = 8;
 template <>
-inline constexpr size_t cases::kValueCount<capture::Rendered::Status> = 4;
+inline constexpr size_t cases::kValueCount<capture::Rendered::Status> = 5;

@@ -25,6 +25,7 @@
 #include "cli/bench/clock.hpp"
 #include "cli/bench/judging.hpp"
 #include "cli/commands.hpp"
+#include "cli/options/shared_options.hpp"
 #include "cli/prepare/suite.hpp"
 #include "cli/renderers/renderers.hpp"
 #include "run/order.hpp"
@@ -34,6 +35,14 @@ extern char** environ;
 namespace cli {
 
 namespace {
+
+struct BenchOptions {
+    SuiteOptions suite;
+    DeviceOptions device;
+    uint32_t runs = 3;  // counted pairs of whole processes
+    bool json = false;
+    bool bare = false;  // hidden: --bare, the child that draws without reading back or judging
+};
 
 double median(std::vector<double> values) {
     std::sort(values.begin(), values.end());
@@ -171,11 +180,8 @@ cases::Expected<double> draw_bare(capture::Renderer& renderer,
 
 // The child: one line "cold warm", seconds of the first and the second pass over all cases.
 int bare_command(const Program& program, const BenchOptions& options) {
-    OrStop<LoadedSuite> suite = load_and_select(program, options.suite);
-    if (!suite) {
-        return report_stop(suite.error());
-    }
-    const std::vector<cases::Case> cases = selected_cases(*suite);
+    LoadedSuite suite = must(load_and_select(program, options.suite));
+    const std::vector<cases::Case> cases = selected_cases(suite);
     const auto renderer = renderer_of(options.device).make(options.device);
     if (!renderer) {
         complain(renderer.error().message);
@@ -287,18 +293,13 @@ std::string json_of(const Figures& f) {
     return out.dump() + "\n";
 }
 
-}  // namespace
-
-int bench_command(const Program& program, const BenchOptions& options) {
+int carry_out(const Program& program, const BenchOptions& options) {
     if (options.bare) {
         return bare_command(program, options);
     }
-    OrStop<LoadedSuite> suite = load_and_select(program, options.suite);
-    if (!suite) {
-        return report_stop(suite.error());
-    }
-    const std::string root = suite->root.string();
-    const std::vector<cases::Case> cases = selected_cases(*suite);
+    LoadedSuite suite = must(load_and_select(program, options.suite));
+    const std::string root = suite.root.string();
+    const std::vector<cases::Case> cases = selected_cases(suite);
     Figures figures;
     figures.cases = cases.size();
     figures.samples = sample_count(cases);
@@ -381,6 +382,24 @@ int bench_command(const Program& program, const BenchOptions& options) {
     figures.judging = time_judging(cases, run::first_and_last(cases, all));
     std::fputs((options.json ? json_of(figures) : text_of(figures)).c_str(), stdout);
     return report::kExitOk;
+}
+
+void declare(CLI::App& app, BenchOptions& o) {
+    add_suite(&app, o.suite);
+    add_device(&app, o.device);
+    app.add_option("--runs", o.runs, "pairs of processes that are timed [3]")
+        ->type_name("N")
+        ->check(in_range(1U, 1000U));
+    app.add_flag("--json", o.json, "as JSON");
+    app.add_flag("--bare", o.bare, "")->group("");
+}
+
+}  // namespace
+
+Command bench_command() {
+    return make_command<BenchOptions>({"bench", kProgram, "what checking costs beside drawing",
+                                       "  edgecase bench 'coverage/**' --runs 5\n"},
+                                      declare, carry_out);
 }
 
 }  // namespace cli

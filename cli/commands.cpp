@@ -6,8 +6,6 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <functional>
-#include <map>
 
 #include "cli/options/parse.hpp"
 #include "cli/prepare/outputs.hpp"
@@ -16,6 +14,18 @@
 #include "run/worker/worker.hpp"
 
 namespace cli {
+
+std::span<const Command> all_commands() {
+    static const Command kCommands[] = {
+        run_command(),      gtest_command(),   fuzz_command(),       reduce_command(),
+        diagnose_command(), probe_command(),   list_command(),       doors_command(),
+        lint_command(),     explain_command(), render_command(),     export_command(),
+        diff_command(),     doctor_command(),  report_command(),     expect_command(),
+        compare_command(),  bench_command(),   completion_command(), man_command(),
+        version_command(),
+    };
+    return kCommands;
+}
 
 int edgecase_main(int argc, const char* const* argv) {
     // Captures and expectations are megabytes that come and go with every case; taking them from
@@ -27,39 +37,14 @@ int edgecase_main(int argc, const char* const* argv) {
     if (program.arguments.size() == 2 && program.arguments[1] == "worker") {
         return run::run_worker(all_renderers());
     }
-    CLI::App app(
-        "Edgecase: checks triangle rasterization of Vulkan drivers against an exact reference.",
-        "edgecase");
-    AllOptions all;
-    const OrStop<std::string> parsed = parse(app, all, program.arguments);
-    if (!parsed) {
-        return report_stop(parsed.error());
-    }
-    const std::map<std::string, std::function<int()>> table = {
-        {"run", [&] { return run_command(program, all.run); }},
-        {"gtest", [&] { return gtest_command(program, all.gtest); }},
-        {"fuzz", [&] { return fuzz_command(program, all.fuzz); }},
-        {"reduce", [&] { return reduce_command(program, all.reduce); }},
-        {"diagnose", [&] { return diagnose_command(program, all.diagnose); }},
-        {"probe", [&] { return probe_command(program, all.probe); }},
-        {"list", [&] { return list_command(program, all.list); }},
-        {"doors", [] { return doors_command(); }},
-        {"lint", [&] { return lint_command(program, all.lint); }},
-        {"explain", [&] { return explain_command(program, all.explain); }},
-        {"render", [&] { return render_command(program, all.render); }},
-        {"export", [&] { return export_command(program, all.export_cases); }},
-        {"diff", [&] { return diff_command(program, all.diff); }},
-        {"doctor", [&] { return doctor_command(program, all.doctor); }},
-        {"bench", [&] { return bench_command(program, all.bench); }},
-        {"report", [&] { return report_command(program, all.report); }},
-        {"expect", [&] { return expect_command(program, all.expect); }},
-        {"compare", [&] { return compare_command(program, all.compare); }},
-        {"completion", [&] { return completion_command(all.shell); }},
-        {"man", [] { return man_command(); }},
-        {"version", [] { return version_command(); }},
-        {"help", [] { return 0; }},
+    const auto carry_out = [&] {
+        try {
+            return parse(all_commands(), program.arguments)(program);
+        } catch (const Stop& stop) {
+            return report_stop(stop);
+        }
     };
-    const int code = finish_output(table.at(*parsed)());
+    const int code = finish_output(carry_out());
     if (run::Pool::has_abandoned()) {
         // Threads that still judge use what the end of main() would destroy.
         std::fflush(nullptr);

@@ -1,20 +1,46 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One function a command; each returns an exit code of report/record/run.hpp.
+// The commands, each in a file with its name.
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "cli/options/command.hpp"
 #include "cli/options/options.hpp"
 #include "cli/options/program.hpp"
 #include "report/record/run.hpp"
 
 namespace cli {
 
-int run_command(const Program& program, const RunOptions& options);
+Command run_command();
+Command gtest_command();
+Command fuzz_command();
+Command reduce_command();
+Command diagnose_command();
+Command probe_command();
+Command list_command();
+Command doors_command();
+Command lint_command();
+Command explain_command();
+Command render_command();
+Command export_command();
+Command diff_command();
+Command doctor_command();
+Command report_command();
+Command expect_command();
+Command compare_command();
+Command bench_command();
+Command completion_command();
+Command man_command();
+Command version_command();
+
+// All of them, in the order in which help lists them.
+std::span<const Command> all_commands();
+
 // A run that tells its results in words of its own: nothing else goes to standard output.
 struct RunTeller {
     std::function<bool(const std::string& id)> takes;  // which of the selected cases are run
@@ -22,26 +48,6 @@ struct RunTeller {
     std::function<bool(const report::CaseRecord&)> end;  // of one case; false ends the run
 };
 int run_with(const Program& program, const RunOptions& options, const RunTeller& teller);
-int gtest_command(const Program& program, const GtestOptions& options);
-int fuzz_command(const Program& program, const FuzzOptions& options);
-int reduce_command(const Program& program, const ReduceOptions& options);
-int diagnose_command(const Program& program, const DiagnoseOptions& options);
-int probe_command(const Program& program, const ProbeOptions& options);
-int doors_command();
-int list_command(const Program& program, const ListOptions& options);
-int lint_command(const Program& program, const LintOptions& options);
-int explain_command(const Program& program, const ExplainOptions& options);
-int render_command(const Program& program, const RenderOptions& options);
-int export_command(const Program& program, const ExportOptions& options);
-int diff_command(const Program& program, const DiffOptions& options);
-int doctor_command(const Program& program, const DoctorOptions& options);
-int bench_command(const Program& program, const BenchOptions& options);
-int report_command(const Program& program, const ReportOptions& options);
-int expect_command(const Program& program, const ExpectOptions& options);
-int compare_command(const Program& program, const CompareOptions& options);
-int completion_command(const std::string& shell);
-int man_command();
-int version_command();
 
 // Parses the command line and carries it out.
 int edgecase_main(int argc, const char* const* argv);

@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "cli/commands.hpp"
+#include "cli/options/shared_options.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
 #include "report/compare/comparison.hpp"
@@ -21,6 +22,13 @@ namespace cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct CompareOptions {
+    std::vector<std::string> directories;
+    std::string json, html;
+    bool verbose = false, common = false, strict = false;
+    When color = When::automatic;
+};
 
 // The address of a run's page, seen from another page; empty if there is none.
 std::string report_address(const std::string& page, const std::string& folder) {
@@ -42,22 +50,17 @@ std::string report_address(const std::string& page, const std::string& folder) {
     return address;
 }
 
-}  // namespace
-
-int compare_command(const Program&, const CompareOptions& options) {
+int carry_out(const Program&, const CompareOptions& options) {
     std::vector<report::NamedRun> runs;
     for (const std::string& folder : options.directories) {
         cases::Expected<report::Run> run = report::load_journal(folder);
         if (!run) {
-            return report_stop({report::kExitInvalidFile, {cases::to_string(run.error())}});
+            throw Stop{report::kExitInvalidFile, {cases::to_string(run.error())}};
         }
         runs.push_back({folder, std::move(*run)});
     }
-    const cases::Expected<report::Comparison> comparison =
-        report::compare_runs(runs, {options.common, options.strict});
-    if (!comparison) {
-        return report_stop({report::kExitUsage, {comparison.error().message}});
-    }
+    const report::Comparison comparison =
+        must(report::compare_runs(runs, {options.common, options.strict}), report::kExitUsage);
     std::FILE* console = console_beside(options.json, {}, options.html);
     const report::ConsoleStyle style = console_style(console, options.color, options.verbose);
     cases::Errors errors;
@@ -66,13 +69,13 @@ int compare_command(const Program&, const CompareOptions& options) {
         for (const std::string& folder : options.directories) {
             reports.push_back(report_address(options.html, folder));
         }
-        const std::string page = report::comparison_html(runs, *comparison, reports);
+        const std::string page = report::comparison_html(runs, comparison, reports);
         if (const auto written = write_text(options.html, page); !written) {
             errors.push_back(written.error());
         }
     }
     if (!options.json.empty()) {
-        const std::string json = report::comparison_json(runs, *comparison);
+        const std::string json = report::comparison_json(runs, comparison);
         if (const auto written = write_text(options.json, json); !written) {
             errors.push_back(written.error());
         }
@@ -80,12 +83,38 @@ int compare_command(const Program&, const CompareOptions& options) {
     const std::string exit =
         errors.empty() ? std::string()
                        : report::exit_text(report::kExitInternal, "a file could not be written");
-    std::fputs(report::comparison_text(runs, *comparison, style, exit).c_str(), console);
+    std::fputs(report::comparison_text(runs, comparison, style, exit).c_str(), console);
     std::fflush(console);
     for (const cases::Error& error : errors) {
         complain(error.message);
     }
-    return errors.empty() ? report::exit_code(*comparison) : report::kExitInternal;
+    return errors.empty() ? report::exit_code(comparison) : report::kExitInternal;
+}
+
+void declare(CLI::App& app, CompareOptions& o) {
+    app.add_option("DIR", o.directories, "the folders of runs, the first is the base")
+        ->required()
+        ->type_name("");
+    app.add_option("--json", o.json, "write the comparison to FILE ('-': standard output)")
+        ->type_name("FILE");
+    app.add_option("--html", o.html, "write a page with both sides of each case to FILE")
+        ->type_name("FILE");
+    app.add_flag("-v,--verbose", o.verbose,
+                 "list every difference, draw where kept pictures differ");
+    app.add_flag("--common", o.common, "leave out cases that a run lacks");
+    app.add_flag("--strict", o.strict, "exit 1 with any difference of bits");
+    add_choice(&app, "--color", o.color, when_names(), "colours");
+}
+
+}  // namespace
+
+Command compare_command() {
+    return make_command<CompareOptions>(
+        {"compare", kChecking, "set runs side by side",
+         "  edgecase compare out/before out/after     regressions and fixes\n"
+         "  edgecase compare out/lavapipe out/swiftshader -v --json differences.json\n"
+         "  edgecase compare out/lavapipe out/swiftshader --html differences.html\n"},
+        declare, carry_out);
 }
 
 }  // namespace cli

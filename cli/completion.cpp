@@ -3,12 +3,17 @@
 #include "cases/model/rule.hpp"
 #include "cli/commands.hpp"
 #include "cli/options/command_table.hpp"
+#include "cli/options/shared_options.hpp"
 #include "cli/options/stop.hpp"
 #include "report/record/run.hpp"
 
 namespace cli {
 
 namespace {
+
+struct CompletionOptions {
+    std::string shell;
+};
 
 std::string join(const std::vector<std::string>& words, const std::string& between) {
     std::string text;
@@ -341,15 +346,29 @@ std::string fish_completion(const CommandTable& table) {
     return text;
 }
 
-}  // namespace
-
-int completion_command(const std::string& shell) {
-    const CommandTable table = command_table();
-    const std::string text = shell == "bash"  ? bash_completion(table)
-                             : shell == "zsh" ? zsh_completion(table)
-                                              : fish_completion(table);
+int carry_out(const Program&, const CompletionOptions& options) {
+    const CommandTable table = command_table(all_commands());
+    const std::string text = options.shell == "bash"  ? bash_completion(table)
+                             : options.shell == "zsh" ? zsh_completion(table)
+                                                      : fish_completion(table);
     say(text);
     return report::kExitOk;
+}
+
+void declare(CLI::App& app, CompletionOptions& o) {
+    static const std::map<std::string, std::string> kShells = {
+        {"bash", "bash"}, {"fish", "fish"}, {"zsh", "zsh"}};
+    add_choice(&app, "SHELL", o.shell, kShells, "the shell")->required();
+}
+
+}  // namespace
+
+Command completion_command() {
+    return make_command<CompletionOptions>(
+        {"completion", kProgram, "print the completion script of a shell",
+         "  source <(edgecase completion bash)\n"
+         "  edgecase completion fish > ~/.config/fish/completions/edgecase.fish\n"},
+        declare, carry_out);
 }
 
 }  // namespace cli

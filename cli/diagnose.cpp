@@ -13,7 +13,8 @@
 #include "cases/base/checksum.hpp"
 #include "cases/base/printable.hpp"
 #include "cli/commands.hpp"
-#include "cli/options/parse.hpp"
+#include "cli/options/run_options.hpp"
+#include "cli/options/shared_options.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
 #include "diagnosis/diagnose.hpp"
@@ -22,6 +23,12 @@
 namespace cli {
 
 namespace {
+
+struct DiagnoseOptions {
+    SuiteOptions suite;
+    std::string directory;  // of a run
+    bool known = false;     // expected failures, too
+};
 
 constexpr double kSecondsAtEnd = 1, kShareAtEnd = 0.1;  // the larger of both, of the run's time
 constexpr double kSecondsOfCommand = 30;
@@ -98,16 +105,15 @@ void keep_diagnoses(const report::Run& run, report::Journal& journal) {
     }
 }
 
-int diagnose_command(const Program& program, const DiagnoseOptions& options) {
+namespace {
+
+int carry_out(const Program& program, const DiagnoseOptions& options) {
     cases::Expected<report::Run> run = report::load_journal(options.directory);
     if (!run) {
-        return report_stop(Stop{report::kExitInvalidFile, {cases::to_string(run.error())}});
+        throw Stop{report::kExitInvalidFile, {cases::to_string(run.error())}};
     }
-    const OrStop<LoadedSuite> loaded = cases_of(program, *run, options.suite.suite);
-    if (!loaded) {
-        return report_stop(loaded.error());
-    }
-    if (!run->suite_hash.empty() && run->suite_hash != cases::hex(suite_hash(loaded->root))) {
+    const LoadedSuite loaded = must(cases_of(program, *run, options.suite.suite));
+    if (!run->suite_hash.empty() && run->suite_hash != cases::hex(suite_hash(loaded.root))) {
         complain("the suite has changed since that run; what is told of changed cases is wrong");
     }
     size_t failed = 0;
@@ -130,7 +136,7 @@ int diagnose_command(const Program& program, const DiagnoseOptions& options) {
         }
         progress->show(done - 1, std::nullopt);
     };
-    run->diagnoses = diagnoses_of(*run, each_of(*loaded), bound);
+    run->diagnoses = diagnoses_of(*run, each_of(loaded), bound);
     if (progress) {
         progress->clear();
     }
@@ -152,6 +158,23 @@ int diagnose_command(const Program& program, const DiagnoseOptions& options) {
         say("no diagnosis: no known error fails as the device did in the cases that were tried\n");
     }
     return report::kExitOk;
+}
+
+void declare(CLI::App& app, DiagnoseOptions& o) {
+    app.add_option("DIR", o.directory, "the folder of a run")->required()->type_name("");
+    app.add_flag("--known", o.known, "explain expected failures, too");
+    add_value(&app, "--suite", o.suite.suite, "where the cases are [as in the run]", "DIR",
+              "Selection");
+}
+
+}  // namespace
+
+Command diagnose_command() {
+    return make_command<DiagnoseOptions>(
+        {"diagnose", kChecking, "say what the device of a run does wrong",
+         "  edgecase diagnose out/mine                what does the device do wrong\n"
+         "  edgecase diagnose out/mine --known        what do its expected failures come of\n"},
+        declare, carry_out);
 }
 
 }  // namespace cli

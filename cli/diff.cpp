@@ -18,14 +18,15 @@
 #include "cli/bench/clock.hpp"
 #include "cli/commands.hpp"
 #include "cli/diagnose.hpp"
+#include "cli/options/shared_options.hpp"
+#include "cli/prepare/command_lines.hpp"
 #include "cli/prepare/expectations.hpp"
 #include "cli/prepare/loop_config.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/prepare_run.hpp"
+#include "cli/prepare/run_console.hpp"
 #include "cli/prepare/run_plan.hpp"
 #include "report/journal/journal.hpp"
-#include "report/text/sentences.hpp"
-#include "report/text/unexpected.hpp"
 #include "run/judge.hpp"
 #include "run/process/pool.hpp"
 #include "run/process/signal_fd.hpp"
@@ -116,7 +117,7 @@ std::vector<std::string> unknown_folders(const fs::path& captures,
 }
 
 // The cases of an export, by its list.
-OrStop<std::set<std::string>> exported_ids(const fs::path& folder) {
+std::set<std::string> exported_ids(const fs::path& folder) {
     const fs::path file = folder / "index.json";
     std::set<std::string> ids;
     try {
@@ -130,30 +131,27 @@ OrStop<std::set<std::string>> exported_ids(const fs::path& folder) {
     } catch (const std::exception&) {
         // told below
     }
-    return tl::unexpected(stop_with(report::kExitInvalidFile,
-                                    "'" + cases::printable(file.string()) +
-                                        "' is no list of exported cases; name the folder that "
-                                        "'edgecase export' wrote"));
+    throw stop_with(report::kExitInvalidFile,
+                    "'" + cases::printable(file.string()) +
+                        "' is no list of exported cases; name the folder that "
+                        "'edgecase export' wrote");
 }
 
-OrStop<std::monostate> check_captures(const DiffOptions& options,
-                                      const std::vector<std::string>& ids) {
+void check_captures(const DiffOptions& options, const std::vector<std::string>& ids) {
     std::error_code ignored;
     if (!fs::is_directory(options.captures, ignored)) {
-        return tl::unexpected(stop_with(report::kExitInvalidFile,
-                                        "--captures '" + options.captures +
-                                            "' is no folder; name the one with the planes that "
-                                            "were rendered"));
+        throw stop_with(report::kExitInvalidFile,
+                        "--captures '" + options.captures +
+                            "' is no folder; name the one with the planes that "
+                            "were rendered");
     }
     if (!options.exported.empty()) {
         // Without its list, cases of one's own would be told to be unknown.
-        if (const auto listed = exported_ids(options.exported); !listed) {
-            return tl::unexpected(listed.error());
-        }
+        exported_ids(options.exported);
     }
     const std::vector<std::string> unknown = unknown_folders(options.captures, ids);
     if (unknown.empty()) {
-        return std::monostate{};
+        return;
     }
     std::vector<std::string> folders;
     for (const std::string& id : ids) {
@@ -161,36 +159,33 @@ OrStop<std::monostate> check_captures(const DiffOptions& options,
     }
     const std::string more =
         unknown.size() == 1 ? "" : " and " + std::to_string(unknown.size() - 1) + " more";
-    return tl::unexpected(stop_with(
+    throw stop_with(
         report::kExitInvalidFile,
         "'" + cases::printable((fs::path(options.captures) / unknown.front()).string()) + "'" +
             more + (more.empty() ? " belongs" : " belong") + " to no case of the suite" +
             cases::did_you_mean(unknown.front(), folders,
                                 "; folders have the names that 'edgecase export' writes, and cases "
                                 "of your own are known by --exported DIR or by their file or "
-                                "folder, as there")));
+                                "folder, as there"));
 }
 
 // Without selectors, what was exported or drawn is judged; the sentence says so.
-OrStop<std::string> keep_captured(const DiffOptions& options, Selection& selection) {
+std::string keep_captured(const DiffOptions& options, Selection& selection) {
     const size_t all = selection.cases.size();
     if (!options.exported.empty()) {
-        const OrStop<std::set<std::string>> ids = exported_ids(options.exported);
-        if (!ids) {
-            return tl::unexpected(ids.error());
-        }
-        std::set<std::string> unknown = *ids;
+        const std::set<std::string> ids = exported_ids(options.exported);
+        std::set<std::string> unknown = ids;
         for (const cases::Case& c : selection.cases) {
             unknown.erase(c.id);
         }
         if (options.run.suite.selectors.empty() && !unknown.empty()) {
-            return tl::unexpected(stop_with(
+            throw stop_with(
                 report::kExitInvalidFile,
                 "'" + cases::printable(options.exported) + "' has the case '" +
                     cases::printable(*unknown.begin()) +
-                    "', which is not in the suite; export the cases of this suite again"));
+                    "', which is not in the suite; export the cases of this suite again");
         }
-        std::erase_if(selection.cases, [&](const cases::Case& c) { return !ids->contains(c.id); });
+        std::erase_if(selection.cases, [&](const cases::Case& c) { return !ids.contains(c.id); });
     } else if (options.run.suite.selectors.empty()) {
         std::erase_if(selection.cases, [&](const cases::Case& c) {
             std::error_code ignored;
@@ -201,11 +196,11 @@ OrStop<std::string> keep_captured(const DiffOptions& options, Selection& selecti
         return std::string();
     }
     if (selection.cases.empty()) {
-        return tl::unexpected(stop_with(
+        throw stop_with(
             report::kExitNothingSelected,
             "no case is selected: " + (options.exported.empty()
                                            ? "'" + options.captures + "' holds a folder of none"
-                                           : "'" + options.exported + "' lists none of them")));
+                                           : "'" + options.exported + "' lists none of them"));
     }
     const size_t left_out = all - selection.cases.size();
     selection.whole_suite = selection.whole_suite && left_out == 0;
@@ -231,7 +226,7 @@ report::Run make_header(const Program& program, const DiffOptions& options,
     header.device.depth_beside_stencil = options.judged.depth_beside_stencil;
     header.device.has_primitive_id = true;
     for (const cases::Case& c : selection.cases) {
-        header.cases.push_back(run::make_record(c));
+        header.cases.push_back(run::planned_case(c));
         header.cases.back().rerun = diff_line(program, options, c.id);
     }
     header.sources = sources_of(header.cases);
@@ -253,104 +248,86 @@ void settle(CaseRecord& record, const ExpectedById& expected, bool requires_supp
 std::string skipped_text(const std::map<std::string, size_t>& skipped) {
     std::string text;
     for (const auto& [word, count] : skipped) {
-        text += (text.empty() ? "not judged: " : ", ") + word + " in " + std::to_string(count) +
-                (count == 1 ? " case" : " cases");
+        text +=
+            (text.empty() ? "not judged: " : ", ") + word + " in " + cases::counted(count, "case");
     }
     return text.empty() ? text : text + "\n";
 }
 
-// Nothing was judged; the reports of an earlier call would look like this one's.
-int stopped(const RunOptions& options, const Stop& stop) {
-    remove_reports_of_last_run(options);
-    return report_stop(stop);
+// What is to be judged, and what was expected of it.
+struct Asked {
+    Selection selection;
+    std::string left_out;  // a sentence
+    report::Run header;
+    ExpectedById expected;
+};
+
+Asked ask(const Program& program, const DiffOptions& options) {
+    const RunOptions& o = options.run;
+    try {
+        Asked asked{must(select_cases(program, o)), {}, {}, {}};
+        check_captures(options, asked.selection.known_ids);
+        asked.left_out = keep_captured(options, asked.selection);
+        asked.header = make_header(program, options, asked.selection);
+        asked.expected = must(expectations_of(o, asked.selection, asked.header));
+        return asked;
+    } catch (const Stop&) {
+        // Nothing was judged; the reports of an earlier call would look like this one's.
+        remove_reports_of_last_run(o);
+        throw;
+    }
 }
 
-}  // namespace
-
-int diff_command(const Program& program, const DiffOptions& given) {
+int carry_out(const Program& program, const DiffOptions& given) {
     run::SignalFd signals;
     DiffOptions options = given;
     options.run.suite.carried =
         (fs::path(given.exported.empty() ? given.captures : given.exported) / kCarried).string();
     const RunOptions& o = options.run;
-    OrStop<Selection> selection = select_cases(program, o);
-    if (!selection) {
-        return stopped(o, selection.error());
-    }
-    if (auto checked = check_captures(options, selection->known_ids); !checked) {
-        return stopped(o, checked.error());
-    }
-    const OrStop<std::string> left_out = keep_captured(options, *selection);
-    if (!left_out) {
-        return stopped(o, left_out.error());
-    }
-    report::Run header = make_header(program, options, *selection);
-    const auto expected = expectations_of(o, *selection, header);
-    if (!expected) {
-        return stopped(o, expected.error());
-    }
+    Asked asked = ask(program, options);
+    const Selection& selection = asked.selection;
+    const ExpectedById& expected = asked.expected;
+    report::Run& header = asked.header;
     const fs::path folder = o.output.empty() ? new_folder("out", "captures") : fs::path(o.output);
-    OrStop<report::Journal> journal = open_journal(folder, header, false);
-    if (!journal) {
-        return report_stop(journal.error());
-    }
+    report::Journal journal = must(open_journal(folder, header, false));
     remove_reports({folder, o.json, o.junit, o.html});
-    std::FILE* console = console_beside(o.json, o.junit, o.html);
-    report::ConsoleStyle style = console_style(console, o.color, o.verbose);
-    style.folder = shell_quote(folder.string());
-    style.quiet = o.quiet;
-    if (!o.quiet) {
-        std::fputs((report::console_header(header, style) + *left_out).c_str(), console);
-        std::fflush(console);
+    std::vector<std::string> ids;
+    for (const cases::Case& c : selection.cases) {
+        ids.push_back(c.id);
     }
-
+    RunConsole console(o, folder, ids, ids.size());
+    console.begin(header, asked.left_out);
     run::SignalFd::set_last_words(cases::printable(
         fmt::format("interrupted, and no reports were written within a second; have them by "
                     "'edgecase report {}'",
-                    style.folder)));
+                    console.style().folder)));
     const Clock::time_point begin = Clock::now();
     Work work{options, {}};
     work.limits = limits_of(options.judged);
     std::map<std::string, size_t> skipped;
     std::string failure;
     size_t done = 0;
-    Progress progress(o.quiet ? ProgressStyle::none : o.progress, selection->cases.size());
-    std::vector<std::string> ids;
-    for (const cases::Case& c : selection->cases) {
-        ids.push_back(c.id);
-    }
-    report::UnexpectedResults unexpected(ids, style);
-    const auto print = [&](const std::string& text) {
-        if (!text.empty()) {
-            progress.clear();
-            std::fputs(text.c_str(), console);
-        }
-    };
-    std::vector<std::vector<std::string>> not_judged(selection->cases.size());
+    std::vector<std::vector<std::string>> not_judged(selection.cases.size());
     run::Pool pool(cases::cores());
-    for (size_t k = 0; k < selection->cases.size(); ++k) {
-        const cases::Case& c = selection->cases[k];
+    for (size_t k = 0; k < selection.cases.size(); ++k) {
+        const cases::Case& c = selection.cases[k];
         CaseRecord& record = header.cases[k];
         const auto finish = [&, k] {
-            settle(record, *expected, o.require_support);
-            if (!record.outcome.findings.empty()) {
-                record.commands.explain =
-                    explain_line(program, o, record.id, options.judged) +
-                    report::sample_options(report::leading_finding(record), c.target);
-            }
-            if (auto written = journal->write_end(record); !written && failure.empty()) {
+            settle(record, expected, o.require_support);
+            record.commands.explain = explain_line(program, o, options.judged, c, record);
+            if (auto written = journal.write_end(record); !written && failure.empty()) {
                 failure = written.error().message;
             }
             for (const std::string& word : not_judged[k]) {
                 ++skipped[word];
             }
             ++done;
-            print(unexpected.add(record));
+            console.add(record);
             record.evidence.pictures = {};
             record.outcome.findings.clear();
         };
-        if (const auto found = expected->find(c.id);
-            found != expected->end() && skips(found->second)) {
+        if (const auto found = expected.find(c.id);
+            found != expected.end() && skips(found->second)) {
             record.status = Status::skip;
             record.reason = found->second.note;
             pool.submit([] {}, finish);
@@ -363,26 +340,64 @@ int diff_command(const Program& program, const DiffOptions& given) {
         ::poll(fds.data(), fds.size(), 200);
         header.interrupted = signals.has_come();
         pool.collect();
-        progress.show(done, unexpected.count());
+        console.show(done);
     }
-    progress.clear();
-    print(unexpected.rest());
+    console.end();
     header.ended = utc_now(false);
     header.seconds = seconds_since(begin);
-    if (auto written = journal->write_stop(header); !written && failure.empty()) {
+    if (auto written = journal.write_stop(header); !written && failure.empty()) {
         failure = written.error().message;
     }
     Ending ending{failure, "judging stopped early", skipped_text(skipped), {}};
     if (o.diagnosis && !header.interrupted) {
         ending.complete = [&](report::Run& run) {
             const auto each = [&](const auto& visit) {
-                std::for_each(selection->cases.begin(), selection->cases.end(), visit);
+                std::for_each(selection.cases.begin(), selection.cases.end(), visit);
             };
             diagnose(run, each);
-            keep_diagnoses(run, *journal);
+            keep_diagnoses(run, journal);
         };
     }
-    return conclude(folder, o, Ci::none, console, style, ending);
+    return conclude(folder, o, Ci::none, console.file(), console.style(), ending);
+}
+
+void declare(CLI::App& app, DiffOptions& o) {
+    add_suite(&app, o.run.suite);
+    app.add_option("--captures", o.captures, "the folder with what was drawn")
+        ->type_name("DIR")
+        ->required()
+        ->group("Selection");
+    add_value(&app, "--exported", o.exported,
+              "judge all cases of this export [those that have a folder in the captures]", "DIR",
+              "Selection");
+    add_value(&app, "--name", o.name, "of the renderer, for the reports", "NAME", "Output");
+    add_profile(&app, o.run.profile);
+    add_fail_at(&app, o.run.fail_at);
+    add_judged_device(&app, o.judged);
+    add_require_support(&app, o.run, "renderer");
+    add_expectations(&app, o.run);
+    add_outputs(&app, o.run, "where the reports go [out/<time>-captures]", false);
+}
+
+void check(const CLI::App& app, const DiffOptions& o, const Words&) {
+    check_fail_at(app, o.run);
+}
+
+}  // namespace
+
+Command diff_command() {
+    return make_command<DiffOptions>(
+        {"diff", kElsewhere, "judge what another program drew of exported cases",
+         "  edgecase diff --captures captures                      what was drawn, whatever it is\n"
+         "  edgecase diff --captures captures --exported cases     all that was exported to cases\n"
+         "  edgecase diff 'ties/**' --captures captures -o out/me  one family, reports in out/me\n"
+         "  edgecase diff --captures captures --subpixel-bits 4    of a renderer that snaps to "
+         "1/16\n"
+         "\n"
+         "A case whose folder holds no plane is 'not run' (exit 7); with a file unsupported.txt, "
+         "whose\n"
+         "first line says why, it is 'unsupported'. Planes that are missing are not judged.\n"},
+        declare, carry_out, check);
 }
 
 }  // namespace cli

@@ -16,6 +16,7 @@
 #include "cases/base/counted.hpp"
 #include "cases/base/printable.hpp"
 #include "cli/commands.hpp"
+#include "cli/options/shared_options.hpp"
 #include "cli/prepare/device_answer.hpp"
 #include "cli/prepare/run_plan.hpp"
 #include "cli/prepare/suite.hpp"
@@ -31,6 +32,11 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 namespace {
+
+struct DoctorOptions {
+    DeviceOptions device;
+    bool json = false;
+};
 
 // Something that a command needs beside a driver.
 struct Part {
@@ -326,15 +332,11 @@ void print(const Diagnosis& d, const DeviceOptions& options) {
                           : "not ready: no " + chosen + " can run the suite");
 }
 
-}  // namespace
-
-int doctor_command(const Program& program, const DoctorOptions& options) {
+int carry_out(const Program& program, const DoctorOptions& options) {
     Diagnosis d;
     d.installed = all_renderers().front().find_drivers(options.device);
     d.parts = find_parts(program, d.installed);
-    if (const auto asked = ask(program, options.device, d); !asked) {
-        return report_stop({report::kExitInternal, {asked.error().message}});
-    }
+    must(ask(program, options.device, d), report::kExitInternal);
     ask_shares(program, options.device, d);
     if (!d.devices.empty() && std::none_of(d.devices.begin(), d.devices.end(), is_usable)) {
         d.advice.emplace_back("sudo apt install mesa-vulkan-drivers");
@@ -346,6 +348,20 @@ int doctor_command(const Program& program, const DoctorOptions& options) {
         print(d, options.device);
     }
     return d.usable ? report::kExitOk : report::kExitDevice;
+}
+
+void declare(CLI::App& app, DoctorOptions& o) {
+    add_device(&app, o.device);
+    app.add_flag("--json", o.json, "as JSON");
+}
+
+}  // namespace
+
+Command doctor_command() {
+    return make_command<DoctorOptions>(
+        {"doctor", kProgram, "what is installed, which devices there are, what is missing",
+         "  edgecase doctor --icd my_icd.json         is my driver found and usable\n"},
+        declare, carry_out);
 }
 
 }  // namespace cli

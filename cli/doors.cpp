@@ -11,7 +11,9 @@
 
 namespace cli {
 
-int doors_command() {
+namespace {
+
+int carry_out(const Program&) {
     for (const cases::DoorRow& row : cases::all_doors()) {
         const std::string_view needs = all_renderers().front().needs(row.door);
         say(fmt::format("{}\n", row.word));
@@ -21,6 +23,15 @@ int doors_command() {
                                 needs.empty() ? "" : fmt::format("; needs {}", needs)));
     }
     return report::kExitOk;
+}
+
+}  // namespace
+
+Command doors_command() {
+    return make_command(
+        {"doors", kProgram, "list the doors that a run can take: other ways of the API",
+         "  edgecase doors                            what each of them does, and takes\n"},
+        carry_out);
 }
 
 }  // namespace cli

@@ -16,6 +16,7 @@
 #include "cases/base/output_file.hpp"
 #include "cases/base/printable.hpp"
 #include "cli/commands.hpp"
+#include "cli/options/shared_options.hpp"
 #include "cli/prepare/loop_config.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
@@ -27,61 +28,50 @@ namespace fs = std::filesystem;
 
 namespace {
 
+struct ExportOptions {
+    SuiteOptions suite;
+    std::string output;                                 // folder; of a reproducer the file
+    bool reproducer = false;                            // one case as a C program
+    cases::Profile profile = cases::Profile::direct3d;  // that a reproducer judges at
+    JudgedDevice judged;                                // that it is for
+};
+
 // Writes into a folder that is made if it is not there.
-OrStop<std::monostate> write_below(const fs::path& folder, const fs::path& name,
-                                   const std::string& text) {
+void write_below(const fs::path& folder, const fs::path& name, const std::string& text) {
     if (auto made = cases::make_folders(folder, folder / name); !made) {
-        return tl::unexpected(
-            stop_with(report::kExitUsage, made.error().message + "; choose another with -o"));
+        throw stop_with(report::kExitUsage, made.error().message + "; choose another with -o");
     }
-    if (auto written = replace_text(folder / name, text); !written) {
-        return tl::unexpected(stop_with(report::kExitInternal, written.error().message));
-    }
-    return std::monostate{};
+    must(replace_text(folder / name, text), report::kExitInternal);
 }
 
 int export_reproducer(const Program& program, const ExportOptions& options) {
     if (!options.output.ends_with(".c")) {
-        return report_stop({report::kExitUsage,
-                            {"-o '" + cases::printable(options.output) +
-                             "' is no name of a C file; write one that ends in .c"}});
+        throw Stop{report::kExitUsage,
+                   {"-o '" + cases::printable(options.output) +
+                    "' is no name of a C file; write one that ends in .c"}};
     }
-    const OrStop<cases::Case> c = load_one_case(program, options.suite, options.judged);
-    if (!c) {
-        return report_stop(c.error());
-    }
-    const auto text = reproducer(*c, limits_of(options.judged), options.profile, kVersion);
-    if (!text) {
-        return report_stop({report::kExitUsage, {text.error().message}});
-    }
-    if (auto written = write_text(options.output, *text); !written) {
-        return report_stop({report::kExitInternal, {written.error().message}});
-    }
+    const cases::Case c = must(load_one_case(program, options.suite, options.judged));
+    const auto text = must(reproducer(c, limits_of(options.judged), options.profile, kVersion),
+                           report::kExitUsage);
+    must(write_text(options.output, text), report::kExitInternal);
     say(fmt::format("{}: build it with 'cc -std=c99 {} -lvulkan -lm'\n",
                     cases::printable(options.output), cases::printable(options.output)));
     return report::kExitOk;
 }
 
-}  // namespace
-
-int export_command(const Program& program, const ExportOptions& options) {
+int carry_out(const Program& program, const ExportOptions& options) {
     if (options.reproducer) {
         return export_reproducer(program, options);
     }
-    const OrStop<LoadedSuite> suite = load_selected(program, options.suite);
-    if (!suite) {
-        return report_stop(suite.error());
-    }
+    const LoadedSuite suite = must(load_selected(program, options.suite));
     const fs::path folder = options.output;
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     std::map<std::string, std::string> carried;  // files outside the suite, by their place
-    for (const size_t k : suite->selected) {
-        const cases::Case& c = suite->cases[k];
+    for (const size_t k : suite.selected) {
+        const cases::Case& c = suite.cases[k];
         const std::string name = capture::folder_of(c.id);
-        if (auto written = write_below(folder, name + ".json", capture::export_case(c)); !written) {
-            return report_stop(written.error());
-        }
-        if (k >= suite->outside) {
+        write_below(folder, name + ".json", capture::export_case(c));
+        if (k >= suite.outside) {
             carried[c.id.substr(0, c.id.find(':')) + ".toml"] = c.claim.where.file;
         }
         list.push_back({{"id", c.id},
@@ -90,24 +80,48 @@ int export_command(const Program& program, const ExportOptions& options) {
                         {"needs", capture::needs_of(c)}});
     }
     for (const auto& [place, file] : carried) {
-        const cases::Expected<std::string> text = cases::read_file(file);
-        if (!text) {
-            return report_stop({report::kExitInvalidFile,
-                                {"'" + file + "' cannot be read: " + text.error().message}});
-        }
-        if (auto written = write_below(folder, fs::path(kCarried) / place, *text); !written) {
-            return report_stop(written.error());
-        }
+        const std::string text = must(cases::read_file(file), report::kExitInvalidFile,
+                                      "'" + file + "' cannot be read: ");
+        write_below(folder, fs::path(kCarried) / place, text);
     }
     const nlohmann::ordered_json index = {{"schema", "edgecase-export-1"},
                                           {"tool", {{"name", "edgecase"}, {"version", kVersion}}},
                                           {"cases", std::move(list)}};
-    if (auto written = write_below(folder, "index.json", index.dump(1) + "\n"); !written) {
-        return report_stop(written.error());
-    }
-    say(fmt::format("{} case{} in {}\n", suite->selected.size(),
-                    suite->selected.size() == 1 ? "" : "s", folder.string()));
+    write_below(folder, "index.json", index.dump(1) + "\n");
+    say(fmt::format("{} case{} in {}\n", suite.selected.size(),
+                    suite.selected.size() == 1 ? "" : "s", folder.string()));
     return report::kExitOk;
+}
+
+void declare(CLI::App& app, ExportOptions& o) {
+    add_suite(&app, o.suite);
+    app.add_option("-o,--output", o.output, "where the files go; with --reproducer the C file")
+        ->type_name("PATH")
+        ->required();
+    app.add_flag("--reproducer", o.reproducer,
+                 "one case as a C program for a bug report, needs the Vulkan loader alone");
+    add_profile(&app, o.profile);
+    add_judged_device(&app, o.judged);
+    for (const char* judging : {"--profile", "--subpixel-bits", "--sample-locations"}) {
+        // The environment says how runs are judged, which is no reason to refuse an export.
+        app.get_option(judging)->needs("--reproducer")->envname("");
+    }
+}
+
+}  // namespace
+
+Command export_command() {
+    return make_command<ExportOptions>(
+        {"export", kElsewhere, "write cases as JSON that any program can draw",
+         "  edgecase export 'ties/**' -o cases               what a renderer elsewhere has to "
+         "draw\n"
+         "  my-renderer cases captures                       yours: draws them, writes planes\n"
+         "  edgecase diff 'ties/**' --captures captures      judges what it has drawn\n"
+         "  edgecase export --reproducer ties/apex-up -o bug.c   for a bug report: one C file\n"
+         "\n"
+         "docs/bug-reports.md tells what a reproducer draws and how it is compiled;\n"
+         "docs/other-renderers.md tells it step by step; docs/schema/case-1.json is the format.\n"},
+        declare, carry_out);
 }
 
 }  // namespace cli

@@ -20,6 +20,7 @@
 #include "cli/fuzzing/hunt_text.hpp"
 #include "cli/fuzzing/known_causes.hpp"
 #include "cli/fuzzing/start_cases.hpp"
+#include "cli/options/shared_options.hpp"
 #include "cli/prepare/loop_config.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/run_plan.hpp"
@@ -37,61 +38,46 @@ using fuzz::Ledger;
 
 namespace {
 
+struct FuzzOptions {
+    RunOptions run;      // its device, judging, output and, to start from cases, its suite
+    uint64_t cases = 0;  // numbers from here on are not made; 0: no end
+    double seconds = 0;  // 0: no end
+    std::vector<std::string> known;   // folders of earlier hunts
+    std::optional<uint64_t> printed;  // the number of a case to print; nothing is drawn then
+};
+
 // What all parts of a hunt that goes on counted.
 fuzz::HuntCounts sum_of(fuzz::HuntCounts sum, const fuzz::HuntCounts& now) {
+    const fuzz::HuntCounts before = std::exchange(sum, now);
+    fuzz::HuntCounts::fields(
+        [](const cases::Field&, auto& all, const auto& earlier) { all += earlier; }, sum, before);
     sum.next_case = now.next_case;
     sum.poses = now.poses;
     sum.pairs = now.pairs;
-    sum.drawn += now.drawn;
-    sum.triangles += now.triangles;
-    sum.failed += now.failed;
-    sum.unsupported += now.unsupported;
-    sum.through_broken_doors += now.through_broken_doors;
-    sum.empty += now.empty;
-    sum.unjudged += now.unjudged;
-    sum.refused += now.refused;
-    sum.missing += now.missing;
-    sum.unrepeated += now.unrepeated;
-    sum.reductions += now.reductions;
-    sum.reduction_cases += now.reduction_cases;
-    sum.drawing_seconds += now.drawing_seconds;
-    sum.reducing_seconds += now.reducing_seconds;
     return sum;
 }
 
 class FuzzCommand {
   public:
     FuzzCommand(const Program& program, const FuzzOptions& options)
-        : program_(program), options_(options), status_(options) {}
+        : program_(program), options_(options), status_(options.run) {}
 
     int run() {
-        if (auto read = read_earlier(); !read) {
-            return report_stop(read.error());
-        }
-        if (auto started = find_cases(); !started) {
-            return report_stop(started.error());
-        }
+        read_earlier();
+        find_cases();
         run::LoopConfig config = loop_config(program_, options_.run);
-        config.pictures = run::KeepPictures::symptoms;
-        config.profile = ledger_.profile;
+        config.judging.pictures = run::KeepPictures::symptoms;
+        config.judging.profile = ledger_.profile;
         config.schedule.retries = 0;  // a reduction begins with drawing the case again
         run::SignalFd signals;
-        OrStop<ReadyWorker> first = ready_first_worker(config, signals);
-        if (!first) {
-            return report_stop(first.error());
-        }
-        if (auto named = name_device(first->device); !named) {
-            return report_stop(named.error());
-        }
+        ReadyWorker first = must(ready_first_worker(config, signals));
+        name_device(first.device);
         RunOptions judging = options_.run;
         judging.profile = ledger_.profile;
         judging.suite.suite = ledger_.suite.empty() ? judging.suite.suite : ledger_.suite;
         judging.no_expect = ledger_.no_expect;
         judging.expect = ledger_.expect;
-        OrStop<ExpectedFailures> expected = expected_failures(program_, judging, first->device);
-        if (!expected) {
-            return report_stop(expected.error());
-        }
+        ExpectedFailures expected = must(expected_failures(program_, judging, first.device));
         const auto folder = open_hunt_folder(folder_);
         if (!folder) {
             return report_stop(folder.error());
@@ -108,29 +94,24 @@ class FuzzCommand {
                     : fmt::format(", from case {} on", ledger_.counts.next_case),
                 is_endless ? "; end it with ctrl-c" : ""));
         }
-        run::Session session(config, std::move(first->client), first->device, signals);
+        run::Session session(config, std::move(first.client), first.device, signals);
         // From here on the hunt can go on, whatever ends it.
         run::SignalFd::set_last_words(cases::printable(
             "interrupted; go on with 'edgecase fuzz --resume " + folder_.string() + "'"));
-        if (auto kept = keep_earlier(); !kept) {
-            return report_stop(stop_with(report::kExitInternal, kept.error().message));
-        }
-        if (const std::optional<int> ended = know(*expected, session)) {
+        must(keep_earlier(), report::kExitInternal);
+        if (const std::optional<int> ended = know(expected, session)) {
             return *ended;
         }
-        return hunt(session, std::move(expected->broken_doors));
+        return hunt(session, std::move(expected.broken_doors));
     }
 
   private:
     // What earlier hunts found, and how far the one came that goes on.
-    OrStop<std::monostate> read_earlier() {
+    void read_earlier() {
         if (!options_.run.resume.empty()) {
-            auto loaded = fuzz::load_ledger(options_.run.resume);
-            if (!loaded) {
-                return tl::unexpected(
-                    stop_with(report::kExitInvalidFile, "--resume: " + loaded.error().message));
-            }
-            ledger_ = std::move(*loaded);
+            auto loaded = must(fuzz::load_ledger(options_.run.resume), report::kExitInvalidFile,
+                               "--resume: ");
+            ledger_ = std::move(loaded);
             folder_ = options_.run.resume;
             device_of_earlier_ = ledger_.device + ledger_.driver;
             seconds_before_ = ledger_.seconds;
@@ -152,16 +133,12 @@ class FuzzCommand {
             }
         }
         for (const std::string& known : options_.known) {
-            auto loaded = fuzz::load_ledger(known);
-            if (!loaded) {
-                return tl::unexpected(
-                    stop_with(report::kExitInvalidFile, "--known: " + loaded.error().message));
-            }
+            auto loaded = must(fuzz::load_ledger(known), report::kExitInvalidFile, "--known: ");
             if (ledger_.expectations.empty()) {
-                known_expectations_ = loaded->expectations;
-                known_device_ = loaded->device + loaded->driver;
+                known_expectations_ = loaded.expectations;
+                known_device_ = loaded.device + loaded.driver;
             }
-            for (Entry& entry : loaded->entries) {
+            for (Entry& entry : loaded.entries) {
                 entry.is_known = true;
                 entry.count = 0;
                 entry.file.clear();  // keep_earlier() copies it
@@ -174,39 +151,33 @@ class FuzzCommand {
                 }
             }
         }
-        return std::monostate{};
     }
 
     // The cases that the hunt starts from, which must be those of before if it goes on.
-    OrStop<std::monostate> find_cases() {
+    void find_cases() {
         SuiteOptions suite = options_.run.suite;
         suite.selectors = ledger_.selectors;
         suite.suite = ledger_.suite.empty() ? suite.suite : ledger_.suite;
-        OrStop<StartCases> found = start_cases(program_, suite, ledger_.seed);
-        if (!found) {
-            return tl::unexpected(found.error());
-        }
-        if (!options_.run.resume.empty() && found->checksum != ledger_.cases_checksum) {
-            return tl::unexpected(stop_with(
+        StartCases found = must(start_cases(program_, suite, ledger_.seed));
+        if (!options_.run.resume.empty() && found.checksum != ledger_.cases_checksum) {
+            throw stop_with(
                 report::kExitInvalidFile,
                 "the hunt cannot go on: the cases that it starts from have changed, so its numbers "
-                "mean other ones; start a new hunt"));
+                "mean other ones; start a new hunt");
         }
-        ledger_.suite = found->suite;
-        ledger_.cases_checksum = found->checksum;
-        starts_ = found->count;
-        source_ = std::move(found->source);
-        return std::monostate{};
+        ledger_.suite = found.suite;
+        ledger_.cases_checksum = found.checksum;
+        starts_ = found.count;
+        source_ = std::move(found.source);
     }
 
-    OrStop<std::monostate> name_device(const capture::DeviceInfo& device) {
+    void name_device(const capture::DeviceInfo& device) {
         ledger_.device = device.name;
         ledger_.driver = device.driver_name + " " + device.driver_info;
         if (!device_of_earlier_.empty() && device_of_earlier_ != ledger_.device + ledger_.driver) {
-            return tl::unexpected(
-                stop_with(report::kExitDevice,
-                          "the hunt cannot go on: it was on another device or driver than '" +
-                              ledger_.device + ", " + ledger_.driver + "'"));
+            throw stop_with(report::kExitDevice,
+                            "the hunt cannot go on: it was on another device or driver than '" +
+                                ledger_.device + ", " + ledger_.driver + "'");
         }
         if (folder_.empty()) {
             folder_ = options_.run.output.empty()
@@ -214,13 +185,12 @@ class FuzzCommand {
                           : fs::path(options_.run.output);
             std::error_code none;
             if (fs::exists(folder_ / fuzz::kLedgerFile, none)) {
-                return tl::unexpected(stop_with(
-                    report::kExitUsage, "'" + folder_.string() +
-                                            "' holds a hunt already; go on with it by --resume, or "
-                                            "name another folder with -o"));
+                throw stop_with(report::kExitUsage,
+                                "'" + folder_.string() +
+                                    "' holds a hunt already; go on with it by --resume, or "
+                                    "name another folder with -o");
             }
         }
-        return std::monostate{};
     }
 
     // Reduces one case for each cause that expectation files explain, unless an earlier hunt has.
@@ -251,7 +221,7 @@ class FuzzCommand {
             [this](const Entry& entry) { return keep_known(entry); });
         status_.clear();
         if (!known.failure.empty()) {
-            return report_stop(stop_with(report::kExitInternal, known.failure));
+            throw stop_with(report::kExitInternal, known.failure);
         }
         if (known.is_interrupted) {
             say("interrupted while known causes were reduced; go on with 'edgecase fuzz --resume " +
@@ -259,9 +229,7 @@ class FuzzCommand {
             return report::kExitInterrupted;
         }
         ledger_.expectations = expected.checksum;
-        if (auto written = write_ledger(); !written) {
-            return report_stop(stop_with(report::kExitInternal, written.error().message));
-        }
+        must(write_ledger(), report::kExitInternal);
         const auto causes = static_cast<size_t>(
             std::count_if(ledger_.entries.begin(), ledger_.entries.end(),
                           [](const Entry& entry) { return entry.file.starts_with(fuzz::kKnown); }));
@@ -353,7 +321,7 @@ class FuzzCommand {
             }
             if (auto kept = keep(hunter, before, state == Hunt::State::done); !kept) {
                 status_.clear();
-                return report_stop(stop_with(report::kExitInternal, kept.error().message));
+                throw stop_with(report::kExitInternal, kept.error().message);
             }
         }
         status_.clear();
@@ -443,9 +411,7 @@ class FuzzCommand {
         size_t number = 0;
         for (const std::string& text : hunter.unrepeated()) {
             const fs::path file = folder_ / fmt::format("unrepeated-{}.toml", ++number);
-            if (const auto written = replace_text(file, text); !written) {
-                return report_stop(stop_with(report::kExitInternal, written.error().message));
-            }
+            must(replace_text(file, text), report::kExitInternal);
         }
         if (c.unrepeated > 0) {
             say(fmt::format("did not come again when drawn alone: {}; see {}\n",
@@ -475,7 +441,7 @@ class FuzzCommand {
             return report::kExitInterrupted;
         }
         if (state == Hunt::State::failed) {
-            return report_stop(stop_with(report::kExitInternal, hunter.failure()));
+            throw stop_with(report::kExitInternal, hunter.failure());
         }
         if (c.unjudged > 0) {
             return report::kExitInternal;
@@ -506,26 +472,112 @@ class FuzzCommand {
     double seconds_before_ = 0;
 };
 
-}  // namespace
-
-int fuzz_command(const Program& program, const FuzzOptions& options) {
+int carry_out(const Program& program, const FuzzOptions& options) {
     if (options.printed) {
-        const OrStop<StartCases> cases = start_cases(program, options.run.suite, options.run.seed);
-        if (!cases) {
-            return report_stop(cases.error());
-        }
-        const std::string text = fuzz::text_of_case(*cases->source(), *options.printed);
+        const StartCases cases = must(start_cases(program, options.run.suite, options.run.seed));
+        const std::string text = fuzz::text_of_case(*cases.source(), *options.printed);
         if (text.empty()) {
-            return report_stop(stop_with(
+            throw stop_with(
                 report::kExitNothingSelected,
                 fmt::format("number {} of seed {} has no case: no change of those that were tried "
                             "made one; print another number",
-                            *options.printed, options.run.seed)));
+                            *options.printed, options.run.seed));
         }
         say(text);
         return report::kExitOk;
     }
     return FuzzCommand(program, options).run();
+}
+
+// "90", "90s", "10m", "2h", "1.5h": seconds.
+bool parse_duration(const std::string& text, double& seconds) {
+    const std::map<char, double> units = {{'s', 1}, {'m', 60}, {'h', 3600}};
+    const auto unit = text.empty() ? units.end() : units.find(text.back());
+    const std::string number = unit == units.end() ? text : text.substr(0, text.size() - 1);
+    const char* const end = number.data() + number.size();
+    const auto read = std::from_chars(number.data(), end, seconds);
+    if (number.empty() || read.ec != std::errc() || read.ptr != end || !(seconds > 0) ||
+        !(seconds < 1e9)) {
+        return false;
+    }
+    seconds *= unit == units.end() ? 1 : unit->second;
+    return true;
+}
+
+void declare(CLI::App& app, FuzzOptions& o) {
+    app.add_option("SELECTOR", o.run.suite.selectors,
+                   "cases to change a few things of; a file with [fuzz] is varied as that says")
+        ->type_name("");
+    add_suite_folder(&app, o.run.suite);
+    add_value(&app, "--seed", o.run.seed, "a seed and a number make a case [1]", "N", "Selection")
+        ->check(in_range<uint64_t>(0, UINT64_MAX));
+    add_value(&app, "--cases", o.cases, "the cases with numbers below N [no end]", "N", "Selection")
+        ->check(in_range<uint64_t>(1, uint64_t{1} << 48));
+    app.add_option(
+           "--time",
+           [&o](const CLI::results_t& results) {
+               return parse_duration(results.back(), o.seconds);
+           },
+           "end after this time, from when expected failures are reduced: 90s, 10m, 2h [no end]")
+        ->type_name("TIME")
+        ->group("Selection");
+    add_value(&app, "--print", o.printed, "print the case with this number, draw nothing", "N",
+              "Selection")
+        ->check(in_range<uint64_t>(0, uint64_t{1} << 24));
+    add_shard(&app, o.run.shard,
+              "every N-th pose (or group of changed cases) from the I-th on; 1 <= I <= N");
+    add_device(&app, o.run.device);
+    add_validation(&app, o.run.device);
+    add_profile(&app, o.run.profile);
+    add_expectations(&app, o.run);
+    add_value(&app, "--known", o.known,
+              "the folder of an earlier hunt, whose causes are known; repeatable", "DIR", "Judging")
+        ->type_size(1)
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    add_jobs(&app, o.run);
+    add_value(&app, "--resume", o.run.resume, "go on with an interrupted hunt", "DIR", "Isolation");
+    add_value(&app, "-o,--output", o.run.output, "where the causes go [out/fuzz/<time>-<device>]",
+              "DIR", "Output");
+    app.add_flag("-q,--quiet", o.run.quiet, "only causes and the summary")->group("Output");
+}
+
+// A hunt that goes on has the seed, shard and profile that it began with; where it ends, which
+// device of that name draws and what else is known may be said anew.
+void check(const CLI::App& fuzz, const FuzzOptions& o, const Words& words) {
+    const auto refused = [](const std::string& what) {
+        throw usage_error(
+            "--resume goes on with the cases, seed, shard, profile and folder of the hunt, so " +
+                what + (what.starts_with("no ") ? " can" : " cannot") +
+                " be given; leave it out or start a new hunt",
+            "fuzz");
+    };
+    for (const char* name : {"--seed", "--shard", "--profile", "--output", "--print", "--suite"}) {
+        if (!o.run.resume.empty() && is_given(fuzz, name, words)) {
+            refused(name);
+        }
+    }
+    if (!o.run.resume.empty() && !o.run.suite.selectors.empty()) {
+        refused("no selector");
+    }
+    if (o.run.no_expect && !o.run.expect.empty()) {
+        throw usage_error("--expect and --no-expect exclude each other", "fuzz");
+    }
+    check_alternatives(fuzz, "--print",
+                       {"--cases", "--time", "--shard", "--known", "--resume", "--output"});
+}
+
+}  // namespace
+
+Command fuzz_command() {
+    return make_command<FuzzOptions>(
+        {"fuzz", kChecking, "draw cases that nobody wrote, and reduce what fails",
+         "  edgecase fuzz --cases 1024 -o out/hunt         what does my driver get wrong\n"
+         "  edgecase fuzz --cases 1024 --known out/hunt --seed 2\n"
+         "  edgecase fuzz 'depth-bias/**' --cases 1024 --known out/hunt   cases, changed a little\n"
+         "  edgecase fuzz my-case.toml --cases 1024 --known out/hunt      or what its [fuzz] "
+         "says\n"},
+        declare, carry_out, check);
 }
 
 }  // namespace cli

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "cli/commands.hpp"
+#include "cli/options/shared_options.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
 #include "report/record/levels.hpp"
@@ -28,6 +29,13 @@ namespace cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+// Cases as a GoogleTest program: what deqp-runner and others start.
+struct GtestOptions {
+    RunOptions run;
+    bool list = false;
+    std::string filter = "*";
+};
 using report::CaseRecord;
 using report::Status;
 
@@ -110,14 +118,11 @@ class Filter {
 };
 
 int list_tests(const Program& program, const GtestOptions& options, const Filter& filter) {
-    const OrStop<LoadedSuite> suite = load_and_select(program, options.run.suite);
-    if (!suite) {
-        return report_stop(suite.error());
-    }
+    const LoadedSuite suite = must(load_and_select(program, options.run.suite));
     say(std::string(kGroup) + "\n");
-    for (const size_t k : suite->selected) {
-        if (filter.takes(suite->cases[k].id)) {
-            say("  " + test_of(suite->cases[k].id) + "\n");
+    for (const size_t k : suite.selected) {
+        if (filter.takes(suite.cases[k].id)) {
+            say("  " + test_of(suite.cases[k].id) + "\n");
         }
     }
     return report::kExitOk;
@@ -189,9 +194,7 @@ class Teller {
     bool is_dead_ = false;
 };
 
-}  // namespace
-
-int gtest_command(const Program& program, const GtestOptions& options) {
+int carry_out(const Program& program, const GtestOptions& options) {
     const Filter filter(options.filter);
     if (options.list) {
         return list_tests(program, options, filter);
@@ -210,9 +213,8 @@ int gtest_command(const Program& program, const GtestOptions& options) {
     fs::create_directories(parent, error);
     std::string folder = (parent / "edgecase-gtest-XXXXXX").string();
     if (::mkdtemp(folder.data()) == nullptr) {
-        return report_stop(
-            stop_with(report::kExitUsage, "no folder can be made in '" + parent.string() +
-                                              "'; choose another with -o or TMPDIR"));
+        throw stop_with(report::kExitUsage, "no folder can be made in '" + parent.string() +
+                                                "'; choose another with -o or TMPDIR");
     }
     run.output = folder;
     run.capture = keeps ? run.capture : run::KeepPictures::none;
@@ -236,6 +238,39 @@ int gtest_command(const Program& program, const GtestOptions& options) {
     }
     // To a runner of tests, one that cannot be drawn here is no failure.
     return code == report::kExitAllSkipped ? int{report::kExitOk} : code;
+}
+
+void declare(CLI::App& app, GtestOptions& o) {
+    add_suite(&app, o.run.suite);
+    app.add_flag("--gtest_list_tests", o.list, "list the tests, draw nothing")->group("Selection");
+    add_value(&app, "--gtest_filter", o.filter,
+              "tests to draw, separated by ':', '*' and '?' as in GoogleTest [*]", "NAMES",
+              "Selection");
+    // A hang costs it twice, with others and alone: less than the 60 s after which deqp-runner
+    // would end this process, and blame another case.
+    o.run.device.timeout = 20;
+    add_device(&app, o.run.device);
+    add_validation(&app, o.run.device);
+    add_profile(&app, o.run.profile);
+    add_fail_at(&app, o.run.fail_at);
+    add_expect(&app, o.run, "an expectation file: what ends as it says is OK [none]");
+    add_value(&app, "-o,--output", o.run.output,
+              "keep the reports, in a new folder below DIR for each process [not kept]", "DIR",
+              "Output");
+}
+
+void check(const CLI::App& app, const GtestOptions& o, const Words&) {
+    check_fail_at(app, o.run);
+}
+
+}  // namespace
+
+Command gtest_command() {
+    return make_command<GtestOptions>(
+        {"gtest", kChecking, "draw cases as a GoogleTest program does, for deqp-runner",
+         "  edgecase gtest --gtest_list_tests\n"
+         "  edgecase gtest --gtest_filter='edgecase.ties/apex-up'\n"},
+        declare, carry_out, check);
 }
 
 }  // namespace cli

@@ -21,6 +21,7 @@
 #include "cases/select/selector.hpp"
 #include "cli/commands.hpp"
 #include "cli/fuzzing/start_cases.hpp"
+#include "cli/options/shared_options.hpp"
 #include "cli/prepare/claims.hpp"
 #include "cli/prepare/on_threads.hpp"
 #include "cli/prepare/outputs.hpp"
@@ -39,6 +40,12 @@ namespace cli {
 using cases::counted;
 
 namespace {
+
+struct LintOptions {
+    SuiteOptions suite;
+    bool strength = false;
+    bool quiet = false, verbose = false;
+};
 
 // So many cases are told one by one without being asked.
 constexpr size_t kFew = 16;
@@ -214,6 +221,8 @@ std::vector<size_t> without_errors(const LoadedSuite& suite, const cases::Errors
     return selected;
 }
 
+int carry_out(const Program& program, const LintOptions& options);
+
 // What can be said of the files that can be read where others cannot.
 void lint_readable(const Program& program, const LintOptions& options) {
     LintOptions readable = options;
@@ -228,7 +237,7 @@ void lint_readable(const Program& program, const LintOptions& options) {
     });
     if (!readable.suite.selectors.empty() &&
         readable.suite.selectors.size() < options.suite.selectors.size()) {
-        lint_command(program, readable);
+        carry_out(program, readable);
     }
 }
 
@@ -293,13 +302,11 @@ void tell_in_short(const LoadedSuite& suite, const std::map<std::string, Claimed
     }
 }
 
-}  // namespace
-
-int lint_command(const Program& program, const LintOptions& options) {
+int carry_out(const Program& program, const LintOptions& options) {
     if (options.strength && options.suite.selectors.empty()) {
-        return report_stop({report::kExitUsage,
-                            {"--strength draws each case with each fault, which takes long for a "
-                             "whole suite; name the cases"}});
+        throw Stop{report::kExitUsage,
+                   {"--strength draws each case with each fault, which takes long for a "
+                    "whole suite; name the cases"}};
     }
     if (const auto root = find_suite_root(program, options.suite.suite); !root) {
         return report_stop(root.error());  // nothing is wrong with what is selected
@@ -374,6 +381,24 @@ int lint_command(const Program& program, const LintOptions& options) {
         return report::kExitInvalidFile;
     }
     return suite->selected.empty() ? report::kExitNothingSelected : report::kExitOk;
+}
+
+void declare(CLI::App& app, LintOptions& o) {
+    add_suite(&app, o.suite);
+    app.add_flag("--strength", o.strength,
+                 "tell which faults of the software device the cases catch");
+    app.add_flag("-q,--quiet", o.quiet, "print errors only");
+    app.add_flag("-v,--verbose", o.verbose, "tell which samples of each case exercise its rules");
+}
+
+}  // namespace
+
+Command lint_command() {
+    return make_command<LintOptions>(
+        {"lint", kCases, "check case and expectation files; needs no Vulkan",
+         "  edgecase lint my-case.toml                is a file of your own well formed\n"
+         "  edgecase lint --strength my-case.toml     which known faults does it catch\n"},
+        declare, carry_out);
 }
 
 }  // namespace cli

@@ -9,6 +9,7 @@
 #include "cases/load/loader.hpp"
 #include "cases/select/selector.hpp"
 #include "cli/commands.hpp"
+#include "cli/options/shared_options.hpp"
 #include "cli/options/stop.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
@@ -20,6 +21,11 @@ namespace cli {
 using cases::counted;
 
 namespace {
+
+struct ListOptions {
+    SuiteOptions suite;
+    bool long_form = false, ids = false, json = false;
+};
 
 void print_long(const cases::Case& c) {
     say(c.id + "\n");
@@ -70,24 +76,19 @@ nlohmann::ordered_json to_json(const cases::Case& c) {
             {"notes", c.claim.notes}};
 }
 
-}  // namespace
-
-int list_command(const Program& program, const ListOptions& options) {
+int carry_out(const Program& program, const ListOptions& options) {
     // Names alone need no cases, unless something else than names is asked for: "@rule:...".
     const bool names_only = options.ids && !options.json && !options.long_form &&
                             std::none_of(options.suite.selectors.begin(),
                                          options.suite.selectors.end(), [](const std::string& s) {
                                              return s.find('@') != std::string::npos || s == "-";
                                          });
-    const OrStop<LoadedSuite> suite =
-        names_only ? load_and_select(program, options.suite, cases::Contents::ids)
-                   : load_selected(program, options.suite);
-    if (!suite) {
-        return report_stop(suite.error());
-    }
+    const LoadedSuite suite =
+        must(names_only ? load_and_select(program, options.suite, cases::Contents::ids)
+                        : load_selected(program, options.suite));
     nlohmann::ordered_json all = nlohmann::ordered_json::array();
-    for (const size_t k : suite->selected) {
-        const cases::Case& c = suite->cases[k];
+    for (const size_t k : suite.selected) {
+        const cases::Case& c = suite.cases[k];
         if (options.json) {
             all.push_back(to_json(c));
         } else if (options.long_form) {
@@ -103,7 +104,29 @@ int list_command(const Program& program, const ListOptions& options) {
             all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
         say(text + "\n");
     }
-    return suite->selected.empty() ? report::kExitNothingSelected : report::kExitOk;
+    return suite.selected.empty() ? report::kExitNothingSelected : report::kExitOk;
+}
+
+void declare(CLI::App& app, ListOptions& o) {
+    add_suite(&app, o.suite);
+    app.add_flag("--long", o.long_form, "with file, rules, description and notes");
+    app.add_flag("--ids", o.ids, "ids only, one a line");
+    app.add_flag("--json", o.json, "as JSON");
+}
+
+void check(const CLI::App& app, const ListOptions&, const Words&) {
+    check_alternatives(app, "--long", {"--ids", "--json"});
+    check_alternatives(app, "--ids", {"--json"});
+}
+
+}  // namespace
+
+Command list_command() {
+    return make_command<ListOptions>(
+        {"list", kCases, "list case ids",
+         "  edgecase list --long 'ties/**'            one family with descriptions and rules\n"
+         "  edgecase list --ids '@rule:tie.*'         the cases of some rules\n"},
+        declare, carry_out, check);
 }
 
 }  // namespace cli

@@ -69,11 +69,16 @@ std::string manual_page(const CommandTable& table, const std::string& version) {
     return text + ".SH SEE ALSO\ndocs/cli.md, docs/cases.md and docs/rules.md of the source tree\n";
 }
 
+int carry_out(const Program&) {
+    say(manual_page(command_table(all_commands()), kVersion));
+    return report::kExitOk;
+}
+
 }  // namespace
 
-int man_command() {
-    say(manual_page(command_table(), kVersion));
-    return report::kExitOk;
+Command man_command() {
+    return make_command({"man", kProgram, "print the manual page", "  edgecase man | man -l -\n"},
+                        carry_out);
 }
 
 }  // namespace cli

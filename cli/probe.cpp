@@ -12,6 +12,7 @@
 
 #include "cases/base/input_file.hpp"
 #include "cli/commands.hpp"
+#include "cli/options/shared_options.hpp"
 #include "cli/prepare/loop_config.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "probe/tell/compare.hpp"
@@ -26,6 +27,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+struct ProbeOptions {
+    DeviceOptions device;
+    std::vector<std::string> compared;  // none, or two: files of an earlier probe, or devices
+    std::string json, html;
+    bool verbose = false;
+};
+
 std::vector<std::pair<std::string, std::string>> device_lines(const capture::DeviceInfo& device) {
     return {{"device", device.name},
             {"driver",
@@ -38,19 +46,16 @@ std::vector<std::pair<std::string, std::string>> device_lines(const capture::Dev
             {"edgecase", kVersion}};
 }
 
-OrStop<probe::Datasheet> measure(const Program& program, const ProbeOptions& options,
-                                 run::SignalFd& signals) {
+probe::Datasheet measure(const Program& program, const ProbeOptions& options,
+                         run::SignalFd& signals) {
     RunOptions how;
     how.device = options.device;
     how.jobs = 1;
     how.retries = 0;
     run::LoopConfig config = loop_config(program, how);
-    OrStop<ReadyWorker> first = ready_first_worker(config, signals);
-    if (!first) {
-        return tl::unexpected(first.error());
-    }
-    const capture::DeviceInfo device = first->device;
-    run::Session session(config, std::move(first->client), device, signals);
+    ReadyWorker first = must(ready_first_worker(config, signals));
+    const capture::DeviceInfo device = first.device;
+    run::Session session(config, std::move(first.client), device, signals);
     bool is_interrupted = false;
     std::string failure;
     Progress progress(ProgressStyle::automatic, 0);
@@ -63,19 +68,18 @@ OrStop<probe::Datasheet> measure(const Program& program, const ProbeOptions& opt
         failure = pictures.failure;
         return std::move(pictures.pictures);
     };
-    probe::Datasheet sheet =
-        probe::measure(draw, {config.limits, device.max_target_size, device.has_primitive_id},
-                       [&](std::string_view what) {
-                           progress.show_words(fmt::format("measuring {}", what));
-                           return !is_interrupted && failure.empty();
-                       });
+    probe::Datasheet sheet = probe::measure(
+        draw, {config.judging.limits, device.max_target_size, device.has_primitive_id},
+        [&](std::string_view what) {
+            progress.show_words(fmt::format("measuring {}", what));
+            return !is_interrupted && failure.empty();
+        });
     progress.clear();
     if (is_interrupted) {
-        return tl::unexpected(
-            stop_with(report::kExitInterrupted, "interrupted; nothing was written"));
+        throw stop_with(report::kExitInterrupted, "interrupted; nothing was written");
     }
     if (!failure.empty()) {
-        return tl::unexpected(stop_with(report::kExitInternal, failure));
+        throw stop_with(report::kExitInternal, failure);
     }
     sheet.device = device_lines(device);
     if (!options.device.renderer.empty()) {
@@ -85,8 +89,8 @@ OrStop<probe::Datasheet> measure(const Program& program, const ProbeOptions& opt
 }
 
 // A file of 'probe --json', or else the name of a device.
-OrStop<probe::Datasheet> sheet_of(const Program& program, const ProbeOptions& options,
-                                  const std::string& name, run::SignalFd& signals) {
+probe::Datasheet sheet_of(const Program& program, const ProbeOptions& options,
+                          const std::string& name, run::SignalFd& signals) {
     std::error_code none;
     if (fs::exists(name, none)) {
         const cases::Expected<std::string> text = cases::read_file(name, cases::Pipes::read);
@@ -94,20 +98,19 @@ OrStop<probe::Datasheet> sheet_of(const Program& program, const ProbeOptions& op
             text ? probe::from_json(*text)
                  : cases::Expected<probe::Datasheet>(tl::unexpected(text.error()));
         if (!sheet) {
-            return tl::unexpected(
-                stop_with(report::kExitInvalidFile,
-                          fmt::format("'{}' cannot be compared: {}; write one with 'edgecase probe "
-                                      "--json FILE'",
-                                      name, sheet.error().message)));
+            throw stop_with(
+                report::kExitInvalidFile,
+                fmt::format("'{}' cannot be compared: {}; write one with 'edgecase probe "
+                            "--json FILE'",
+                            name, sheet.error().message));
         }
         return *sheet;
     }
     if (name.ends_with(".json")) {
-        return tl::unexpected(
-            stop_with(report::kExitInvalidFile,
-                      fmt::format("there is no file '{}'; --compare takes two files of 'edgecase "
-                                  "probe --json', or names of devices",
-                                  name)));
+        throw stop_with(report::kExitInvalidFile,
+                        fmt::format("there is no file '{}'; --compare takes two files of 'edgecase "
+                                    "probe --json', or names of devices",
+                                    name));
     }
     ProbeOptions one = options;
     one.device.device = name;
@@ -115,53 +118,74 @@ OrStop<probe::Datasheet> sheet_of(const Program& program, const ProbeOptions& op
 }
 
 int compare(const Program& program, const ProbeOptions& options, run::SignalFd& signals) {
-    const OrStop<probe::Datasheet> a = sheet_of(program, options, options.compared[0], signals);
-    if (!a) {
-        return report_stop(a.error());
-    }
-    const OrStop<probe::Datasheet> b = sheet_of(program, options, options.compared[1], signals);
-    if (!b) {
-        return report_stop(b.error());
-    }
-    say(probe::comparison_text(*a, *b, options.compared[0], options.compared[1]));
-    return probe::differences(*a, *b).empty() ? report::kExitOk : report::kExitUnexpected;
+    const probe::Datasheet a = sheet_of(program, options, options.compared[0], signals);
+    const probe::Datasheet b = sheet_of(program, options, options.compared[1], signals);
+    say(probe::comparison_text(a, b, options.compared[0], options.compared[1]));
+    return probe::differences(a, b).empty() ? report::kExitOk : report::kExitUnexpected;
 }
 
-}  // namespace
-
-int probe_command(const Program& program, const ProbeOptions& options) {
+int carry_out(const Program& program, const ProbeOptions& options) {
     run::SignalFd signals;
     if (options.compared.size() == 1) {
-        return report_stop(
-            stop_with(report::kExitUsage, "--compare takes two files or devices, and '" +
-                                              options.compared.front() +
-                                              "' is one; see 'edgecase probe --help'"));
+        throw stop_with(report::kExitUsage, "--compare takes two files or devices, and '" +
+                                                options.compared.front() +
+                                                "' is one; see 'edgecase probe --help'");
     }
     if (!options.compared.empty()) {
         return compare(program, options, signals);
     }
-    const OrStop<probe::Datasheet> sheet = measure(program, options, signals);
-    if (!sheet) {
-        return report_stop(sheet.error());
-    }
+    const probe::Datasheet sheet = measure(program, options, signals);
     cases::Errors errors;
     if (!options.json.empty()) {
-        if (const auto written = write_text(options.json, probe::to_json(*sheet)); !written) {
+        if (const auto written = write_text(options.json, probe::to_json(sheet)); !written) {
             errors.push_back(written.error());
         }
     }
     if (!options.html.empty()) {
-        if (const auto written = write_text(options.html, probe::to_html(*sheet)); !written) {
+        if (const auto written = write_text(options.html, probe::to_html(sheet)); !written) {
             errors.push_back(written.error());
         }
     }
     std::FILE* console = console_beside(options.json, {}, options.html);
-    std::fputs(probe::to_text(*sheet, options.verbose).c_str(), console);
+    std::fputs(probe::to_text(sheet, options.verbose).c_str(), console);
     std::fflush(console);
     for (const cases::Error& error : errors) {
         complain(error.message);
     }
     return errors.empty() ? report::kExitOk : report::kExitInternal;
+}
+
+void declare(CLI::App& app, ProbeOptions& o) {
+    add_device(&app, o.device);
+    app.add_option("--compare", o.compared,
+                   "two files of 'probe --json', or names of devices: say what differs")
+        ->type_name("A B")
+        ->expected(2)
+        ->allow_extra_args(false)
+        ->group("Selection");
+    app.add_option("--json", o.json, "write the datasheet also to FILE ('-': standard output)")
+        ->type_name("FILE")
+        ->group("Output");
+    app.add_option("--html", o.html, "write it as a page with pictures to FILE")
+        ->type_name("FILE")
+        ->group("Output");
+    app.add_flag("-v,--verbose", o.verbose, "tell each experiment, too")->group("Output");
+}
+
+void check(const CLI::App& app, const ProbeOptions&, const Words&) {
+    check_alternatives(app, "--compare", {"--json", "--html"});
+}
+
+}  // namespace
+
+Command probe_command() {
+    return make_command<ProbeOptions>(
+        {"probe", kChecking, "measure what a rasterizer does where it may choose",
+         "  edgecase probe --json before.json               what does my driver do\n"
+         "  edgecase probe --json after.json                and the next version of it\n"
+         "  edgecase probe --compare before.json after.json\n"
+         "  edgecase probe --renderer software:ties=top-right\n"},
+        declare, carry_out, check);
 }
 
 }  // namespace cli

@@ -17,6 +17,7 @@
 #include "cases/base/parallel.hpp"
 #include "cases/model/words.hpp"
 #include "cli/commands.hpp"
+#include "cli/options/shared_options.hpp"
 #include "cli/prepare/drawing.hpp"
 #include "cli/prepare/loop_config.hpp"
 #include "cli/prepare/outputs.hpp"
@@ -30,6 +31,15 @@
 namespace cli {
 
 namespace {
+
+struct RenderOptions {
+    SuiteOptions suite;  // exactly one selector, one case
+    std::string output;
+    std::string renderer;  // "": what the reference allows; else what this one draws
+    uint32_t scale = 0;    // side of a pixel in a *.png; 0: chosen by the target's size
+    cases::Profile profile = cases::Profile::direct3d;
+    JudgedDevice judged;
+};
 
 using Json = nlohmann::ordered_json;
 
@@ -247,57 +257,89 @@ Drawing allowed_picture(const cases::Case& c, const RenderOptions& options) {
             [r] { return coverage_image(*r); }};
 }
 
-OrStop<Drawing> picture_of(const cases::Case& c, const RenderOptions& options) {
+Drawing picture_of(const cases::Case& c, const RenderOptions& options) {
     if (!c.blit) {
-        return options.renderer.empty() ? OrStop<Drawing>(allowed_picture(c, options))
-                                        : draw_picture(c, options.renderer);
+        return options.renderer.empty() ? allowed_picture(c, options)
+                                        : must(draw_picture(c, options.renderer));
     }
     if (!options.renderer.empty() && options.renderer != "reference") {
-        return tl::unexpected(Stop{report::kExitUsage,
-                                   {"'" + options.renderer +
-                                    "' draws triangles, and the case is a blit; leave "
-                                    "--renderer out"}});
+        throw Stop{report::kExitUsage,
+                   {"'" + options.renderer +
+                    "' draws triangles, and the case is a blit; leave "
+                    "--renderer out"}};
     }
     return blit_picture(c, options.profile);
 }
 
-}  // namespace
-
-int render_command(const Program& program, const RenderOptions& options) {
-    OrStop<cases::Case> c = load_one_case(program, options.suite, options.judged);
-    if (!c) {
-        return report_stop(c.error());
-    }
-    if (auto placed = ref::as_drawn(*c, limits_of(options.judged))) {
-        *c = std::move(*placed);
+int carry_out(const Program& program, const RenderOptions& options) {
+    cases::Case c = must(load_one_case(program, options.suite, options.judged));
+    if (auto placed = ref::as_drawn(c, limits_of(options.judged))) {
+        c = std::move(*placed);
     }
     const std::string extension = std::filesystem::path(options.output).extension().string();
     if (extension != ".json" && extension != ".png" && extension != ".exr" && extension != ".tif") {
-        return report_stop(
-            {report::kExitUsage,
-             {"'" + options.output + "' has no known extension; use .exr, .png or .json"}});
+        throw Stop{report::kExitUsage,
+                   {"'" + options.output + "' has no known extension; use .exr, .png or .json"}};
     }
     const bool is_picture = extension == ".png";
     if (!is_picture && options.scale > 0) {
-        return report_stop({report::kExitUsage,
-                            {"--scale is for pictures to look at (*.png); values keep the "
-                             "target's size, so leave it out"}});
+        throw Stop{report::kExitUsage,
+                   {"--scale is for pictures to look at (*.png); values keep the "
+                    "target's size, so leave it out"}};
     }
-    const OrStop<Drawing> drawing = picture_of(*c, options);
-    if (!drawing) {
-        return report_stop(drawing.error());
-    }
+    const Drawing drawing = picture_of(c, options);
     const cases::Expected<void> written =
         extension == ".json"
-            ? write_pieces(options.output, drawing->json)
+            ? write_pieces(options.output, drawing.json)
             : capture::write_image(
-                  options.output,
-                  is_picture ? enlarged(drawing->picture(), c->target.samples, options.scale)
-                             : drawing->values());
+                  options.output, is_picture
+                                      ? enlarged(drawing.picture(), c.target.samples, options.scale)
+                                      : drawing.values());
     if (!written) {
-        return report_stop({report::kExitInternal, {cases::to_string(written.error())}});
+        throw Stop{report::kExitInternal, {cases::to_string(written.error())}};
     }
     return report::kExitOk;
+}
+
+// What 'render' takes: no driver.
+const std::map<std::string, std::string>& drawing_names() {
+    static const std::map<std::string, std::string> kNames = [] {
+        std::map<std::string, std::string> names = renderer_names();
+        names.erase("vulkan");
+        names.emplace("allowed", "");
+        return names;
+    }();
+    return kNames;
+}
+
+void declare(CLI::App& app, RenderOptions& o) {
+    add_case(&app, o.suite);
+    app.add_option("-o,--output", o.output, "*.exr (values), *.png (to look at) or *.json")
+        ->type_name("FILE")
+        ->required();
+    add_value(&app, "--scale", o.scale,
+              "*.png: pixels on each side of a pixel, 1 to 512 [the longer side near 512]", "N",
+              "Output")
+        ->check(in_range(1U, 512U));
+    add_profile(&app, o.profile);
+    add_judged_device(&app, o.judged);
+    add_choice(&app, "--renderer", o.renderer, drawing_names(),
+               "what draws: an algorithm of docs/algorithms.md, the reference or the software "
+               "rasterizer; allowed: no drawing, but what the reference allows",
+               takes_choices);
+}
+
+}  // namespace
+
+Command render_command() {
+    return make_command<RenderOptions>(
+        {"render", kCases, "write the reference picture of a case; needs no Vulkan",
+         "  edgecase render ties/apex-up -o picture.png                    what is allowed\n"
+         "  edgecase render ties/apex-up -o picture.png --renderer tiles   what an algorithm "
+         "draws\n"
+         "  edgecase render blit/mirrored:sx=1,sy=0,dx=0,dy=0 -o blit.png  what a blit must "
+         "leave\n"},
+        declare, carry_out);
 }
 
 }  // namespace cli

@@ -6,6 +6,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/diagnose.hpp"
+#include "cli/options/shared_options.hpp"
 #include "cli/prepare/ci.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
@@ -19,6 +20,16 @@ namespace cli {
 namespace fs = std::filesystem;
 
 namespace {
+
+struct ReportOptions {
+    std::vector<std::string> directories;  // one, several with --merge
+    bool merge = false;
+    std::string output;
+    Ci ci = Ci::automatic;
+    std::string json, junit, html;
+    bool quiet = false, verbose = false;
+    When color = When::automatic;
+};
 
 // The merged run as a folder of its own, so that every command that takes a run takes it.
 cases::Expected<void> write_merged(const report::Run& run, const fs::path& folder) {
@@ -51,15 +62,14 @@ struct Source {
     fs::path folder;
 };
 
-OrStop<Source> load_one(const ReportOptions& options) {
+Source load_one(const ReportOptions& options) {
     if (options.directories.size() != 1) {
-        return tl::unexpected(
-            Stop{report::kExitUsage,
-                 {"several folders need --merge; 'edgecase compare' sets runs side by side"}});
+        throw Stop{report::kExitUsage,
+                   {"several folders need --merge; 'edgecase compare' sets runs side by side"}};
     }
     cases::Expected<report::Run> run = report::load_for_reports(options.directories.front());
     if (!run) {
-        return tl::unexpected(Stop{report::kExitInvalidFile, {cases::to_string(run.error())}});
+        throw Stop{report::kExitInvalidFile, {cases::to_string(run.error())}};
     }
     const fs::path folder = options.output.empty() ? options.directories.front() : options.output;
     std::error_code error;
@@ -71,7 +81,7 @@ fs::path merged_folder(const ReportOptions& options) {
     return options.output.empty() ? "out/merged" : options.output;
 }
 
-OrStop<Source> load_merged(const Program& program, const ReportOptions& options) {
+Source load_merged(const Program& program, const ReportOptions& options) {
     Source source;
     source.folder = merged_folder(options);
     std::vector<report::Part> parts;
@@ -79,29 +89,23 @@ OrStop<Source> load_merged(const Program& program, const ReportOptions& options)
     for (const std::string& directory : options.directories) {
         std::error_code none;
         if (fs::equivalent(directory, source.folder, none)) {
-            return tl::unexpected(
-                Stop{report::kExitUsage,
-                     {"the merged run would overwrite '" + directory +
-                      "', which is one of its parts; choose another folder with -o"}});
+            throw Stop{report::kExitUsage,
+                       {"the merged run would overwrite '" + directory +
+                        "', which is one of its parts; choose another folder with -o"}};
         }
         cases::Expected<report::Run> run = report::load_journal(directory);
         if (!run) {
-            return tl::unexpected(Stop{report::kExitInvalidFile, {cases::to_string(run.error())}});
+            throw Stop{report::kExitInvalidFile, {cases::to_string(run.error())}};
         }
         is_diagnosed = is_diagnosed || !run->diagnoses.empty();
         parts.push_back({directory, std::move(*run)});
     }
-    cases::Expected<report::Run> merged = report::merge_runs(std::move(parts));
-    if (!merged) {
-        return tl::unexpected(Stop{report::kExitInvalidFile, {merged.error().message}});
-    }
-    source.run = std::move(*merged);
+    report::Run merged = must(report::merge_runs(std::move(parts)), report::kExitInvalidFile);
+    source.run = std::move(merged);
     if (is_diagnosed) {
         diagnose_again(program, source.run);
     }
-    if (const auto written = write_merged(source.run, source.folder); !written) {
-        return tl::unexpected(Stop{report::kExitInternal, {written.error().message}});
-    }
+    must(write_merged(source.run, source.folder), report::kExitInternal);
     return source;
 }
 
@@ -118,25 +122,28 @@ void forsake_merged(const ReportOptions& options) {
     }
 }
 
-}  // namespace
-
-int report_command(const Program& program, const ReportOptions& options) {
-    const OrStop<Source> source = options.merge ? load_merged(program, options) : load_one(options);
-    if (!source) {
-        if (options.merge && source.error().exit_code == report::kExitInvalidFile) {
+Source load(const Program& program, const ReportOptions& options) {
+    try {
+        return options.merge ? load_merged(program, options) : load_one(options);
+    } catch (const Stop& stop) {
+        if (options.merge && stop.exit_code == report::kExitInvalidFile) {
             forsake_merged(options);
         }
-        return report_stop(source.error());
+        throw;
     }
-    const report::Run& run = source->run;
-    const ReportFiles files{source->folder, options.json, options.junit, options.html};
+}
+
+int carry_out(const Program& program, const ReportOptions& options) {
+    const Source source = load(program, options);
+    const report::Run& run = source.run;
+    const ReportFiles files{source.folder, options.json, options.junit, options.html};
     Progress progress(options.quiet ? ProgressStyle::none : ProgressStyle::automatic, 0);
-    cases::Errors errors = write_reports(run, files, progress);
+    auto [errors, page] = write_reports(run, files, progress);
     progress.clear();
     std::FILE* console = console_beside(options.json, options.junit, options.html);
     report::ConsoleStyle style = console_style(console, options.color, options.verbose);
     style.folder =
-        shell_quote(options.merge ? source->folder.string() : options.directories.front());
+        shell_quote(options.merge ? source.folder.string() : options.directories.front());
     if (!options.quiet) {
         std::fputs(report::console_header(run, style).c_str(), console);
     }
@@ -160,8 +167,7 @@ int report_command(const Program& program, const ReportOptions& options) {
         if (failed) {
             exit = report::exit_text(report::kExitInternal, "a report could not be written");
         }
-        std::fputs(report::console_summary(run, written_page(files, errors), style, exit).c_str(),
-                   console);
+        std::fputs(report::console_summary(run, page, style, exit).c_str(), console);
         std::fflush(console);
     }
     print_errors(errors);
@@ -171,6 +177,26 @@ int report_command(const Program& program, const ReportOptions& options) {
     return failed          ? report::kExitInternal
            : options.merge ? report::exit_code(run)
                            : report::kExitOk;
+}
+
+void declare(CLI::App& app, ReportOptions& o) {
+    app.add_option("DIR", o.directories, "the folder of the run")->required()->type_name("");
+    app.add_flag("--merge", o.merge, "several folders, the shards of one run, become one");
+    add_value(&app, "-o,--output", o.output, "where the reports go [DIR, with --merge out/merged]",
+              "DIR", "Output");
+    add_ci(&app, o.ci);
+    add_report_files(&app, o.json, o.junit, o.html);
+    add_terminal(&app, o.quiet, o.verbose, o.color);
+}
+
+}  // namespace
+
+Command report_command() {
+    return make_command<ReportOptions>(
+        {"report", kChecking, "rebuild the reports of a run from its journal",
+         "  edgecase report out/mine                  write the reports of a run again\n"
+         "  edgecase report --merge out/shard-* -o out/all\n"},
+        declare, carry_out);
 }
 
 }  // namespace cli

@@ -9,24 +9,24 @@
 #include <memory>
 #include <variant>
 
+#include "cases/base/counted.hpp"
 #include "cases/base/printable.hpp"
 #include "cases/base/regex.hpp"
-#include "cases/model/device.hpp"
 #include "cli/commands.hpp"
 #include "cli/diagnose.hpp"
 #include "cli/options/parse.hpp"
+#include "cli/options/run_options.hpp"
 #include "cli/prepare/ci.hpp"
+#include "cli/prepare/command_lines.hpp"
 #include "cli/prepare/device_answer.hpp"
 #include "cli/prepare/loop_config.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/prepare_run.hpp"
+#include "cli/prepare/run_console.hpp"
 #include "cli/renderers/renderers.hpp"
-#include "cli/reproducer/reproducer.hpp"
 #include "report/files/ci.hpp"
 #include "report/journal/journal.hpp"
 #include "report/record/levels.hpp"
-#include "report/text/sentences.hpp"
-#include "report/text/unexpected.hpp"
 #include "run/process/library.hpp"
 #include "run/process/pool.hpp"
 #include "run/worker/derived.hpp"
@@ -40,9 +40,9 @@ using report::Run;
 namespace {
 
 // Checks every hand-drawn picture, on all cores, before a device is asked.
-void check_pictures(std::vector<run::PlannedCase>& plan) {
+void check_pictures(std::vector<run::Task>& plan) {
     run::Pool pool(cases::cores());
-    for (run::PlannedCase& c : plan) {
+    for (run::Task& c : plan) {
         if (c.data.claim.expected_hits) {
             pool.submit([&c] { c.error = run::check_before_running(c.data); }, [] {});
         }
@@ -76,7 +76,7 @@ bool is_same_device(const capture::DeviceInfo& a, const capture::DeviceInfo& b) 
 
 // One case, drawn once, by a worker that a person looks at.
 OrStop<std::monostate> set_debugger(const Program& program, const RunOptions& options,
-                                    std::vector<run::PlannedCase>& plan, run::LoopConfig& config) {
+                                    std::vector<run::Task>& plan, run::LoopConfig& config) {
     if (plan.size() != 1) {
         return tl::unexpected(stop_with(report::kExitUsage, "--debugger runs one case, and " +
                                                                 std::to_string(plan.size()) +
@@ -108,178 +108,194 @@ int stopped(const RunOptions& options, const Stop& stop, bool owns_folder = true
     return report_stop(stop);
 }
 
-int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
-                 run::WorkerClient worker, run::SignalFd& signals, const RunTeller* teller) {
-    const bool resumed = !p.header.device.name.empty();
-    const RunOptions& options = p.options;
-    check_pictures(p.plan);
-    OrStop<ReadyWorker> first = await_first_worker(std::move(worker), config, signals);
-    if (!first) {
-        Stop stop = first.error();
-        const auto drivers = find_drivers(options.device).drivers;
-        if (!options.device.icd.empty() && !drivers.empty()) {
+// What an interrupted run has told before.
+std::string earlier_results(const Run& header, const std::string& folder) {
+    const auto count = std::ranges::count_if(header.cases, [](const CaseRecord& record) {
+        return record.status != report::Status::not_run && !report::is_expected(record.status);
+    });
+    return count == 0
+               ? ""
+               : fmt::format("{} before the interruption: edgecase report {}\n",
+                             cases::counted(static_cast<uint64_t>(count), "unexpected result"),
+                             folder);
+}
+
+// A prepared run, from its first worker to its reports.
+class Conduct {
+  public:
+    Conduct(const Program& program, Prepared& prepared, run::LoopConfig config,
+            run::SignalFd& signals, const RunTeller* teller)
+        : program_(program),
+          prepared_(prepared),
+          header_(prepared.header),
+          options_(prepared.options),
+          config_(std::move(config)),
+          signals_(signals),
+          teller_(teller),
+          is_resumed_(!header_.device.name.empty()) {}
+
+    int run(run::WorkerClient worker) {
+        check_pictures(prepared_.plan);
+        OrStop<ReadyWorker> first = await_first_worker(std::move(worker), config_, signals_);
+        if (!first) {
+            return stopped(options_, with_load_problem(first.error()));
+        }
+        if (auto taken = take_device(first->device); !taken) {
+            return stopped(options_, taken.error());
+        }
+        if (auto applied = apply_expectations(prepared_); !applied) {
+            return stopped(options_, applied.error());
+        }
+        take_limits(first->device);
+        OrStop<report::Journal> journal = begin_journal(prepared_, is_resumed_);
+        if (!journal) {
+            return stopped(options_, journal.error(), false);
+        }
+        const std::vector<std::string> ids = this->ids();
+        RunConsole console(options_, prepared_.folder, ids, prepared_.plan.size(),
+                           teller_ != nullptr);
+        console.begin(header_);
+        console.print(is_resumed_ ? earlier_results(header_, console.style().folder) : "");
+        if (teller_ != nullptr) {
+            teller_->begin(ids);
+        }
+        if (limits_) {
+            if (auto written = journal->write_end(*limits_); !written) {
+                return stopped(options_, stop_with(report::kExitInternal, written.error().message));
+            }
+            goes_on_ = on_record(console, *limits_);
+        }
+        // Judgements that are left to themselves use it still.
+        const auto plan = std::make_shared<const std::vector<run::Task>>(std::move(prepared_.plan));
+        const std::string failure = draw(plan, std::move(*first), console, *journal);
+        Ending ending{failure, "the run stopped early", {}, "interrupted" + way_on()};
+        if (options_.diagnosis && teller_ == nullptr && !header_.interrupted) {
+            ending.complete = [&](Run& run) { find_out(run, *plan, *journal); };
+        }
+        return conclude(prepared_.folder, options_, chosen_ci(options_.ci), console.file(),
+                        console.style(), ending);
+    }
+
+  private:
+    Stop with_load_problem(Stop stop) const {
+        const auto drivers = find_drivers(options_.device).drivers;
+        if (!options_.device.icd.empty() && !drivers.empty()) {
             if (const std::string why = run::load_problem(drivers.front()); !why.empty()) {
                 stop.lines.push_back("  " + why);
             }
         }
-        return stopped(options, stop);
-    }
-    const capture::DeviceInfo device = first->device;
-    if (resumed && !is_same_device(device, p.header.device)) {
-        return stopped(options,
-                       stop_with(report::kExitDevice,
-                                 "the run cannot go on: it was on '" + p.header.device.name +
-                                     "', this is '" + device.name + "' or another driver version"));
-    }
-    p.header.device = device;
-    config.limits = run::limits_of(first->device);
-    if (auto fits = check_required_device(options, device); !fits) {
-        return stopped(options, fits.error());
-    }
-    if (auto applied = apply_expectations(p); !applied) {
-        return stopped(options, applied.error());
-    }
-    const JudgedDevice judged{cases::judged_subpixel_bits(device.subpixel_bits),
-                              device.sample_locations, device.depth_beside_stencil};
-    for (run::PlannedCase& c : p.plan) {
-        c.selector = shell_quote(selector_of(options, c.data.id));
-        std::vector<std::string> doors;
-        for (const cases::Door door : c.data.doors) {
-            doors.emplace_back(cases::row_of(door).word);
-        }
-        c.rerun = rerun_line(program, options, c.data.id, doors);
-        c.plain_rerun = rerun_line(program, options, c.data.id);
-        c.explain = explain_line(program, options, c.data.id, judged);
-        c.no_reproducer = undrawable_part(c.data);
-        if (c.no_reproducer.empty()) {
-            c.reproducer = reproducer_line(program, options, c.data.id, judged);
-            c.no_reproducer = may_be_too_large(c.data) ? "many values" : "";
-        }
-    }
-    std::optional<CaseRecord> limits;
-    if (teller != nullptr) {
-        warn_of_limits(first->device);  // it is none of the tests that the runner knows
-    } else if (limits = limits_record(program, p, first->device); limits && !resumed) {
-        CaseRecord& planned = *p.header.cases.emplace(p.header.cases.begin());
-        static_cast<report::PlannedCase&>(planned) = *limits;
-    }
-    if (p.folder.empty()) {
-        p.folder = new_folder("out", file_name_of(device.name));
-    }
-    OrStop<report::Journal> journal = open_journal(p.folder, p.header, resumed);
-    if (!journal) {
-        return stopped(options, journal.error(), false);
-    }
-    if (!resumed) {
-        remove_reports({p.folder, options.json, options.junit, options.html});
+        return stop;
     }
 
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> nowhere(
-        teller != nullptr ? std::fopen("/dev/null", "w") : nullptr, &std::fclose);
-    std::FILE* console =
-        nowhere ? nowhere.get() : console_beside(options.json, options.junit, options.html);
-    report::ConsoleStyle style = console_style(console, options.color, options.verbose);
-    style.folder = shell_quote(p.folder.string());
-    style.quiet = options.quiet;
-    if (!options.quiet) {
-        std::fputs(report::console_header(p.header, style).c_str(), console);
-        std::fflush(console);
-    }
-    if (const auto earlier = std::count_if(p.header.cases.begin(), p.header.cases.end(),
-                                           [](const CaseRecord& record) {
-                                               return record.status != report::Status::not_run &&
-                                                      !report::is_expected(record.status);
-                                           });
-        resumed && earlier > 0) {
-        std::fprintf(console, "%td unexpected %s before the interruption: edgecase report %s\n",
-                     earlier, earlier == 1 ? "result" : "results", style.folder.c_str());
-        std::fflush(console);
-    }
-    Progress progress(
-        options.quiet || !options.debugger.empty() ? ProgressStyle::none : options.progress,
-        p.plan.size());
-    std::vector<std::string> ids;
-    if (limits) {
-        ids.push_back(limits->id);
-    }
-    for (const run::PlannedCase& c : p.plan) {
-        ids.push_back(c.data.id);
-    }
-    report::UnexpectedResults unexpected(ids, style);
-    const auto print = [&](const std::string& text) {
-        if (!text.empty()) {
-            progress.clear();
-            std::fputs(text.c_str(), console);
-            std::fflush(console);
+    // The device goes into the header, and its limits into what is judged by.
+    OrStop<std::monostate> take_device(const capture::DeviceInfo& device) {
+        if (is_resumed_ && !is_same_device(device, header_.device)) {
+            return tl::unexpected(
+                stop_with(report::kExitDevice, "the run cannot go on: it was on '" +
+                                                   header_.device.name + "', this is '" +
+                                                   device.name + "' or another driver version"));
         }
-    };
-    const auto on_record = [&](const CaseRecord& record) {
-        print(unexpected.add(record));
-        return teller != nullptr ? teller->end(record)
-                                 : !options.fail_fast || !report::makes_fail(p.header, record);
-    };
-    if (teller != nullptr) {
-        teller->begin(ids);
-    }
-    bool goes_on = true;
-    if (limits) {
-        if (auto written = journal->write_end(*limits); !written) {
-            return stopped(options, stop_with(report::kExitInternal, written.error().message));
-        }
-        goes_on = on_record(*limits);
-    }
-    const run::Clock::time_point begin = run::Clock::now();
-    const std::string resume = "; go on with 'edgecase run --resume " +
-                               shell_quote(p.folder.string()) + words_to_agree(options) + "'";
-    run::SignalFd::set_last_words(cases::printable(
-        fmt::format("interrupted, and no reports were written within a second{}, or have them "
-                    "by 'edgecase report {}'",
-                    resume, style.folder)));
-    // Judgements that are left to themselves use it still.
-    const auto plan = std::make_shared<const std::vector<run::PlannedCase>>(std::move(p.plan));
-    run::RunLoop loop(config, plan, &*journal, signals, on_record,
-                      [&](size_t done, size_t unconfirmed) {
-                          progress.show(done, unexpected.count() + unconfirmed);
-                          return goes_on;
-                      });
-    std::vector<run::WorkerClient> workers;
-    workers.push_back(std::move(first->client));
-    const run::RunLoop::End end = loop.run(std::move(workers), first->device);
-    if (end.interrupted) {
-        loop.abandon_judgements();
-    }
-    progress.clear();
-    print(unexpected.rest());
-
-    Run& header = p.header;
-    header.ended = utc_now(false);
-    header.seconds += std::chrono::duration<double>(run::Clock::now() - begin).count();
-    header.interrupted = end.interrupted;
-    std::string failure = end.failure;
-    if (auto written = journal->write_stop(header); !written && failure.empty()) {
-        failure = written.error().message;
-    }
-    if (!failure.empty()) {
-        failure = "the run stopped early: " + failure + resume;
-    }
-    Ending ending{failure, "the run stopped early", {}, "interrupted" + resume};
-    if (options.diagnosis && teller == nullptr && !end.interrupted) {  // which takes a while
-        ending.complete = [&](Run& run) {
-            const auto each = [&](const auto& visit) {
-                for (const run::PlannedCase& c : *plan) {
-                    visit(c.data);
-                }
-            };
-            if (resumed) {
-                diagnose_again(program, run);
-            } else {
-                diagnose(run, each);
-            }
-            keep_diagnoses(run, *journal);
+        header_.device = device;
+        config_.judging.limits = run::limits_of(device);
+        config_.add_commands = [this, judged = judged_device(device)](const cases::Case& c,
+                                                                      CaseRecord& record) {
+            add_command_lines(program_, options_, judged, c, record);
         };
+        return check_required_device(options_, device);
     }
-    return conclude(p.folder, options, chosen_ci(options.ci), console, style, ending);
-}
+
+    void take_limits(const capture::DeviceInfo& device) {
+        if (teller_ != nullptr) {
+            warn_of_limits(device);  // it is none of the tests that the runner knows
+            return;
+        }
+        limits_ = limits_record(program_, prepared_, device);
+        if (limits_ && !is_resumed_) {
+            header_.cases.emplace(header_.cases.begin(), report::PlannedCase(*limits_));
+        }
+    }
+
+    // Of all cases, in the order in which they are told.
+    std::vector<std::string> ids() const {
+        std::vector<std::string> ids;
+        if (limits_) {
+            ids.push_back(limits_->id);
+        }
+        for (const run::Task& task : prepared_.plan) {
+            ids.push_back(task.data.id);
+        }
+        return ids;
+    }
+
+    // False ends the run.
+    bool on_record(RunConsole& console, const CaseRecord& record) const {
+        console.add(record);
+        return teller_ != nullptr ? teller_->end(record)
+                                  : !options_.fail_fast || !report::makes_fail(header_, record);
+    }
+
+    // How the run goes on if it ends before all is judged.
+    std::string way_on() const {
+        return "; go on with 'edgecase run --resume " + shell_quote(prepared_.folder.string()) +
+               words_to_agree(options_) + "'";
+    }
+
+    // Draws and judges the plan. Returns why the run stopped early; empty if it did not.
+    std::string draw(const run::RunLoop::Plan& plan, ReadyWorker first, RunConsole& console,
+                     report::Journal& journal) {
+        run::SignalFd::set_last_words(cases::printable(
+            fmt::format("interrupted, and no reports were written within a second{}, or have them "
+                        "by 'edgecase report {}'",
+                        way_on(), console.style().folder)));
+        const run::Clock::time_point begin = run::Clock::now();
+        run::RunLoop loop(
+            config_, plan, &journal, signals_,
+            [&](const CaseRecord& record) { return on_record(console, record); },
+            [&](size_t done, size_t unconfirmed) {
+                console.show(done, unconfirmed);
+                return goes_on_;
+            });
+        std::vector<run::WorkerClient> workers;
+        workers.push_back(std::move(first.client));
+        run::RunLoop::End end = loop.run(std::move(workers), first.device);
+        if (end.interrupted) {
+            loop.abandon_judgements();
+        }
+        console.end();
+        header_.ended = utc_now(false);
+        header_.seconds += std::chrono::duration<double>(run::Clock::now() - begin).count();
+        header_.interrupted = end.interrupted;
+        if (auto written = journal.write_stop(header_); !written && end.failure.empty()) {
+            end.failure = written.error().message;
+        }
+        return end.failure.empty() ? "" : "the run stopped early: " + end.failure + way_on();
+    }
+
+    // What the device does wrong, when all records are there.
+    void find_out(Run& run, const std::vector<run::Task>& plan, report::Journal& journal) const {
+        if (is_resumed_) {
+            diagnose_again(program_, run);
+        } else {
+            diagnose(run, [&](const auto& visit) {
+                for (const run::Task& task : plan) {
+                    visit(task.data);
+                }
+            });
+        }
+        keep_diagnoses(run, journal);
+    }
+
+    const Program& program_;
+    Prepared& prepared_;
+    Run& header_;
+    const RunOptions& options_;
+    run::LoopConfig config_;
+    run::SignalFd& signals_;
+    const RunTeller* teller_;
+    bool is_resumed_;
+    std::optional<CaseRecord> limits_;  // of the device: a case that no worker draws
+    bool goes_on_ = true;
+};
 
 int run_told(const Program& program, const RunOptions& options, const RunTeller* teller) {
     run::SignalFd signals;
@@ -297,7 +313,7 @@ int run_told(const Program& program, const RunOptions& options, const RunTeller*
     }
     if (teller != nullptr) {
         std::erase_if(prepared->plan,
-                      [&](const run::PlannedCase& c) { return !teller->takes(c.data.id); });
+                      [&](const run::Task& c) { return !teller->takes(c.data.id); });
         std::erase_if(prepared->header.cases,
                       [&](const CaseRecord& record) { return !teller->takes(record.id); });
         if (prepared->plan.empty()) {
@@ -319,13 +335,19 @@ int run_told(const Program& program, const RunOptions& options, const RunTeller*
     if (!*worker) {
         return stopped(options, worker->error());
     }
-    return run_prepared(program, *prepared, config, std::move(**worker), signals, teller);
+    return Conduct(program, *prepared, std::move(config), signals, teller).run(std::move(**worker));
+}
+
+int carry_out(const Program& program, const RunOptions& options) {
+    return run_told(program, options, nullptr);
 }
 
 }  // namespace
 
-int run_command(const Program& program, const RunOptions& options) {
-    return run_told(program, options, nullptr);
+Command run_command() {
+    return make_command<RunOptions>(
+        {"run", kChecking, "draw cases on a device and compare with the exact reference", nullptr},
+        declare_run, carry_out, check_run);
 }
 
 int run_with(const Program& program, const RunOptions& options, const RunTeller& teller) {

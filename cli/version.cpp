@@ -9,9 +9,18 @@
 
 namespace cli {
 
-int version_command() {
-    say(fmt::format("edgecase {}\ncase format 1, results schema 1, expectation format 2\n", kVersion));
+namespace {
+
+int carry_out(const Program&) {
+    say(fmt::format("edgecase {}\ncase format 1, results schema 1, expectation format 2\n",
+                    kVersion));
     return report::kExitOk;
+}
+
+}  // namespace
+
+Command version_command() {
+    return make_command({"version", kProgram, "print the version", ""}, carry_out);
 }
 
 }  // namespace cli

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Says what a wrong device does: draws its failed cases with each of some 300 errors, and tells
+// Says what a wrong device does: draws its failed cases with each of some 550 errors, and tells
 // those that fail in the same samples with the same values, and in no other.
 #pragma once
 

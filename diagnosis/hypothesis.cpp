@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <span>
 #include <utility>
 
 #include "cases/fault/fault.hpp"
@@ -14,7 +14,6 @@ namespace diagnosis {
 
 namespace {
 
-using cases::Fault;
 using cases::operator""_fault;
 using software::Device;
 using software::Rounding;
@@ -63,50 +62,37 @@ std::vector<Hypothesis> choices(int subpixel_bits) {
 }  // namespace
 
 std::vector<Hypothesis> known_hypotheses(int subpixel_bits) {
-    std::vector<Hypothesis> out = as_if_hypotheses();
-    for (Hypothesis& h : out) {
-        h.device.subpixel_bits = subpixel_bits;
-    }
+    std::vector<Hypothesis> out;
+    const auto add_faults = [&](std::span<const cases::FaultRow> rows) {
+        for (const cases::FaultRow& row : rows) {
+            if (row.fault == "coarse-snapping"_fault) {
+                continue;  // a choice of subpixel bits
+            }
+            Hypothesis h{std::string(row.name), without_stop(row.sentence)};
+            h.device.subpixel_bits = subpixel_bits;
+            h.device.fault = row.fault;
+            out.push_back(std::move(h));
+        }
+    };
+    add_faults(cases::kStateFaultRows);
     for (Hypothesis& h : choices(subpixel_bits)) {
         out.push_back(std::move(h));
     }
-    for (const cases::FaultRow& fault : cases::kFaults) {
-        if (fault.fault == "coarse-snapping"_fault) {
-            continue;  // a choice of subpixel bits
-        }
-        Hypothesis h{std::string(fault.name), without_stop(fault.sentence)};
-        h.device.subpixel_bits = subpixel_bits;
-        h.device.fault = fault.fault;
-        out.push_back(std::move(h));
-    }
+    add_faults(cases::kCodeFaults);
     return out;
 }
 
 std::optional<capture::Capture> draw(const Hypothesis& hypothesis, const cases::Case& c) {
-    const Fault fault = hypothesis.device.fault;
+    const cases::Fault fault = hypothesis.device.fault;
     if (fault != cases::kNoFault && !software::can_matter(fault, c)) {
         return std::nullopt;
     }
-    const bool is_moved = std::abs(hypothesis.moved_x) + std::abs(hypothesis.moved_y) > 0;
-    capture::Capture out;
-    if (hypothesis.change == nullptr && !is_moved) {
-        out = software::captured(c, hypothesis.device);
-    } else {
-        cases::Case changed = c;
-        if (hypothesis.change != nullptr && !hypothesis.change(changed)) {
-            return std::nullopt;
-        }
-        for (cases::Draw& d : changed.draws) {
-            d.viewport.x += hypothesis.moved_x;
-            d.viewport.y += hypothesis.moved_y;
-        }
-        out = software::captured(changed, hypothesis.device);
-        out.target = c.target;  // as whoever judges it takes it for
+    cases::Case moved = c;
+    for (cases::Draw& d : moved.draws) {
+        d.viewport.x += hypothesis.moved_x;
+        d.viewport.y += hypothesis.moved_y;
     }
-    if (hypothesis.after != nullptr) {
-        hypothesis.after(out);
-    }
-    return out;
+    return software::captured(moved, hypothesis.device);
 }
 
 }  // namespace diagnosis

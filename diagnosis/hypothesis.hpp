@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What a device may do wrong, as something that can be drawn: the software device with a fault or
-// another choice, with its values or positions moved, or drawing a case as if some of its state
-// were another.
+// another choice, or with its values or positions moved.
 #pragma once
 
 #include <optional>
@@ -16,27 +15,17 @@
 
 namespace diagnosis {
 
-// Changes a case, or the picture drawn of it, to what the device takes it for; false: it has
-// nothing to change.
-using Change = bool (*)(cases::Case&);
-using PictureChange = void (*)(capture::Capture&);
-
 struct Hypothesis {
     std::string name;  // a word of its own, for scripts
     std::string what;  // the device does: a sentence without its full stop
     software::Device device = {};
-    Change change = nullptr;
-    PictureChange after = nullptr;
     // All positions are moved by so much before they are snapped, in pixels.
     float moved_x = 0, moved_y = 0;
 };
 
-// All that are known beforehand, the plainest first: those that change a case, then choices, then
-// the faults of the software device. A device of so many subpixel bits is asked about.
+// All that are known beforehand, the plainest first: faults that change a case, then choices, then
+// those that the software device has code for. A device of so many subpixel bits is asked about.
 std::vector<Hypothesis> known_hypotheses(int subpixel_bits);
-
-// Those that change a case or its picture (as_if.cpp).
-std::vector<Hypothesis> as_if_hypotheses();
 
 // What a device that is so draws of the case; nothing where the error has no part in it.
 std::optional<capture::Capture> draw(const Hypothesis& hypothesis, const cases::Case& c);

@@ -75,30 +75,19 @@ size_t Attribution::index_of(const Finding& finding) const {
 
 void Attribution::level_hits(Finding& finding, uint32_t front, uint32_t back) {
     const size_t index = index_of(finding);
-    finding.level = expectation_.profile;
-    for (const cases::Profile profile : cases::kProfiles) {
-        if (profile <= expectation_.profile &&
-            !at(profile, index).samples[index].hits.allows(front, back)) {
-            finding.level = profile;
-            break;
-        }
-    }
+    finding.level = loosest_wrong(expectation_.profile, [&](cases::Profile profile) {
+        return !at(profile, index).samples[index].hits.allows(front, back);
+    });
 }
 
 void Attribution::attribute_writer(Finding& finding,
                                    const std::function<bool(const cases::Triangle&)>& wrote) {
     const size_t index = index_of(finding);
-    finding.level = expectation_.profile;
-    for (const cases::Profile profile : cases::kProfiles) {
-        const ref::Expectation& e = at(std::min(profile, expectation_.profile), index);
-        const ref::SampleExpectation& s = e.samples[index];
-        const auto begin = e.writers.begin() + s.writers_begin;
-        if (std::none_of(begin, begin + s.writers_count,
-                         [&](uint32_t t) { return wrote(e.triangles[t]); })) {
-            finding.level = std::min(profile, expectation_.profile);
-            break;
-        }
-    }
+    finding.level = loosest_wrong(expectation_.profile, [&](cases::Profile profile) {
+        const ref::Expectation& e = at(profile, index);
+        return std::ranges::none_of(e.writers_of(e.samples[index]),
+                                    [&](uint32_t t) { return wrote(e.triangles[t]); });
+    });
     const auto earlier = like_writer_.find(finding.level);
     if (explained_ >= explains_ && earlier != like_writer_.end()) {
         finding.rule = earlier->second.rule;
@@ -222,30 +211,20 @@ void Attribution::explain_hits(Finding& finding, const ref::HitBounds& asked, ui
         // The last of several hits too many may rightly follow from an earlier one, as a depth test
         // does from what that one stored.
         const bool is_of_several = total > asked.total_max + 1;
-        if (const std::optional<Cause> root =
-                is_of_several ? causes.of_earlier_hit(last.draw) : std::nullopt) {
-            tell(finding, *root);
-            return;
-        }
-        if (const std::optional<Cause> hit = causes.of_last_hit(last.wrote)) {
+        const std::optional<Cause> root =
+            is_of_several ? causes.of_earlier_hit(last.draw) : std::nullopt;
+        if (const std::optional<Cause> hit = root ? root : causes.of_last_hit(last.wrote)) {
             tell(finding, *hit);
             return;
         }
     }
-    if (const std::optional<Cause> bounds = causes.of_bounds(total < asked.total_min)) {
-        tell(finding, *bounds);
-        return;
-    }
-    if (const std::optional<Cause> stencil = causes.of_stencil(total < asked.total_min)) {
-        tell(finding, *stencil);
-        return;
-    }
-    if (const std::optional<Cause> depth = causes.of_depth(total < asked.total_min)) {
-        tell(finding, *depth);
-        return;
-    }
-    tell(finding, asked.total_max == 0 ? causes.of_extra()
-                                       : causes.of_count(total, total < asked.total_min));
+    const bool is_few = total < asked.total_min;
+    std::optional<Cause> cause = causes.of_bounds(is_few);
+    cause = cause ? cause : causes.of_stencil(is_few);
+    cause = cause ? cause : causes.of_depth(is_few);
+    tell(finding, cause                  ? *cause
+                  : asked.total_max == 0 ? causes.of_extra()
+                                         : causes.of_count(total, is_few));
 }
 
 void tell(Finding& finding, const Cause& cause) {

@@ -89,7 +89,9 @@ class BlitComparison {
         Finding finding;
         finding.x = x;
         finding.y = y;
-        finding.level = level_of(x, y, got);
+        finding.level = loosest_wrong(verdict_.profile, [&](Profile profile) {
+            return !reference_.allows(x, y, got, profile);
+        });
         finding.kind = !inside    ? FindingKind::extra
                        : is_clear ? FindingKind::missing
                                   : FindingKind::value;
@@ -102,16 +104,6 @@ class BlitComparison {
         finding.got = show(got, case_.target.color->format);
         finding.why = reference_.explain(x, y);
         verdict_.add(std::move(finding), case_.target);
-    }
-
-    // The loosest profile at which the codes are wrong.
-    Profile level_of(uint32_t x, uint32_t y, const TexelCodes& got) const {
-        for (const Profile profile : {Profile::vulkan, Profile::practice}) {
-            if (profile < verdict_.profile && !reference_.allows(x, y, got, profile)) {
-                return profile;
-            }
-        }
-        return verdict_.profile;
     }
 
     const cases::Case& case_;

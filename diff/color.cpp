@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <numeric>
 #include <optional>
@@ -19,15 +18,7 @@ namespace diff {
 
 using Kind = ref::ColorVerdict::Kind;
 
-ref::ColorReference& ColorComparison::reference() {
-    auto& slot = references_[static_cast<size_t>(expectation_.profile)];
-    if (!slot) {
-        slot = std::make_unique<ref::ColorReference>(case_, expectation_);
-    }
-    return *slot;
-}
-
-ref::ColorReference& ColorComparison::looser(cases::Profile profile, size_t index) {
+ref::ColorReference& ColorComparison::at(cases::Profile profile, size_t index) {
     const ref::Expectation& expectation = attribution_.at(profile, index);
     auto& slot = references_[static_cast<size_t>(profile)];
     if (!slot) {
@@ -57,12 +48,13 @@ std::optional<ref::ColorWitness> ColorComparison::witness_of(size_t index,
 std::optional<Finding> ColorComparison::judge(size_t index, cases::SampleId id,
                                               std::optional<uint32_t> writer) {
     const std::optional<ref::ColorWitness> witness = witness_of(index, writer);
-    const ref::ColorVerdict verdict = reference().judge(index, id, capture_.color[index], witness);
+    ref::ColorReference& reference = at(expectation_.profile, index);
+    const ref::ColorVerdict verdict = reference.judge(index, id, capture_.color[index], witness);
     if (verdict.kind != Kind::ok && verdict.kind != Kind::open) {
         return finding_of(index, id, verdict, witness);
     }
     if (!case_.target.has_instruments && case_.target.has_depth &&
-        !reference().explains_depth(index, id, capture_.depth[index], case_.target.depth_clear)) {
+        !reference.explains_depth(index, id, capture_.depth[index], case_.target.depth_clear)) {
         Finding finding = finding_at(FindingKind::value, case_.target, id);
         tell(finding, ref::ReasonKind::depth_of_none);
         finding.quantity = "depth";
@@ -78,12 +70,8 @@ std::optional<Finding> ColorComparison::judge(size_t index, cases::SampleId id,
 
 cases::Profile ColorComparison::loosest_wrong(
     size_t index, const std::function<bool(ref::ColorReference&)>& is_wrong) {
-    for (const cases::Profile p : {cases::Profile::vulkan, cases::Profile::practice}) {
-        if (p < expectation_.profile && is_wrong(looser(p, index))) {
-            return p;
-        }
-    }
-    return expectation_.profile;
+    return diff::loosest_wrong(
+        expectation_.profile, [&](cases::Profile profile) { return is_wrong(at(profile, index)); });
 }
 
 Finding ColorComparison::finding_of(size_t index, cases::SampleId id,
@@ -121,6 +109,7 @@ Finding ColorComparison::finding_of(size_t index, cases::SampleId id,
     finding.quantity = "color";
     finding.expected = verdict.expected;
     finding.got = unit_.text_of(capture_.color[index]);
+    finding.overflows = verdict.may_overflow && unit_.has_overflown(capture_.color[index]);
     finding.level = level;
     return finding;
 }

@@ -39,13 +39,12 @@ class ColorComparison {
     uint8_t hits_for_pictures(size_t index);
     // Whether what is found of a colour depends on the sample's expectation, its codes and its
     // witness alone: every draw writes one colour.
-    bool is_uniform() { return reference().is_uniform(); }
+    bool is_uniform() { return at(expectation_.profile, 0).is_uniform(); }
 
   private:
-    // Of the asked profile.
-    ref::ColorReference& reference();
-    // The same of a looser one, which knows this sample and those that were asked for before.
-    ref::ColorReference& looser(cases::Profile profile, size_t index);
+    // The reference at a profile; a looser one knows this sample and those that were asked for
+    // before.
+    ref::ColorReference& at(cases::Profile profile, size_t index);
     // The loosest profile at which a sample is wrong that is wrong at the asked one. The loosest
     // are asked first: what is wrong there needs no expectation of the profiles in between.
     cases::Profile loosest_wrong(size_t index,

@@ -24,9 +24,6 @@ namespace diff {
 
 namespace {
 
-// What somebody wants to know of a capture.
-enum class Wanted : uint8_t { all, findings_without_ratios, symptoms, first_finding };
-
 // One comparison's state; the phases of a sample stand in judge_sample().
 class Comparison {
   public:
@@ -72,6 +69,13 @@ class Comparison {
     Verdict run() {
         if (const std::string error = unusable(); !error.empty()) {
             verdict_.error = error;
+            return std::move(verdict_);
+        }
+        if (expectation_.must_samples == 0) {
+            verdict_.shows_nothing = true;
+            verdict_.error =
+                "the case has no sample that must be covered, so a black picture would pass; add a "
+                "control triangle";
             return std::move(verdict_);
         }
         const size_t count = capture_.sample_count();
@@ -162,10 +166,6 @@ class Comparison {
             if (case_.target.has_instruments && capture_.attribute_count <= a) {
                 return fmt::format("the capture lacks attribute {} of the case", a);
             }
-        }
-        if (expectation_.must_samples == 0) {
-            return "the case has no sample that must be covered, so a black picture would pass; "
-                   "add a control triangle";
         }
         return {};
     }
@@ -413,8 +413,9 @@ class Comparison {
 }  // namespace
 
 Verdict compare(const cases::Case& c, const ref::Expectation& expectation,
-                const capture::CaptureView& capture, const ref::ValueSelection& selection) {
-    return Comparison(c, expectation, capture, selection, false).run();
+                const capture::CaptureView& capture, Wanted wanted,
+                const ref::ValueSelection& selection) {
+    return Comparison(c, expectation, capture, selection, false, {}, {}, wanted).run();
 }
 
 Verdict compare_colors(const cases::Case& c, const ref::Expectation& expectation,
@@ -425,22 +426,6 @@ Verdict compare_colors(const cases::Case& c, const ref::Expectation& expectation
     return Comparison(c, expectation, capture, {}, has_wrong || !witnesses.empty(), marks,
                       witnesses)
         .run();
-}
-
-Verdict compare_to_first(const cases::Case& c, const ref::Expectation& expectation,
-                         const capture::CaptureView& capture) {
-    return Comparison(c, expectation, capture, {}, false, {}, {}, Wanted::first_finding).run();
-}
-
-Verdict compare_without_ratios(const cases::Case& c, const ref::Expectation& expectation,
-                               const capture::CaptureView& capture) {
-    return Comparison(c, expectation, capture, {}, false, {}, {}, Wanted::findings_without_ratios)
-        .run();
-}
-
-Verdict compare_symptoms(const cases::Case& c, const ref::Expectation& expectation,
-                         const capture::CaptureView& capture) {
-    return Comparison(c, expectation, capture, {}, false, {}, {}, Wanted::symptoms).run();
 }
 
 Verdict compare_by_sample(const cases::Case& c, const ref::Expectation& expectation,

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <map>
-#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>

@@ -104,35 +104,34 @@ std::string to_text(const std::vector<double>& samples) {
 // One resolved number against the samples that it comes from.
 std::optional<Finding> judge_number(const std::vector<double>& samples, double got, Resolve mode,
                                     ComponentKind kind, Profile profile) {
-    Finding finding;
-    finding.kind = FindingKind::value;
-    finding.got = cases::number_text(got);
-    if (mode == Resolve::average) {
-        // Nothing is known of a sum with infinities or NaN.
-        if (!std::ranges::all_of(samples, [](double sample) { return std::isfinite(sample); })) {
-            return std::nullopt;
-        }
-        const auto level = wrong_average(samples, got, kind, profile);
-        if (!level) {
-            return std::nullopt;
-        }
-        const Range range = range_of(samples, kind, *level);
-        finding.rule = cases::rule::resolve_average;
-        finding.level = *level;
-        finding.expected = cases::number_text(range.min) + " .. " + cases::number_text(range.max);
+    const auto wrong = [&](std::string_view rule, Profile level, std::string expected) {
+        Finding finding;
+        finding.kind = FindingKind::value;
+        finding.rule = rule;
+        finding.level = level;
+        finding.expected = std::move(expected);
+        finding.got = cases::number_text(got);
         finding.why =
             fmt::format("the samples of the pixel, read singly, are {}", to_text(samples));
-        return finding;
+        return std::optional(std::move(finding));
+    };
+    if (mode != Resolve::average) {
+        const double expected = select(samples, mode);
+        return std::equal_to<>()(got, expected)
+                   ? std::nullopt
+                   : wrong(cases::rule::resolve_select, Profile::vulkan,
+                           cases::number_text(expected));
     }
-    const double expected = select(samples, mode);
-    if (std::equal_to<>()(got, expected)) {
+    // Nothing is known of a sum with infinities or NaN.
+    const bool is_known =
+        std::ranges::all_of(samples, [](double sample) { return std::isfinite(sample); });
+    const auto level = is_known ? wrong_average(samples, got, kind, profile) : std::nullopt;
+    if (!level) {
         return std::nullopt;
     }
-    finding.rule = cases::rule::resolve_select;
-    finding.level = Profile::vulkan;
-    finding.expected = cases::number_text(expected);
-    finding.why = fmt::format("the samples of the pixel, read singly, are {}", to_text(samples));
-    return finding;
+    const Range range = range_of(samples, kind, *level);
+    return wrong(cases::rule::resolve_average, *level,
+                 cases::number_text(range.min) + " .. " + cases::number_text(range.max));
 }
 
 capture::ColorCodes average_codes(std::span<const capture::ColorCodes> samples,

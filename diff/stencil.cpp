@@ -7,30 +7,32 @@
 #include <array>
 #include <utility>
 
-#include "ref/exercise/changes.hpp"
+#include "cases/fault/change.hpp"
+#include "cases/fault/fault.hpp"
 #include "ref/stencil/values.hpp"
 
 namespace diff {
 
 namespace {
 
+using cases::operator""_fault;
 using ref::ReasonKind;
 
-struct Change {
-    bool (*change)(cases::Case& c);
+struct FaultReason {
+    cases::Fault fault;
     ReasonKind reason;
 };
 
 // From the particular to the general: a device that exchanges faces has other operations as well.
-constexpr std::array kChanges = {
-    Change{ref::drop_bounds, ReasonKind::stencil_bounded},
-    Change{ref::exchange_stencil_faces, ReasonKind::stencil_faced},
-    Change{ref::ignore_stencil_masks, ReasonKind::stencil_masked},
-    Change{ref::take_depth_fail_as_pass, ReasonKind::stencil_by_depth},
-    Change{ref::take_depth_fail_as_fail, ReasonKind::stencil_by_depth},
-    Change{ref::exchange_stencil_clamps, ReasonKind::stencil_operated},
-    Change{ref::turn_stencil_compare, ReasonKind::stencil_compared},
-    Change{ref::pass_every_stencil, ReasonKind::stencil_compared},
+constexpr std::array kFaultReasons = {
+    FaultReason{"bounds-ignored"_fault, ReasonKind::stencil_bounded},
+    FaultReason{"stencil-faces-exchanged"_fault, ReasonKind::stencil_faced},
+    FaultReason{"stencil-masks-ignored"_fault, ReasonKind::stencil_masked},
+    FaultReason{"stencil-before-depth"_fault, ReasonKind::stencil_by_depth},
+    FaultReason{"stencil-depth-fail-fails"_fault, ReasonKind::stencil_by_depth},
+    FaultReason{"stencil-clamps-exchanged"_fault, ReasonKind::stencil_operated},
+    FaultReason{"stencil-compare-turned"_fault, ReasonKind::stencil_compared},
+    FaultReason{"stencil-test-passes"_fault, ReasonKind::stencil_compared},
 };
 
 constexpr size_t kMostTold = 8;  // values of a set
@@ -46,12 +48,12 @@ std::optional<std::pair<uint32_t, uint32_t>> StencilComparison::hits_at(size_t i
 }
 
 ReasonKind StencilComparison::reason_of(size_t index, uint32_t value, cases::Profile level) {
-    for (size_t k = 0; k < kChanges.size(); ++k) {
+    for (size_t k = 0; k < kFaultReasons.size(); ++k) {
         const auto [at, is_new] = others_.try_emplace({k, level});
         std::unique_ptr<Other>& other = at->second;
         if (is_new) {
             cases::Case changed = case_;
-            if (kChanges.at(k).change(changed)) {
+            if (cases::take_with(kFaultReasons.at(k).fault, changed)) {
                 other = std::make_unique<Other>(std::move(changed), expectation_.limits, level);
             }
         }
@@ -60,7 +62,7 @@ ReasonKind StencilComparison::reason_of(size_t index, uint32_t value, cases::Pro
         }
         const ref::Expectation& e = other->expectation.at(index);
         if (stencils_at(e, e.samples[index], std::nullopt)[value]) {
-            return kChanges.at(k).reason;
+            return kFaultReasons.at(k).reason;
         }
     }
     return ReasonKind::stencil_operated;
@@ -85,13 +87,9 @@ std::optional<Finding> StencilComparison::judge(size_t index, cases::SampleId id
         return std::nullopt;
     }
     Finding finding = finding_at(FindingKind::value, case_.target, id);
-    finding.level = expectation_.profile;
-    for (const cases::Profile profile : cases::kProfiles) {
-        if (profile < expectation_.profile && !is_allowed(attribution_.at(profile, index))) {
-            finding.level = profile;
-            break;
-        }
-    }
+    finding.level = loosest_wrong(expectation_.profile, [&](cases::Profile profile) {
+        return !is_allowed(attribution_.at(profile, index));
+    });
     finding.quantity = "stencil";
     finding.expected =
         ref::stencil::to_text(allowed(attribution_.at(finding.level, index)), ", ", kMostTold);

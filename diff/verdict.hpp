@@ -51,6 +51,8 @@ struct Finding {
     std::string door = {};               // of a picture through a door that differs: its word
     // Of what the whole case gave, as a query's count: no sample is wrong, and the place is (0, 0).
     bool of_case = false;
+    // Of a colour: it may lie beyond the range of binary16, and is no number. No journal holds it.
+    bool overflows = false;
     static void fields(auto&& visit, auto&... f) {
         visit("kind", f.kind...);
         visit("rule", f.rule...);
@@ -114,6 +116,16 @@ inline Finding finding_of_case(FindingKind kind) {
     finding.of_case = true;
     return finding;
 }
+// The loosest profile at which something is wrong that is wrong at `at`.
+template <class IsWrong>
+cases::Profile loosest_wrong(cases::Profile at, const IsWrong& is_wrong) {
+    for (const cases::Profile profile : cases::kProfiles) {
+        if (profile < at && is_wrong(profile)) {
+            return profile;
+        }
+    }
+    return at;
+}
 // What the comparison saw at a sample, for pictures: one byte a sample.
 enum class SampleMark : uint8_t { ok, either, missing, extra, double_hit, value, order };
 
@@ -160,6 +172,7 @@ struct Verdict : Outcome {
     cases::Profile profile = cases::Profile::direct3d;
     std::string
         error;  // not empty: the case or the capture cannot be judged (status error), and why
+    bool shows_nothing = false;  // the error: a picture without any triangle would pass
     std::vector<uint8_t>
         expected_hits;  // nominal hits a sample, saturated at 254; 255 where several are allowed
     std::vector<uint8_t> device_hits;  // saturated at 255
@@ -188,31 +201,31 @@ struct Verdict : Outcome {
   private:
     void mark(const Finding& finding, const cases::Target& target);
 };
+// What somebody wants to know of a capture.
+enum class Wanted : uint8_t {
+    all,
+    // All but how large errors are, which takes most of the time of a picture that is wrong at
+    // profile vulkan: the ratios, and what names the worst of them, are left out.
+    findings_without_ratios,
+    // What is broken alone: kinds and rules, with the loosest levels of the first values of each
+    // quantity (ValueReference::tell_loosest_levels).
+    symptoms,
+    // `error` and the first finding, but for its ratio; the rest says little.
+    first_finding
+};
 // Judges a capture. A case without any sample that must be hit is an error, never a pass. Of the
 // values only those selected are judged; nothing is said of how many invocations a fragment had
 // unless all are.
 Verdict compare(const cases::Case& c, const ref::Expectation& expectation,
-                const capture::CaptureView& capture, const ref::ValueSelection& selection = {});
+                const capture::CaptureView& capture, Wanted wanted = Wanted::all,
+                const ref::ValueSelection& selection = {});
 // Judges the colours alone of a target without instruments, but for samples whose hits or writer
 // are wrong by the marks of another verdict, as compare() does where it sees both. `witnesses`:
 // what is known of each sample besides; empty if nothing is.
 Verdict compare_colors(const cases::Case& c, const ref::Expectation& expectation,
                        const capture::CaptureView& capture, std::span<const SampleMark> marks,
                        std::span<const ref::ColorWitness> witnesses);
-// The same for those who do not want to know how large errors are, which takes most of the time of
-// a picture that is wrong at profile vulkan: all but the ratios, and what names the worst of them,
-// is that of compare().
-Verdict compare_without_ratios(const cases::Case& c, const ref::Expectation& expectation,
-                               const capture::CaptureView& capture);
-// The same for those who only want to know what is broken: kinds and rules, with the loosest levels
-// of the first values of each quantity (ValueReference::tell_loosest_levels).
-Verdict compare_symptoms(const cases::Case& c, const ref::Expectation& expectation,
-                         const capture::CaptureView& capture);
-// The same up to the first finding: `error` and that finding are those of compare(), but for its
-// ratio; the rest says little.
-Verdict compare_to_first(const cases::Case& c, const ref::Expectation& expectation,
-                         const capture::CaptureView& capture);
-// The same, one sample after another: the oracle of compare(), which judges runs of samples that
+// Judges one sample after another: the oracle of compare(), which judges runs of samples that
 // are plainly right at once.
 Verdict compare_by_sample(const cases::Case& c, const ref::Expectation& expectation,
                           const capture::CaptureView& capture);

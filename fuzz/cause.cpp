@@ -33,7 +33,7 @@ double number_of(const TomlValue& value) {
 }
 
 // Whether some vertex of the draw has another w than another one, or all have one that is not 1.
-void add_depths(const TomlValue& draw, std::set<std::string>& words) {
+void add_depths(const TomlValue& draw, Essentials& all) {
     const TomlValue* vertices = draw.find("vertices");
     if (vertices == nullptr) {
         return;
@@ -48,16 +48,16 @@ void add_depths(const TomlValue& draw, std::set<std::string>& words) {
                  (is_clip ? of_vertex : 1));
     }
     if (w.size() > 1) {
-        words.insert("unequal w");
+        all.insert({Trait::unequal_w});
     }
     if (std::any_of(w.begin(), w.end(), [](double v) { return v <= 0; })) {
-        words.insert("behind the eye");
+        all.insert({Trait::behind_the_eye});
     }
     if (z.size() > 1) {
-        words.insert("sloping depth");
+        all.insert({Trait::sloping_depth});
     }
     if (vertices->array.size() > 6) {
-        words.insert("several triangles");
+        all.insert({Trait::several_triangles});
     }
 }
 
@@ -71,7 +71,7 @@ bool is_far(const TomlValue& rectangle) {
 }
 
 void add_keys(const TomlValue& table, const std::string& path, const cases::KeyTable* keys,
-              std::set<std::string>& words) {
+              Essentials& all) {
     for (const TomlEntry& entry : table.table) {
         const TomlValue& value = entry.value;
         const bool is_top = path.empty();
@@ -83,39 +83,41 @@ void add_keys(const TomlValue& table, const std::string& path, const cases::KeyT
         }
         if (value.is(TomlValue::Kind::table)) {
             if (entry.key == "color") {
-                words.insert("color");
+                all.insert({Trait::key, "color"});
             }
-            add_keys(value, is_top ? entry.key : name, inner, words);
+            add_keys(value, is_top ? entry.key : name, inner, all);
         } else if (entry.key == "relations") {
             for (const TomlValue& relation : value.array) {
-                words.insert("relation " + (relation.table.empty() ? relation.string
-                                                                   : relation.table.front().key));
+                all.insert({Trait::relation,
+                            relation.table.empty() ? relation.string : relation.table.front().key});
             }
         } else if (value.is(TomlValue::Kind::array) && !value.array.empty() &&
                    value.array.front().is(TomlValue::Kind::table)) {
             if (entry.key == "draw" && value.array.size() > 1) {
-                words.insert("several draws");
+                all.insert({Trait::several_draws});
             } else if (entry.key != "draw") {
-                words.insert(entry.key == "color" ? "several colours" : name);
+                all.insert(entry.key == "color" ? Essential{Trait::several_colors}
+                                                : Essential{Trait::key, name});
             }
             for (const TomlValue& element : value.array) {
                 if (entry.key == "draw") {
-                    add_depths(element, words);
+                    add_depths(element, all);
                 }
-                add_keys(element, name, inner, words);
+                add_keys(element, name, inner, all);
             }
         } else if (value.is(TomlValue::Kind::string) &&
                    (row == nullptr || !row->has(cases::Key::kAnyWord))) {
-            words.insert(name + "=" + value.string);
+            all.insert({Trait::key, name, value.string});
         } else if (entry.key == "samples" || value.is(TomlValue::Kind::boolean)) {
-            words.insert(entry.key == "samples" ? "several samples"
-                                                : name + (value.boolean ? "=true" : "=false"));
+            all.insert(entry.key == "samples"
+                           ? Essential{Trait::several_samples}
+                           : Essential{Trait::key, name, value.boolean ? "true" : "false"});
         } else {
-            words.insert(name);
+            all.insert({Trait::key, name});
             // Numbers do not count, but for these: a scissor is in most cases that have one no need
             // of a cause that needs a far one.
             if ((entry.key == "scissor" || entry.key == "viewport") && is_far(value)) {
-                words.insert(name + " beyond 32767");
+                all.insert({Trait::far, name});
             }
         }
     }
@@ -220,10 +222,10 @@ std::optional<Symptom> parse_symptom(const std::string& text) {
     return s;
 }
 
-std::set<std::string> essentials(const TomlValue& document) {
-    std::set<std::string> words;
-    add_keys(document, "", &cases::kFileKeys, words);
-    return words;
+Essentials essentials(const TomlValue& document) {
+    Essentials all;
+    add_keys(document, "", &cases::kFileKeys, all);
+    return all;
 }
 
 }  // namespace fuzz

@@ -6,13 +6,13 @@
 #pragma once
 
 #include <optional>
-#include <set>
 #include <string>
 
 #include "cases/model/case.hpp"
 #include "cases/model/profile.hpp"
 #include "cases/toml/toml_reader.hpp"
 #include "diff/verdict.hpp"
+#include "fuzz/essential.hpp"
 #include "report/record/run.hpp"
 
 namespace fuzz {
@@ -37,13 +37,9 @@ std::string to_text(const Symptom& symptom);
 // The symptom of such a text; nothing if it is none.
 std::optional<Symptom> parse_symptom(const std::string& text);
 
-// What a case has that a plain one has not, as words: "samples=4", "draw.scissor", "draw.topology=
-// triangle-fan", "several draws", "w". Numbers do not count, nor what a format is called, but for
-// rectangles that reach beyond 15 bits.
-std::set<std::string> essentials(const cases::TomlValue& document);
-// The word for it is the one essential that speaks of numbers: what such a triangle shows, and in
-// how many ways, hangs on each of them.
-inline constexpr const char* kThinTriangle = "thin triangle";
+// What a case has that a plain one has not. Numbers do not count, nor what a format is called, but
+// for rectangles that reach beyond 15 bits.
+Essentials essentials(const cases::TomlValue& document);
 // Whether some triangle is so thin that it may have no area on a device's grid.
 bool has_thin_triangle(const cases::Case& c);
 

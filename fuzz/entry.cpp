@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <utility>
 
@@ -130,6 +131,31 @@ std::vector<std::string> passing(const Document& document, const run::DrawAndJud
     return sentences(all, judged, passes);
 }
 
+// Whether some attribute may differ from vertex to vertex: the only one of a case may be the same
+// everywhere.
+bool has_varying_attribute(const Document& document) {
+    size_t count = 0, constants = 0;
+    if (const Document* draws = document.find("draw")) {
+        for (const Document& one : draws->array) {
+            if (const Document* attributes = one.find("attribute")) {
+                count += attributes->array.size();
+                constants += static_cast<size_t>(std::ranges::count_if(
+                    attributes->array,
+                    [](const Document& a) { return a.find("constant") != nullptr; }));
+            }
+        }
+    }
+    return count != 1 || constants != 1;
+}
+
+// The word for the format of a document's colours; empty without one.
+std::string format_of(const Document& document) {
+    const Document* target = document.find("target");
+    const Document* color = target == nullptr ? nullptr : target->find("color");
+    const Document* format = color == nullptr ? nullptr : color->find("format");
+    return format == nullptr ? "" : format->string;
+}
+
 // "with 1 sample" of "not with 1 sample", of which a sentence would make a double negative.
 std::string without_not(const std::string& need) {
     constexpr std::string_view kNot = "not ";
@@ -172,21 +198,26 @@ std::string need_text(const Entry& entry) {
     return text;
 }
 
-std::set<std::string> essentials_of(const std::string& text) {
-    const auto document = cases::read_toml(text, "fuzz");
-    std::set<std::string> words = document ? essentials(*document) : std::set<std::string>();
-    if (const auto c = load_one(text, "fuzz"); c && has_thin_triangle(*c)) {
-        words.insert(kThinTriangle);
+Facts facts_of(const std::string& text) {
+    Facts facts;
+    if (const auto document = cases::read_toml(text, "fuzz")) {
+        facts.essentials = essentials(*document);
+        facts.has_varying_attribute = has_varying_attribute(*document);
     }
-    return words;
+    if (const auto c = load_one(text, "fuzz")) {
+        if (has_thin_triangle(*c)) {
+            facts.essentials.insert({Trait::thin_triangle});
+        }
+        if (c->target.color) {
+            facts.format = c->target.color->format;
+        }
+    }
+    return facts;
 }
 
-std::set<std::string> facts_of(const std::string& text) {
-    std::set<std::string> words = with_implied(essentials_of(text));
-    if (const auto c = load_one(text, "fuzz"); c && c->target.color) {
-        words.insert("format " + std::string(cases::word_of(c->target.color->format)));
-    }
-    return words;
+void Entry::set_text(std::string other) {
+    text = std::move(other);
+    facts = facts_of(text);
 }
 
 std::vector<Symptom> symptoms_of(const CaseRecord& record) {
@@ -257,7 +288,7 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
     if (is_at_end()) {
         Entry cut;
         cut.symptom = symptom;
-        cut.text = to_text(reduced.document);
+        cut.set_text(to_text(reduced.document));
         return cut;
     }
     // Once more, for what it shows is told.
@@ -266,23 +297,27 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
     Entry entry;
     entry.symptom = symptom;
     // What the reducer brought in, as a constant for values, is no need of the cause.
-    const std::set<std::string> before = essentials_of(text);
-    const std::set<std::string> after =
-        essentials_of(to_text(like_failure(reduced.document, symptom, draw, options)));
+    const Essentials before = facts_of(text).essentials;
+    const Essentials after =
+        facts_of(to_text(like_failure(reduced.document, symptom, draw, options))).essentials;
     std::set_intersection(after.begin(), after.end(), before.begin(), before.end(),
                           std::inserter(entry.essentials, entry.essentials.end()));
-    entry.text = to_text(described(reduced.document, symptom));
-    if (const auto c = load_one(entry.text, "reduced");
-        c && !is_sound(*c, cases::Profile::vulkan)) {
-        entry.text =
+    std::string kept = to_text(described(reduced.document, symptom));
+    if (const auto c = load_one(kept, "reduced"); c && !is_sound(*c, cases::Profile::vulkan)) {
+        kept =
             "# At profile vulkan a picture without a triangle would pass: a suite wants one "
             "more.\n" +
-            entry.text;
+            kept;
     }
+    entry.set_text(std::move(kept));
     for (size_t k = 0; k < reduced.needs.size(); ++k) {
         if (unsupported.contains(reduced.need_texts[k])) {
             entry.undrawn.push_back(without_not(reduced.needs[k]));
         } else {
+            const auto asked = cases::read_toml(reduced.need_texts[k], "asked");
+            const std::string format = asked ? format_of(*asked) : "";
+            entry.needs_format =
+                entry.needs_format || (!format.empty() && format != format_of(reduced.document));
             entry.needs.push_back(reduced.needs[k]);
         }
     }
@@ -296,12 +331,15 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
             *std::min_element(last.outcome.findings.begin(), last.outcome.findings.end(),
                               [](const auto& a, const auto& b) { return a.level < b.level; });
         const Symptom first{Status::fail, leading.kind, leading.rule, leading.level, {}};
-        entry.shown_first = first == symptom ? "" : to_text(first);
+        entry.shown_first = first == symptom ? std::nullopt : std::optional(first);
     }
     const auto shown_by = std::ranges::find_if(last.outcome.findings, [&](const diff::Finding& f) {
         return f.kind == symptom.kind && f.rule == symptom.rule;
     });
-    entry.seen = shown_by == last.outcome.findings.end() ? "" : seen_text(*shown_by);
+    if (shown_by != last.outcome.findings.end()) {
+        entry.seen = seen_text(*shown_by);
+        entry.overflows = shown_by->overflows;
+    }
     for (const Symptom& other : symptoms_of(last)) {
         entry.also.insert({other.kind, other.rule});
     }

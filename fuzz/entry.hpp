@@ -19,21 +19,33 @@
 
 namespace fuzz {
 
+// What a case has that decides whether it may fail by the cause of an entry.
+struct Facts {
+    Essentials essentials;
+    std::optional<cases::ColorFormat> format;  // of the colours that are judged
+    bool has_varying_attribute = true;         // false: its only one is a constant
+};
+// The facts of a case file's text; none if it is no TOML.
+Facts facts_of(const std::string& text);
+
 // One cause: the smallest case that shows it, and how often it was met.
 struct Entry {
     Symptom symptom;
     // Of the failing case, what it needs to fail in any like way: by another rule, without what
     // only a suite wants of it.
-    std::set<std::string> essentials;
+    Essentials essentials;
     // What else the reduced case breaks: in a case with the same essentials that is no news.
     std::set<std::pair<diff::FindingKind, std::string>> also;
     std::string text;  // of the reduced case
-    // "format rgba8-unorm" of the colours of cases of the same cause, besides the reduced one's.
-    std::set<std::string> other_formats;
+    Facts facts;       // of the text
+    // Of the colours of cases with this cause, besides the reduced one's.
+    std::set<cases::ColorFormat> other_formats;
+    bool needs_format = false;         // the text with the plain format does not show it
+    bool overflows = false;            // diff::Finding::overflows of what was seen
     std::vector<std::string> needs;    // "not with 1 sample": simpler cases that do not show it
     std::vector<std::string> undrawn;  // "with 2 samples": simpler ones that the device cannot draw
     std::vector<std::string> passes;   // "with 2 samples in place of 4": other ones that pass
-    std::string shown_first;           // what a run of the text leads with, if not with the symptom
+    std::optional<Symptom> shown_first;  // what a run of the text leads with, if not the symptom
     std::string seen;        // "pixel (1, 0), sample 0: color: expected r 3, got r 2; why"
     bool is_reduced = true;  // false: the text is as it was drawn, and explains no other
     bool is_minimal = false;
@@ -43,6 +55,8 @@ struct Entry {
     std::string stale_file;   // where a case was kept that a graver one has replaced since
     uint64_t first_case = 0;  // the number of the case it was reduced from
     uint64_t count = 0;       // failing cases that it explains
+    // Takes another text, with its facts.
+    void set_text(std::string other);
 };
 
 // Makes a case file of one leaf as small as it can be while it shows a symptom. Nothing if it does
@@ -58,23 +72,7 @@ std::string need_text(const Entry& entry);
 // A case's text with a description of what it shows and a rule that it exercises, if there is one.
 std::string described(const std::string& text, const Symptom& symptom);
 
-// Whether an entry explains that a case of these facts shows a symptom.
-bool explains(const Entry& entry, const Symptom& symptom, const std::set<std::string>& facts);
-
-// Whether a fresh entry tells the cause of an earlier one again: if it needs the same to show a
-// like failure. A known cause that turns out graver is news.
-bool is_same_cause(const Entry& earlier, const Entry& fresh);
-// Adds a fresh entry to an earlier one of the same cause, of which the graver case is kept.
-void merge(Entry& earlier, Entry fresh);
-
 // All that a record shows, each in the gravest way, the gravest first.
 std::vector<Symptom> symptoms_of(const report::CaseRecord& record);
-
-// essentials() of a case file's text; nothing if it is no TOML.
-std::set<std::string> essentials_of(const std::string& text);
-// These with what they imply, and "format rgba8-unorm" of the colours that are judged.
-std::set<std::string> facts_of(const std::string& text);
-// Essentials, and those of simpler cases that show as much: colours beside depth are colours.
-std::set<std::string> with_implied(std::set<std::string> essentials);
 
 }  // namespace fuzz

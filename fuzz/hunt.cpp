@@ -8,6 +8,7 @@
 
 #include "cases/base/parallel.hpp"
 #include "cases/model/triangle.hpp"
+#include "fuzz/same_cause.hpp"
 
 namespace fuzz {
 
@@ -31,19 +32,9 @@ double seconds_since(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-// A picture without anything in it could pass, so the judge refuses the case.
-bool is_empty(const CaseRecord& record) {
-    return record.reason.find("a black picture would pass") != std::string::npos;
-}
-
 // Whether the end came before the case's result did.
 bool is_left(const CaseRecord& record) {
     return record.status == Status::not_run || record.status == Status::skip;
-}
-
-// Not every combination of what a fragment carries has a shader: such a case is nobody's failure.
-bool has_no_shader(const CaseRecord& record) {
-    return record.reason.find("that no shader was built for") != std::string::npos;
 }
 
 }  // namespace
@@ -86,7 +77,7 @@ void Hunt::take_up(const std::vector<Waiting>& waiting) {
         if (one && made.data && is_through_broken_door(*made.data)) {
             ++counts_.through_broken_doors;  // the door is known since
         } else if (one) {
-            std::set<std::string> facts = facts_of(made.text);
+            Facts facts = facts_of(made.text);
             open_.push_back({std::move(*one), std::move(made.text), std::move(facts), {}});
         } else if (made.data) {
             left.made.push_back({std::move(made.text), number});
@@ -127,8 +118,9 @@ std::vector<Entry> Hunt::not_reduced() const {
         ++entry.count;
         if (entry.count == 1 || open.text.size() < entry.text.size()) {
             entry.symptom = symptom;
-            entry.essentials = essentials_of(open.text);
+            entry.essentials = open.facts.essentials;
             entry.text = open.text;
+            entry.facts = open.facts;
             entry.first_case = open.waiting.number;
             entry.is_reduced = false;
             entry.also.clear();
@@ -285,12 +277,17 @@ void Hunt::draw_chunk(Chunk chunk) {
                 ++counts_.unsupported;
                 continue;
             case Status::error:
-                if (is_empty(record)) {
-                    ++counts_.empty;
-                } else if (has_no_shader(record)) {
-                    ++counts_.unsupported;
-                } else {
-                    keep_unjudged(chunk.made[k].text, record.reason);
+                // What is nobody's failure is counted alone.
+                switch (record.error_kind) {
+                    case report::ErrorKind::shows_nothing:
+                        ++counts_.empty;
+                        break;
+                    case report::ErrorKind::not_built:
+                        ++counts_.unsupported;
+                        break;
+                    case report::ErrorKind::other:
+                        keep_unjudged(chunk.made[k].text, record.reason);
+                        break;
                 }
                 continue;
             default:
@@ -302,7 +299,7 @@ void Hunt::draw_chunk(Chunk chunk) {
         if (!symptoms.empty()) {
             ++counts_.failed;
             Made& made = chunk.made[k];
-            std::set<std::string> facts = facts_of(made.text);
+            Facts facts = facts_of(made.text);
             open_.push_back(
                 {{made.number, std::move(symptoms)}, std::move(made.text), std::move(facts), {}});
         }

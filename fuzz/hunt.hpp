@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "cases/base/fields.hpp"
 #include "cases/model/case.hpp"
 #include "fuzz/entry.hpp"
 #include "fuzz/generate/source.hpp"
@@ -56,6 +57,25 @@ struct HuntCounts {
     uint64_t poses = 0, pairs = 0;
     uint64_t reductions = 0, reduction_cases = 0;
     double drawing_seconds = 0, reducing_seconds = 0;
+    static void fields(auto&& visit, auto&... c) {
+        visit("next_case", c.next_case...);
+        visit("judged_cases", c.drawn...);
+        visit("triangles", c.triangles...);
+        visit("failed_cases", c.failed...);
+        visit("unsupported_cases", c.unsupported...);
+        visit({"cases_through_broken_doors", cases::kOlderLackIt}, c.through_broken_doors...);
+        visit("empty_cases", c.empty...);
+        visit("unjudged_cases", c.unjudged...);
+        visit("unrepeated_failures", c.unrepeated...);
+        visit({"refused_changes", cases::kOlderLackIt}, c.refused...);
+        visit({"numbers_without_case", cases::kOlderLackIt}, c.missing...);
+        visit("poses", c.poses...);
+        visit("pairs_of_features", c.pairs...);
+        visit("reductions", c.reductions...);
+        visit("reduction_cases", c.reduction_cases...);
+        visit("drawing_seconds", c.drawing_seconds...);
+        visit("reducing_seconds", c.reducing_seconds...);
+    }
 };
 
 // The text of the case with that number, which must not be of a group below one that was entered;
@@ -109,7 +129,7 @@ class Hunt {
     struct Open {
         Waiting waiting;
         std::string text;
-        std::set<std::string> facts;
+        Facts facts;
         std::optional<size_t> entry;  // that explains the gravest symptom of those explained
         bool is_unrepeated = false;
     };

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "cases/base/input_file.hpp"
@@ -42,8 +43,10 @@ Json to_json(const Entry& entry) {
             {"is_minimal", entry.is_minimal},
             {"first_case", entry.first_case},
             {"count", entry.count},
-            {"essentials", entry.essentials},
+            {"essentials", to_texts(entry.essentials)},
             {"needs", entry.needs},
+            {"needs_format", entry.needs_format},
+            {"overflows", entry.overflows},
             {"undrawn", entry.undrawn},
             {"passes", entry.passes},
             {"bug", entry.bug},
@@ -101,8 +104,14 @@ Entry entry_of(const Json& json, const fs::path& folder) {
     entry.is_minimal = json.at("is_minimal");
     entry.first_case = json.at("first_case");
     entry.count = json.at("count");
-    entry.essentials = json.at("essentials").get<std::set<std::string>>();
+    entry.essentials = parse_essentials(json.at("essentials").get<std::set<std::string>>());
     entry.needs = json.at("needs").get<std::vector<std::string>>();
+    // Older hunts say in words alone that a case needs its format.
+    entry.needs_format =
+        json.value("needs_format", std::ranges::any_of(entry.needs, [](const std::string& need) {
+                       return need.starts_with("not with the format");
+                   }));
+    entry.overflows = json.value("overflows", false);
     entry.undrawn = json.value("undrawn", std::vector<std::string>());
     entry.passes = json.value("passes", std::vector<std::string>());
     entry.bug = json.value("bug", "");
@@ -123,7 +132,7 @@ Entry entry_of(const Json& json, const fs::path& folder) {
         throw std::runtime_error("the file '" + entry.file +
                                  "' cannot be read: " + text.error().message);
     }
-    entry.text = std::move(*text);
+    entry.set_text(std::move(*text));
     return entry;
 }
 
@@ -134,7 +143,6 @@ std::string file_of_not_reduced(uint64_t number) {
 }
 
 std::string to_json(const Ledger& ledger) {
-    const HuntCounts& c = ledger.counts;
     Json entries = Json::array();
     for (const Entry& entry : ledger.entries) {
         entries.push_back(to_json(entry));
@@ -143,43 +151,28 @@ std::string to_json(const Ledger& ledger) {
     for (const Waiting& one : ledger.waiting) {
         waiting.push_back(to_json(one));
     }
-    const Json json = {{"schema", kSchema},
-                       {"tool_version", ledger.tool_version},
-                       {"device", cases::printable(ledger.device)},
-                       {"driver", cases::printable(ledger.driver)},
-                       {"arguments", ledger.arguments},
-                       {"selectors", ledger.selectors},
-                       {"suite", ledger.suite},
-                       {"cases_checksum", ledger.cases_checksum},
-                       {"expectations", ledger.expectations},
-                       {"no_expect", ledger.no_expect},
-                       {"expect", ledger.expect},
-                       {"seed", ledger.seed},
-                       {"shard", ledger.shard},
-                       {"shards", ledger.shards},
-                       {"profile", cases::to_string(ledger.profile)},
-                       {"seconds", ledger.seconds},
-                       {"is_finished", ledger.is_finished},
-                       {"next_case", c.next_case},
-                       {"judged_cases", c.drawn},
-                       {"triangles", c.triangles},
-                       {"failed_cases", c.failed},
-                       {"unsupported_cases", c.unsupported},
-                       {"cases_through_broken_doors", c.through_broken_doors},
-                       {"empty_cases", c.empty},
-                       {"unjudged_cases", c.unjudged},
-                       {"unrepeated_failures", c.unrepeated},
-                       {"refused_changes", c.refused},
-                       {"numbers_without_case", c.missing},
-                       {"poses", c.poses},
-                       {"pairs_of_features", c.pairs},
-                       {"reductions", c.reductions},
-                       {"reduction_cases", c.reduction_cases},
-                       {"drawing_seconds", c.drawing_seconds},
-                       {"reducing_seconds", c.reducing_seconds},
-                       {"causes", std::move(entries)},
-                       {"waiting", std::move(waiting)},
-                       {"left", ledger.left}};
+    Json json = {{"schema", kSchema},
+                 {"tool_version", ledger.tool_version},
+                 {"device", cases::printable(ledger.device)},
+                 {"driver", cases::printable(ledger.driver)},
+                 {"arguments", ledger.arguments},
+                 {"selectors", ledger.selectors},
+                 {"suite", ledger.suite},
+                 {"cases_checksum", ledger.cases_checksum},
+                 {"expectations", ledger.expectations},
+                 {"no_expect", ledger.no_expect},
+                 {"expect", ledger.expect},
+                 {"seed", ledger.seed},
+                 {"shard", ledger.shard},
+                 {"shards", ledger.shards},
+                 {"profile", cases::to_string(ledger.profile)},
+                 {"seconds", ledger.seconds},
+                 {"is_finished", ledger.is_finished}};
+    HuntCounts::fields([&](const cases::Field& f, const auto& value) { json[f.name] = value; },
+                       ledger.counts);
+    json["causes"] = std::move(entries);
+    json["waiting"] = std::move(waiting);
+    json["left"] = ledger.left;
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -216,24 +209,13 @@ cases::Expected<Ledger> load_ledger(const fs::path& folder) {
         ledger.profile = *profile;
         ledger.seconds = json.at("seconds");
         ledger.is_finished = json.at("is_finished");
-        HuntCounts& c = ledger.counts;
-        c.next_case = json.at("next_case");
-        c.drawn = json.at("judged_cases");
-        c.triangles = json.at("triangles");
-        c.failed = json.at("failed_cases");
-        c.unsupported = json.at("unsupported_cases");
-        c.through_broken_doors = json.value("cases_through_broken_doors", uint64_t{0});
-        c.empty = json.at("empty_cases");
-        c.unjudged = json.at("unjudged_cases");
-        c.unrepeated = json.at("unrepeated_failures");
-        c.refused = json.value("refused_changes", uint64_t{0});
-        c.missing = json.value("numbers_without_case", uint64_t{0});
-        c.poses = json.at("poses");
-        c.pairs = json.at("pairs_of_features");
-        c.reductions = json.at("reductions");
-        c.reduction_cases = json.at("reduction_cases");
-        c.drawing_seconds = json.at("drawing_seconds");
-        c.reducing_seconds = json.at("reducing_seconds");
+        HuntCounts::fields(
+            [&](const cases::Field& f, auto& value) {
+                if (json.contains(f.name) || !f.has(cases::kOlderLackIt)) {
+                    value = json.at(f.name);
+                }
+            },
+            ledger.counts);
         for (const Json& entry : json.at("causes")) {
             ledger.entries.push_back(entry_of(entry, folder));
             ledger.entries.back().is_known = entry.at("is_known");
@@ -266,9 +248,9 @@ std::string found_text(const Entry& entry, const Ledger& ledger) {
     if (!entry.seen.empty()) {
         text += fmt::format("# Seen: {}.\n", cases::printable(entry.seen));
     }
-    if (!entry.shown_first.empty()) {
-        text +=
-            fmt::format("# A run of it tells first what it shows, too: {}.\n", entry.shown_first);
+    if (entry.shown_first) {
+        text += fmt::format("# A run of it tells first what it shows, too: {}.\n",
+                            to_text(*entry.shown_first));
     }
     if (!entry.is_reduced) {
         text += "# Not reduced: the hunt ended before. 'edgecase fuzz --resume' reduces it.\n";

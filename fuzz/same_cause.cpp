@@ -1,19 +1,14 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// Which failures are of one cause.
+#include "fuzz/same_cause.hpp"
+
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdlib>
 #include <iterator>
 #include <set>
 #include <string>
 #include <string_view>
 #include <utility>
-
-#include "fuzz/cause.hpp"
-#include "fuzz/entry.hpp"
 
 namespace fuzz {
 
@@ -29,63 +24,60 @@ bool is_value(const Symptom& symptom) {
     return symptom.kind == diff::FindingKind::value;
 }
 
-// The essentials that say something of a case's numbers only.
-const std::set<std::string> kNumbers = {"behind the eye", "several draws", "several triangles",
-                                        "sloping depth", "unequal w"};
-const std::set<std::string> kSamples = {"several samples"};
-const std::set<std::string> kThinToo = {"behind the eye", "several draws",     "several samples",
-                                        "sloping depth",  "several triangles", "unequal w"};
+Essential key(std::string_view name, std::string_view word = {}) {
+    return {Trait::key, std::string(name), std::string(word)};
+}
 
-bool is_within(const std::set<std::string>& part, const std::set<std::string>& whole) {
+// The essentials that say something of a case's numbers only.
+const Essentials kNumbers = {{Trait::behind_the_eye},
+                             {Trait::several_draws},
+                             {Trait::several_triangles},
+                             {Trait::sloping_depth},
+                             {Trait::unequal_w}};
+const Essentials kSamples = {{Trait::several_samples}};
+
+bool is_within(const Essentials& part, const Essentials& whole) {
     return std::includes(whole.begin(), whole.end(), part.begin(), part.end());
 }
 
-std::set<std::string> without(const std::set<std::string>& words,
-                              const std::set<std::string>& left_out) {
-    std::set<std::string> rest;
-    std::set_difference(words.begin(), words.end(), left_out.begin(), left_out.end(),
+Essentials without(const Essentials& all, const Essentials& left_out) {
+    Essentials rest;
+    std::set_difference(all.begin(), all.end(), left_out.begin(), left_out.end(),
                         std::inserter(rest, rest.end()));
     return rest;
 }
 
+Essentials without_numbers_and_samples(const Essentials& all) {
+    return without(without(all, kNumbers), kSamples);
+}
+
 // What a case needs without its numbers. A constant and an attribute are two ways to write a
 // colour, and it is chance which factor takes a second source.
-std::set<std::string> keys_of(const Entry& entry) {
-    std::set<std::string> keys = without(entry.essentials, kNumbers);
-    if (keys.contains("draw.color.second")) {
-        std::erase_if(
-            keys, [](const std::string& word) { return word.starts_with("draw.color.blend."); });
+Essentials keys_of(const Entry& entry) {
+    Essentials keys = without(entry.essentials, kNumbers);
+    if (keys.contains(key("draw.color.second"))) {
+        std::erase_if(keys, [](const Essential& e) { return e.begins("draw.color.blend."); });
     }
     // A shader may write a depth in several ways.
-    if (std::erase_if(keys, [](const std::string& word) {
-            return word.starts_with("draw.frag_depth.") &&
-                   !word.starts_with("draw.frag_depth.layout");
+    if (std::erase_if(keys, [](const Essential& e) {
+            return e.begins("draw.frag_depth.") && !e.begins("draw.frag_depth.layout");
         }) > 0) {
-        keys.insert("draw.frag_depth");
+        keys.insert(key("draw.frag_depth"));
     }
-    if (keys.erase("draw.color.attribute") > 0) {
-        keys.erase("draw.attribute");
-        keys.insert("draw.color.value");
+    if (keys.erase(key("draw.color.attribute")) > 0) {
+        keys.erase(key("draw.attribute"));
+        keys.insert(key("draw.color.value"));
     }
     return keys;
 }
 
 // What a case needs besides numbers, samples and plain colours, however they are written.
-std::set<std::string> special_of(const Entry& entry) {
-    std::set<std::string> words = without(keys_of(entry), kThinToo);
-    for (const char* plain : {kThinTriangle, "attachments=color", "attachments=color+depth",
-                              "color", "color.clear", "draw.attribute", "draw.color.value"}) {
-        words.erase(plain);
-    }
-    return words;
-}
-
-// "format rgba8-unorm" of the colours that an entry's case is judged by.
-std::string format_of(const Entry& entry) {
-    const std::set<std::string> facts = facts_of(entry.text);
-    const auto at = std::ranges::find_if(
-        facts, [](const std::string& fact) { return fact.starts_with("format "); });
-    return at == facts.end() ? "" : *at;
+Essentials special_of(const Entry& entry) {
+    static const Essentials kPlain = {
+        {Trait::thin_triangle}, key("attachments", "color"), key("attachments", "color+depth"),
+        key("color"),           key("color.clear"),          key("draw.attribute"),
+        key("draw.color.value")};
+    return without(without_numbers_and_samples(keys_of(entry)), kPlain);
 }
 
 // Whether a rule is one of what a colour attachment holds.
@@ -104,27 +96,25 @@ bool is_of_rounding(const Entry& entry) {
 
 // Whether an entry is of its format: it needs another one than the default, or is of rounding.
 bool hangs_on_format(const Entry& entry) {
-    return is_of_rounding(entry) || std::ranges::any_of(entry.needs, [](const std::string& need) {
-               return need.starts_with("not with the format");
-           });
+    return is_of_rounding(entry) || entry.needs_format;
 }
 
-bool has_format_of(const std::set<std::string>& facts, const Entry& entry) {
-    return facts.contains(format_of(entry)) ||
-           std::ranges::any_of(entry.other_formats,
-                               [&](const std::string& format) { return facts.contains(format); });
+bool has_format_of(const Facts& facts, const Entry& entry) {
+    return facts.format &&
+           (facts.format == entry.facts.format || entry.other_formats.contains(*facts.format));
 }
 
-}  // namespace
-
-std::set<std::string> with_implied(std::set<std::string> essentials) {
-    if (essentials.contains("attachments=color+depth")) {
-        essentials.insert("attachments=color");
+// Essentials, and those of simpler cases that show as much: colours beside depth are colours.
+Essentials with_implied(Essentials essentials) {
+    if (essentials.contains(key("attachments", "color+depth"))) {
+        essentials.insert(key("attachments", "color"));
     }
     return essentials;
 }
 
-bool explains(const Entry& entry, const Symptom& symptom, const std::set<std::string>& facts) {
+}  // namespace
+
+bool explains(const Entry& entry, const Symptom& symptom, const Facts& facts) {
     // Whatever is done with colours that are rounded otherwise is wrong as they are (is_of_stored);
     // a reduction would say no more.
     const bool is_of_values = is_value(symptom) || symptom.kind == diff::FindingKind::order;
@@ -133,11 +123,11 @@ bool explains(const Entry& entry, const Symptom& symptom, const std::set<std::st
         has_format_of(facts, entry)) {
         return true;
     }
-    std::set<std::string> words = facts;
-    if (!special_of(entry).empty() && facts.contains("draw.color.attribute")) {
-        words.insert("draw.color.value");  // what writes the colour is not what is special
+    Essentials all = with_implied(facts.essentials);
+    if (!special_of(entry).empty() && all.contains(key("draw.color.attribute"))) {
+        all.insert(key("draw.color.value"));  // what writes the colour is not what is special
     }
-    if (!is_within(entry.essentials, words)) {
+    if (!is_within(entry.essentials, all)) {
         return false;
     }
     if (symptom.status != Status::fail || entry.symptom.status != Status::fail) {
@@ -160,12 +150,12 @@ bool explains(const Entry& entry, const Symptom& symptom, const std::set<std::st
 
 namespace {
 
-// Whether a word says which fragments there are: a state of a draw, not what it writes, nor where
+// Whether a key says which fragments there are: a state of a draw, not what it writes, nor where
 // in a pixel that is evaluated.
-bool decides_hits(const std::string& word) {
-    return word.starts_with("draw.color.alpha_to_coverage") ||
-           (word.starts_with("draw.") && !word.starts_with("draw.attribute") &&
-            !word.starts_with("draw.color") && !word.starts_with("draw.min_sample_shading"));
+bool decides_hits(const Essential& e) {
+    return e.begins("draw.color.alpha_to_coverage") ||
+           (e.begins("draw.") && !e.begins("draw.attribute") && !e.begins("draw.color") &&
+            !e.begins("draw.min_sample_shading"));
 }
 
 // Whether an earlier entry hits too much or too little by something special that the fresh one
@@ -173,38 +163,38 @@ bool decides_hits(const std::string& word) {
 // where a scissor lets fragments through is the scissor's.
 bool is_consequence(const Entry& earlier, const Entry& fresh) {
     // What writes a colour decides no hit.
-    const std::set<std::string> keys = without(keys_of(earlier), {"color", "draw.color.value"});
+    const Essentials keys = without(keys_of(earlier), {key("color"), key("draw.color.value")});
     return !is_value(earlier.symptom) && std::ranges::any_of(keys, decides_hits) &&
            is_within(keys, with_implied(fresh.essentials));
 }
 
 // Whether what is wrong was seen in a colour.
 bool is_of_color(const Entry& entry) {
-    return with_implied(entry.essentials).contains("attachments=color") ||
+    return with_implied(entry.essentials).contains(key("attachments", "color")) ||
            is_color_rule(entry.symptom.rule);
 }
 
 // Whether an entry lacks hits or has too many that are read from a colour that varies, since its
-// case counts none: that may as well be a wrong one. No state may decide them but these words.
-bool is_hit_by_color(const Entry& entry, const std::set<std::string>& but = {}) {
-    const std::set<std::string> words = keys_of(entry);
-    return !is_value(entry.symptom) && with_implied(words).contains("attachments=color") &&
-           std::ranges::any_of(
-               words, [](const std::string& word) { return word.starts_with("draw.color."); }) &&
-           std::ranges::none_of(without(words, but), decides_hits);
+// case counts none: that may as well be a wrong one. No state may decide them but these keys.
+bool is_hit_by_color(const Entry& entry, const Essentials& but = {}) {
+    const Essentials keys = keys_of(entry);
+    return !is_value(entry.symptom) && with_implied(keys).contains(key("attachments", "color")) &&
+           std::ranges::any_of(keys, [](const Essential& e) { return e.begins("draw.color."); }) &&
+           std::ranges::none_of(without(keys, but), decides_hits);
 }
 
 // Whether an earlier entry has wrong values by something special of an attribute or of a colour,
 // and a fresh one has wrong hits by the same that are read from a colour; or the shader discards by
 // an input.
 bool is_of_value(const Entry& earlier, const Entry& fresh) {
-    const std::set<std::string> special = special_of(earlier);
+    const Essentials special = special_of(earlier);
     const bool is_input = std::ranges::all_of(
-        special, [](const std::string& word) { return word.starts_with("draw.attribute."); });
-    std::set<std::string> but = special;
-    but.insert("draw.discard=negative");
+        special, [](const Essential& e) { return e.begins("draw.attribute."); });
+    const Essential discard = key("draw.discard", "negative");
+    Essentials but = special;
+    but.insert(discard);
     const bool is_discard = is_input && !is_value(fresh.symptom) &&
-                            fresh.essentials.contains("draw.discard=negative") &&
+                            fresh.essentials.contains(discard) &&
                             std::ranges::none_of(without(fresh.essentials, but), decides_hits);
     return is_value(earlier.symptom) && !special.empty() &&
            (is_discard ||
@@ -216,16 +206,16 @@ bool is_of_value(const Entry& earlier, const Entry& fresh) {
 // of the fresh one discards by such an input.
 bool is_discard_by_place(const Entry& earlier, const Entry& fresh) {
     constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kPlaces = {
-        {{"interp.sample", "draw.attribute.auxiliary=sample"},
-         {"interp.centroid", "draw.attribute.auxiliary=centroid"}}};
+        {{"interp.sample", "sample"}, {"interp.centroid", "centroid"}}};
     return is_value(earlier.symptom) && fresh.symptom.rule == "discard.value" &&
            fresh.symptom.level >= earlier.symptom.level &&
-           fresh.essentials.contains("draw.discard=negative") &&
-           std::ranges::any_of(kPlaces,
-                               [&](const auto& place) {
-                                   return earlier.symptom.rule == place.first &&
-                                          fresh.essentials.contains(std::string(place.second));
-                               }) &&
+           fresh.essentials.contains(key("draw.discard", "negative")) &&
+           std::ranges::any_of(
+               kPlaces,
+               [&](const auto& place) {
+                   return earlier.symptom.rule == place.first &&
+                          fresh.essentials.contains(key("draw.attribute.auxiliary", place.second));
+               }) &&
            is_within(without(earlier.essentials, kNumbers), fresh.essentials);
 }
 
@@ -240,49 +230,44 @@ bool is_of_stored(const Entry& earlier, const Entry& fresh) {
         !is_told_of_values || !is_of_color(fresh)) {
         return false;
     }
-    const std::set<std::string> special = special_of(earlier);
+    const Essentials special = special_of(earlier);
     if (!special.empty()) {
         return fresh.symptom.level >= earlier.symptom.level && is_within(special, fresh.essentials);
     }
     return is_of_rounding(earlier) && fresh.symptom.level == cases::Profile::direct3d &&
-           format_of(earlier) == format_of(fresh);
+           earlier.facts.format == fresh.facts.format;
 }
 
-// Whether a word is of a test that leaves some samples of a fragment: depth, stencil, masks,
+// Whether a key is of a test that leaves some samples of a fragment: depth, stencil, masks,
 // discards.
-bool takes_samples(const std::string& word) {
+bool takes_samples(const Essential& e) {
     constexpr std::array<std::string_view, 6> kTests = {
         "draw.depth.compare", "draw.depth.bounds", "draw.stencil",
         "draw.sample_mask",   "draw.discard",      "draw.color.alpha_to_coverage"};
-    return std::ranges::any_of(kTests,
-                               [&](std::string_view test) { return word.starts_with(test); });
+    return std::ranges::any_of(kTests, [&](std::string_view test) { return e.begins(test); });
 }
 
 // What an entry needs besides such tests, and how it asks for a centroid; nothing if it has no
 // values at a wrong centroid, or no test moves it.
-std::optional<std::set<std::string>> beside_moved_centroid(const Entry& entry) {
+std::optional<Essentials> beside_moved_centroid(const Entry& entry) {
     const bool is_centroid =
         entry.symptom.rule == "interp.centroid" || entry.symptom.rule == "interp.at-centroid";
-    if (!is_value(entry.symptom) || !is_centroid || !entry.essentials.contains("several samples") ||
+    if (!is_value(entry.symptom) || !is_centroid || !is_within(kSamples, entry.essentials) ||
         std::ranges::none_of(entry.essentials, takes_samples)) {
         return std::nullopt;
     }
-    std::set<std::string> words = special_of(entry);
-    std::erase_if(words, [](const std::string& word) {
-        return takes_samples(word) || word.starts_with("draw.attribute.") ||
-               word == "stencil=true" || word == "depth_clear";
+    Essentials rest = special_of(entry);
+    std::erase_if(rest, [](const Essential& e) {
+        return takes_samples(e) || e.begins("draw.attribute.") || e == key("stencil", "true") ||
+               e == key("depth_clear");
     });
-    return words;
+    return rest;
 }
 
 bool is_of_moved_centroid(const Entry& earlier, const Entry& fresh) {
-    const auto words = beside_moved_centroid(earlier);
-    return words && words == beside_moved_centroid(fresh) &&
+    const auto beside = beside_moved_centroid(earlier);
+    return beside && beside == beside_moved_centroid(fresh) &&
            earlier.symptom.level <= fresh.symptom.level;
-}
-
-bool is_stencil_word(const std::string& word) {
-    return word.starts_with("draw.stencil") || word == "stencil=true";
 }
 
 // Whether two entries show the same state beside a stencil in what the stencil holds: by which rule
@@ -290,65 +275,40 @@ bool is_stencil_word(const std::string& word) {
 // it, too. So are the face whose operations they are, and how depth came to what it is.
 bool is_of_stencil_beside(const Entry& earlier, const Entry& fresh) {
     const auto holds_wrong = [](const Entry& entry) {
-        const bool is_compared =
-            entry.symptom.rule == "stencil.compare" && entry.essentials.contains("several draws");
-        return entry.essentials.contains("stencil=true") &&
+        const bool is_compared = entry.symptom.rule == "stencil.compare" &&
+                                 entry.essentials.contains({Trait::several_draws});
+        return entry.essentials.contains(key("stencil", "true")) &&
                (is_value(entry.symptom) ? entry.symptom.rule.starts_with("stencil.") ||
                                               entry.symptom.rule == "depth.bounds"
                                         : is_compared);
     };
     const auto beside = [](const Entry& entry) {
-        std::set<std::string> words = special_of(entry);
-        std::erase_if(words, [](const std::string& word) {
-            return is_stencil_word(word) || word.starts_with("draw.front_face") ||
-                   word == "depth_clear";
+        Essentials rest = special_of(entry);
+        std::erase_if(rest, [](const Essential& e) {
+            return e.begins("draw.stencil") || e == key("stencil", "true") ||
+                   e.begins("draw.front_face") || e == key("depth_clear");
         });
-        if (words.contains("draw.depth.bounds")) {
-            words.erase("draw.frag_depth");
+        if (rest.contains(key("draw.depth.bounds"))) {
+            rest.erase(key("draw.frag_depth"));
         }
-        return words;
+        return rest;
     };
     return holds_wrong(earlier) && holds_wrong(fresh) &&
            std::ranges::any_of(beside(earlier), decides_hits) && beside(earlier) == beside(fresh) &&
            earlier.symptom.level <= fresh.symptom.level;
 }
 
-// Whether "r -4514752 to -65472, g 0" has a range whose outer end binary16 does not reach, and
-// whose inner end is most of the way there. The largest finite number of binary16 is 65504.
-bool reaches_beyond_half(std::string_view expected) {
-    constexpr double kLargest = 65504;
-    constexpr std::string_view kTo = " to ";
-    for (size_t to = expected.find(kTo); to != std::string_view::npos;
-         to = expected.find(kTo, to + 1)) {
-        const size_t begin = expected.rfind(' ', to - 1) + 1;
-        const double first = std::strtod(std::string(expected.substr(begin)).c_str(), nullptr);
-        const double last =
-            std::strtod(std::string(expected.substr(to + kTo.size())).c_str(), nullptr);
-        const double inner = std::min(std::abs(first), std::abs(last));
-        const double outer = std::max(std::abs(first), std::abs(last));
-        if (first * last > 0 && outer > kLargest && inner >= kLargest / 2) {
-            return true;
-        }
-    }
-    return false;
-}
-
 // Whether what was seen is no number where a colour lies beyond the range of binary16, or may.
 bool is_beyond_half(const Entry& entry) {
-    const size_t got = entry.seen.find(", got ");
-    if (!is_of_color(entry) || got == std::string::npos) {
-        return false;
-    }
-    const std::string found = entry.seen.substr(got);
-    return reaches_beyond_half(std::string_view(entry.seen).substr(0, got)) &&
-           (found.find("NaN") != std::string::npos || found.find("infinity") != std::string::npos);
+    return is_of_color(entry) && entry.overflows;
 }
 
-// "draw.discard" of "draw.discard=front".
-std::set<std::string> names_of(const std::set<std::string>& words) {
-    std::set<std::string> names;
-    for (const std::string& word : words) {
-        names.insert(word.substr(0, word.find('=')));
+// All of them, whatever the words of keys are.
+Essentials names_of(const Essentials& all) {
+    Essentials names;
+    for (Essential e : all) {
+        e.word.clear();
+        names.insert(std::move(e));
     }
     return names;
 }
@@ -359,16 +319,13 @@ bool shows_the_same(const Entry& earlier, const Entry& fresh) {
     if (!(earlier.symptom == fresh.symptom)) {
         return false;
     }
-    const std::set<std::string> special = special_of(earlier);
+    const Essentials special = special_of(earlier);
     const bool is_special = !special.empty() && !special_of(fresh).empty();
     // What is stored wrongly, and not by its rounding, is so in each format of the sort that the
     // rule is of. An attribute may be interpolated wrongly instead.
     const auto is_interpolated = [](const Entry& entry) {
-        // The only attribute may be the same everywhere.
-        const size_t attribute = entry.text.find("[[draw.attribute]]");
-        return entry.essentials.contains("draw.color.attribute") &&
-               (attribute != entry.text.rfind("[[draw.attribute]]") ||
-                entry.text.find("\nconstant = ") == std::string::npos);
+        return entry.essentials.contains(key("draw.color.attribute")) &&
+               entry.facts.has_varying_attribute;
     };
     if (earlier.symptom.rule.starts_with("store.") && !is_of_rounding(earlier) &&
         is_interpolated(earlier) == is_interpolated(fresh) && special.empty() &&
@@ -377,16 +334,13 @@ bool shows_the_same(const Entry& earlier, const Entry& fresh) {
     }
     // Where nothing but colours is needed, a constant and an attribute are two things: one of them
     // is interpolated.
-    const std::set<std::string> keys =
-        is_special ? keys_of(fresh) : without(fresh.essentials, kNumbers);
-    const std::set<std::string> others =
-        is_special ? keys_of(earlier) : without(earlier.essentials, kNumbers);
+    const Essentials keys = is_special ? keys_of(fresh) : without(fresh.essentials, kNumbers);
+    const Essentials others = is_special ? keys_of(earlier) : without(earlier.essentials, kNumbers);
     // All that an earlier one needs, by the same words or of several keys by others, and more.
-    const bool has_all =
-        is_special &&
-        (is_within(special, keys) ||
-         (special.size() >= 2 && is_within(names_of(special), names_of(keys)))) &&
-        (!hangs_on_format(earlier) || has_format_of(facts_of(fresh.text), earlier));
+    const bool has_all = is_special &&
+                         (is_within(special, keys) ||
+                          (special.size() >= 2 && is_within(names_of(special), names_of(keys)))) &&
+                         (!hangs_on_format(earlier) || has_format_of(fresh.facts, earlier));
     const bool is_one_less =
         keys.size() >= 3 && others.size() == keys.size() + 1 && is_within(keys, others);
     return has_all || is_one_less || (keys.size() >= 2 && names_of(keys) == names_of(others));
@@ -404,7 +358,7 @@ bool is_same_cause(const Entry& earlier, const Entry& fresh) {
         return earlier.essentials == fresh.essentials;
     }
     if (is_of_rounding(earlier) && is_of_rounding(fresh) &&
-        format_of(earlier) != format_of(fresh)) {
+        earlier.facts.format != fresh.facts.format) {
         return false;
     }
     // A colour beyond the range may be drawn, masked or cleared to.
@@ -418,8 +372,7 @@ bool is_same_cause(const Entry& earlier, const Entry& fresh) {
     }
     // What is gravest in the fresh one's own reduced case is the earlier one's: what else is wrong
     // there follows from it, since no smaller case shows that without it.
-    if (const std::optional<Symptom> first = parse_symptom(fresh.shown_first);
-        first && explains(earlier, *first, facts_of(fresh.text))) {
+    if (fresh.shown_first && explains(earlier, *fresh.shown_first, fresh.facts)) {
         return true;
     }
     if (is_value(earlier.symptom) != is_value(fresh.symptom)) {
@@ -438,15 +391,16 @@ bool is_same_cause(const Entry& earlier, const Entry& fresh) {
     }
     // Whatever else of its numbers and samples a case needs in which a thin triangle fails is
     // chance: with other numbers another one would.
-    if (earlier.essentials.contains(kThinTriangle) && fresh.essentials.contains(kThinTriangle)) {
-        const std::set<std::string> a = without(earlier.essentials, kThinToo),
-                                    b = without(fresh.essentials, kThinToo);
+    const Essential thin{Trait::thin_triangle};
+    if (earlier.essentials.contains(thin) && fresh.essentials.contains(thin)) {
+        const Essentials a = without_numbers_and_samples(earlier.essentials),
+                         b = without_numbers_and_samples(fresh.essentials);
         return is_within(a, b) || is_within(b, a);
     }
     // What only Direct3D's rules forbid is mostly another thing.
     const bool are_grave =
         std::max(earlier.symptom.level, fresh.symptom.level) <= cases::Profile::practice;
-    const std::set<std::string> keys = without(fresh.essentials, kNumbers);
+    const Essentials keys = without(fresh.essentials, kNumbers);
     return (are_grave || earlier.symptom.level == fresh.symptom.level) &&
            without(earlier.essentials, kNumbers) == keys && !without(keys, kSamples).empty();
 }
@@ -454,11 +408,13 @@ bool is_same_cause(const Entry& earlier, const Entry& fresh) {
 void merge(Entry& earlier, Entry fresh) {
     earlier.also.insert(fresh.also.begin(), fresh.also.end());
     earlier.other_formats.merge(fresh.other_formats);
-    earlier.other_formats.insert(format_of(fresh));
+    if (fresh.facts.format) {
+        earlier.other_formats.insert(*fresh.facts.format);
+    }
     if (earlier.is_known) {
         return;
     }
-    std::set<std::string> both;
+    Essentials both;
     std::set_intersection(earlier.essentials.begin(), earlier.essentials.end(),
                           fresh.essentials.begin(), fresh.essentials.end(),
                           std::inserter(both, both.end()));
@@ -466,7 +422,9 @@ void merge(Entry& earlier, Entry fresh) {
     if (fresh.symptom.level < earlier.symptom.level) {
         fresh.also = std::move(earlier.also);
         fresh.other_formats = std::move(earlier.other_formats);
-        fresh.other_formats.insert(format_of(earlier));
+        if (earlier.facts.format) {
+            fresh.other_formats.insert(*earlier.facts.format);
+        }
         fresh.essentials = std::move(earlier.essentials);
         fresh.count = earlier.count;
         fresh.stale_file = earlier.stale_file.empty() ? earlier.file : earlier.stale_file;

@@ -102,9 +102,7 @@ class EvidenceMaker {
         const cases::SampleId id = cases::sample_at(case_.target, index);
         const ref::SampleExpectation& expected = expectation_.samples[index];
         SampleEvidence e;
-        e.x = id.x;
-        e.y = id.layer * case_.target.height + id.y;
-        e.sample = id.sample;
+        e.at = {id.x, id.layer * case_.target.height + id.y, id.sample};
         e.allowed = hits_text(expected.hits);
         if (explainer_) {
             add_courses(e, index, id);

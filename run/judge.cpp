@@ -31,6 +31,8 @@ bool keep_verdict(CaseRecord& record, const diff::Verdict& verdict, KeepPictures
                     : verdict.ok()         ? Status::pass
                                            : Status::fail;
     record.reason = verdict.error;
+    record.error_kind =
+        verdict.shows_nothing ? report::ErrorKind::shows_nothing : report::ErrorKind::other;
     record.outcome = diff::Outcome(verdict);
     record.outcome.wrong_samples = verdict.count_wrong_samples();
     return pictures == KeepPictures::all ||
@@ -81,7 +83,7 @@ void try_viewport_grid(const cases::Case& c, const ref::Limits& limits,
     }
     for (const cases::Case& kept : ref::on_viewport_grids(c, limits)) {
         ref::Expectation other = ref::expect(kept, limits, verdict.profile);
-        if (diff::compare_to_first(kept, other, capture).ok()) {
+        if (diff::compare(kept, other, capture, diff::Wanted::first_finding).ok()) {
             verdict = diff::compare(kept, other, capture);
             expectation = std::move(other);
             return;
@@ -91,26 +93,26 @@ void try_viewport_grid(const cases::Case& c, const ref::Limits& limits,
 
 }  // namespace
 
-CaseRecord make_record(const cases::Case& c) {
-    CaseRecord record;
-    record.id = c.id;
-    record.file = c.claim.where.file;
-    record.line = c.claim.where.line;
-    record.description = c.claim.description;
-    record.rules = c.claim.rules;
-    record.links = c.claim.links;
-    record.catches = c.claim.catches;
+report::PlannedCase planned_case(const cases::Case& c) {
+    report::PlannedCase planned;
+    planned.id = c.id;
+    planned.file = c.claim.where.file;
+    planned.line = c.claim.where.line;
+    planned.description = c.claim.description;
+    planned.rules = c.claim.rules;
+    planned.links = c.claim.links;
+    planned.catches = c.claim.catches;
     // What a run asks for besides makes no other case of it.
     cases::Case own;
     if (!c.doors.empty()) {
         own = c;
         own.doors.clear();
     }
-    record.content = cases::hex(cases::stable_hash(cases::to_bytes(c.doors.empty() ? c : own), 0));
+    planned.content = cases::hex(cases::stable_hash(cases::to_bytes(c.doors.empty() ? c : own), 0));
     for (const cases::Door door : c.doors) {
-        record.doors.emplace_back(cases::row_of(door).word);
+        planned.doors.emplace_back(cases::row_of(door).word);
     }
-    return record;
+    return planned;
 }
 
 void judge(CaseRecord& record, const cases::Case& filed, const capture::CaptureView& drawn,
@@ -127,11 +129,12 @@ void judge(CaseRecord& record, const cases::Case& filed, const capture::CaptureV
             c.blit ? ref::Expectation{} : ref::expect(c, limits, profile);
         diff::Verdict verdict = c.blit ? diff::compare_blit(c, profile, capture)
                                 : pictures == KeepPictures::symptoms
-                                    ? diff::compare_symptoms(c, expectation, capture)
+                                    ? diff::compare(c, expectation, capture, diff::Wanted::symptoms)
                                     : diff::compare(c, expectation, capture);
         try_viewport_grid(c, limits, capture, expectation, verdict);
         if (verdict.ok() && !c.blit && !c.target.has_instruments &&
             diff::may_stay_clear(c, expectation)) {
+            verdict.shows_nothing = true;
             verdict.error =
                 "every sample may hold the clear colour, so that a black picture would pass; "
                 "choose another colour, or another clear colour";

@@ -22,8 +22,8 @@ namespace run {
 // broken at which level nor by how much.
 enum class KeepPictures { symptoms, none, failed, all };
 
-// The record of a case before it has run: what the file says of it.
-report::CaseRecord make_record(const cases::Case& c);
+// What is known of a case before it has run: what the file says of it.
+report::PlannedCase planned_case(const cases::Case& c);
 
 // What a worker has found besides the capture: in comparing the case's derived renderings with it,
 // one result a derivation, and beside the attachments' memory.

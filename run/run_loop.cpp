@@ -11,10 +11,8 @@
 
 #include "capture/checksum.hpp"
 #include "cases/base/checksum.hpp"
-#include "cases/base/heap.hpp"
 #include "cases/base/parallel.hpp"
 #include "cases/model/derive.hpp"
-#include "report/text/sentences.hpp"
 
 namespace run {
 
@@ -24,13 +22,11 @@ using report::Status;
 
 namespace {
 
-constexpr uint64_t kMaxJudgingBytes = uint64_t{128} << 20;
 constexpr int kProgressMs = 200;
-constexpr uint32_t kRepeatsOfDeath = 10;  // of a batch whose worker died once
 
-std::vector<uint64_t> all_bytes(const std::vector<PlannedCase>& cases) {
+std::vector<uint64_t> all_bytes(const std::vector<Task>& cases) {
     std::vector<uint64_t> bytes;
-    for (const PlannedCase& c : cases) {
+    for (const Task& c : cases) {
         bytes.push_back(capture::capture_bytes(c.data));
     }
     return bytes;
@@ -42,17 +38,20 @@ CaseRecord taken(std::map<size_t, CaseRecord>& from, size_t k) {
     return record;
 }
 
-// A rerun line that draws the case so many times at least.
-std::string repeating(std::string rerun, uint32_t already, uint32_t times) {
-    if (already >= times) {
-        return rerun;
+// Why a drawn case cannot be judged by what its worker sent; empty if it can.
+std::string misfit(const cases::Case& c, const CaseResult& result) {
+    if (result.view.target != c.target) {
+        return "the worker sent an image of another size than the case's target";
     }
-    const std::string old = " --repeat " + std::to_string(already);
-    const size_t at = already > 1 ? rerun.rfind(old) : std::string::npos;
-    if (at != std::string::npos) {
-        rerun.erase(at, old.size());
-    }
-    return rerun + " --repeat " + std::to_string(times);
+    return result.consistency.size() != cases::derivations(c).size()
+               ? "the worker did not compare all of the case's derived renderings"
+               : "";
+}
+
+// A hash of the picture and of what the worker itself has found.
+uint64_t bits_of(const CaseResult& result) {
+    return result.bits ^
+           cases::checksum(static_cast<uint64_t>(FrameType::result), encode_findings(result));
 }
 
 // Of a duration in seconds.
@@ -72,17 +71,35 @@ RunLoop::RunLoop(LoopConfig config, Plan plan, report::Journal* journal, SignalF
       on_record_(std::move(on_record)),
       on_progress_(std::move(on_progress)),
       schedule_(all_bytes(cases_), config_.schedule),
-      pool_(cases::cores()),
-      is_finished_(cases_.size(), false) {
-    if (!config_.judge) {
-        config_.judge = [limits = config_.limits, profile = config_.profile,
-                         pictures = config_.pictures](auto& record, const auto&... drawn) {
-            judge(record, drawn..., limits, profile, pictures);
-        };
-    }
-}
+      judging_(config_.judging),
+      is_finished_(cases_.size(), false) {}
 
 RunLoop::End RunLoop::run(std::vector<WorkerClient> workers, const capture::DeviceInfo& device) {
+    take_up(std::move(workers), device);
+    while (settled_ < cases_.size() && end_.failure.empty() && !is_stopped_) {
+        for (Slot& slot : slots_) {
+            feed(slot);
+        }
+        wait();
+        if (signals_.has_come()) {
+            end_.interrupted = true;
+            break;
+        }
+        for (Slot& slot : slots_) {
+            advance(slot);
+        }
+        judging_.collect();
+        is_stopped_ = !on_progress_(settled_, unconfirmed_.size()) || is_stopped_;
+    }
+    if (!config_.keeps_workers) {  // the system takes a while to free what a worker holds
+        ending_ = cases::beside([slots = std::exchange(slots_, {})]() mutable { slots.clear(); });
+    }
+    end_early();
+    return end_;
+}
+
+// Workers for the slots, and the cases for the schedule, but for those that are not to be drawn.
+void RunLoop::take_up(std::vector<WorkerClient> workers, const capture::DeviceInfo& device) {
     device_ = device;
     config_.worker.device.pinned = device.key;
     if (config_.gpu_budget) {
@@ -93,41 +110,36 @@ RunLoop::End RunLoop::run(std::vector<WorkerClient> workers, const capture::Devi
         slots_[k].client.emplace(std::move(workers[k]));
     }
     for (size_t k = 0; k < cases_.size(); ++k) {
-        const PlannedCase& c = cases_[k];
-        if (!c.error.empty() || (c.expected && skips(*c.expected))) {
-            settle(k, c.error.empty() ? fresh_record(k, Status::skip, c.expected->note)
-                                      : fresh_record(k, Status::error, c.error));
+        const Task& c = cases_[k];
+        if (!c.error.empty()) {
+            settle(k, fresh_record(k, Status::error, c.error));
+        } else if (c.expected && skips(*c.expected)) {
+            settle(k, fresh_record(k, Status::skip, c.expected->note));
         } else if (c.alone) {
             schedule_.add_alone(k);
         } else {
             schedule_.add(k);
         }
     }
-    while (settled_ < cases_.size() && end_.failure.empty() && !is_stopped_) {
-        for (Slot& slot : slots_) {
-            feed(slot);
+}
+
+// Until a worker, a judgement or a signal has something to say, or a time limit is over.
+void RunLoop::wait() const {
+    std::vector<pollfd> fds{{signals_.fd(), POLLIN, 0}, {judging_.fd(), POLLIN, 0}};
+    Clock::time_point next = Clock::now() + std::chrono::milliseconds(kProgressMs);
+    for (const Slot& slot : slots_) {
+        if (slot.client) {
+            slot.client->add_poll(fds);
+            next = std::min(next, slot.client->deadline().value_or(next));
         }
-        std::vector<pollfd> fds{{signals_.fd(), POLLIN, 0}, {pool_.fd(), POLLIN, 0}};
-        for (const Slot& slot : slots_) {
-            if (slot.client) {
-                slot.client->add_poll(fds);
-            }
-        }
-        ::poll(fds.data(), fds.size(), poll_timeout());
-        if (signals_.has_come()) {
-            end_.interrupted = true;
-            break;
-        }
-        for (Slot& slot : slots_) {
-            advance(slot);
-        }
-        pool_.collect();
-        is_stopped_ = !on_progress_(settled_, unconfirmed_.size()) || is_stopped_;
     }
-    if (!config_.keeps_workers) {  // the system takes a while to free what a worker holds
-        ending_ = cases::beside([slots = std::exchange(slots_, {})]() mutable { slots.clear(); });
-    }
-    for (auto& [k, record] : std::exchange(held_, {})) {  // only if the run ends early
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(next - Clock::now());
+    ::poll(fds.data(), fds.size(), static_cast<int>(std::max<int64_t>(left.count(), 0)));
+}
+
+// Settles what a run that ends early has left open.
+void RunLoop::end_early() {
+    for (auto& [k, record] : std::exchange(held_, {})) {
         finish(k, std::move(record));
     }
     for (size_t k = 0; is_stopped_ && k < cases_.size(); ++k) {
@@ -135,7 +147,6 @@ RunLoop::End RunLoop::run(std::vector<WorkerClient> workers, const capture::Devi
             finish(k, fresh_record(k, Status::skip, "the run ended before this case was judged"));
         }
     }
-    return end_;
 }
 
 std::vector<WorkerClient> RunLoop::take_workers() {
@@ -147,17 +158,6 @@ std::vector<WorkerClient> RunLoop::take_workers() {
         }
     }
     return workers;
-}
-
-int RunLoop::poll_timeout() const {
-    Clock::time_point next = Clock::now() + std::chrono::milliseconds(kProgressMs);
-    for (const Slot& slot : slots_) {
-        if (const auto end = slot.client ? slot.client->deadline() : std::nullopt; end) {
-            next = std::min(next, *end);
-        }
-    }
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(next - Clock::now());
-    return static_cast<int>(std::max<int64_t>(left.count(), 0));
 }
 
 void RunLoop::fail(const std::string& why) {
@@ -196,8 +196,7 @@ void RunLoop::feed(Slot& slot) {
     if (slot.is_left_out) {
         return;
     }
-    const bool judging_too_much = judging_bytes_ > kMaxJudgingBytes;
-    if (!slot.batch && !judging_too_much) {
+    if (!slot.batch && !judging_.is_full()) {
         slot.batch = schedule_.next(static_cast<size_t>(&slot - slots_.data()));
         slot.sent = false;
     }
@@ -272,11 +271,37 @@ void RunLoop::on_start_failure(Slot& slot, const std::string& why) {
 }
 
 CaseRecord RunLoop::fresh_record(size_t k, Status status, const std::string& reason) const {
-    CaseRecord record = make_record(cases_[k].data);
+    CaseRecord record = cases_[k].planned;
     record.status = status;
     record.reason = reason;
-    record.rerun = cases_[k].rerun;
-    record.left_out_doors = cases_[k].left_out_doors;
+    return record;
+}
+
+// Of a case that no picture came of.
+CaseRecord RunLoop::undrawn_record(const Slot& slot, size_t k, const Rendered& rendered) const {
+    const bool is_unsupported = rendered.status == Rendered::Status::unsupported;
+    const bool is_lost = rendered.status == Rendered::Status::device_lost;
+    CaseRecord record = fresh_record(k,
+                                     is_unsupported ? Status::unsupported
+                                     : is_lost      ? Status::device_lost
+                                                    : Status::error,
+                                     rendered.reason);
+    record.error_kind = rendered.status == Rendered::Status::not_built
+                            ? report::ErrorKind::not_built
+                            : report::ErrorKind::other;
+    record.drawn.messages = rendered.messages;
+    if (!is_unsupported) {
+        record.death.output = slot.client->output_since_batch();
+    }
+    return record;
+}
+
+// Of a case that was drawn again with other bits.
+CaseRecord RunLoop::flake_record(size_t k) {
+    CaseRecord record = taken(judged_, k);
+    record.reason = fmt::format("rendering {} has other bits than the first, which counted as {}",
+                                schedule_.attempts(k), report::to_string(record.status));
+    record.status = Status::flake;
     return record;
 }
 
@@ -288,10 +313,9 @@ bool RunLoop::is_unexpected(size_t k, const CaseRecord& record) const {
 void RunLoop::on_result(Slot& slot, CaseResult& result) {
     start_pauses_.succeeded();  // not before: who greets and dies is not well
     const size_t k = slot.batch->cases[result.index];
-    Rendered& rendered = result.rendered;
-    const bool drawn = rendered.status == Rendered::Status::drawn;
-    const bool unsupported = rendered.status == Rendered::Status::unsupported;
-    if (!drawn && !unsupported && !slot.batch->fresh) {
+    const Rendered& rendered = result.rendered;
+    const bool is_drawn = rendered.status == Rendered::Status::drawn;
+    if (!is_drawn && rendered.status != Rendered::Status::unsupported && !slot.batch->fresh) {
         if (slot.failure.empty()) {
             slot.failure = rendered.reason;
         }
@@ -299,68 +323,32 @@ void RunLoop::on_result(Slot& slot, CaseResult& result) {
     }
     slot.answered[result.index] = true;
     seconds_[k] += seconds_since(slot.since) / static_cast<double>(slot.answered.size());
-    if (!drawn) {
-        const bool lost = rendered.status == Rendered::Status::device_lost;
-        CaseRecord record = fresh_record(k,
-                                         unsupported ? Status::unsupported
-                                         : lost      ? Status::device_lost
-                                                     : Status::error,
-                                         rendered.reason);
-        record.drawn.messages = rendered.messages;
-        if (!unsupported) {
-            record.death.output = slot.client->output_since_batch();
-        }
-        settle(k, std::move(record));
+    if (!is_drawn) {
+        settle(k, undrawn_record(slot, k, rendered));
         return;
     }
-    if (result.view.target != cases_[k].data.target) {
-        settle(k, fresh_record(k, Status::error,
-                               "the worker sent an image of another size than the case's target"));
+    if (const std::string why = misfit(cases_[k].data, result); !why.empty()) {
+        settle(k, fresh_record(k, Status::error, why));
         return;
     }
-    if (result.consistency.size() != cases::derivations(cases_[k].data).size()) {
-        settle(k, fresh_record(k, Status::error,
-                               "the worker did not compare all of the case's derived renderings"));
-        return;
-    }
-    const uint64_t bits = result.bits ^ cases::checksum(static_cast<uint64_t>(FrameType::result),
-                                                        encode_findings(result));
-    switch (schedule_.drawn(k, bits)) {
-        case Schedule::Drawn::judge: {
-            auto record = std::make_shared<CaseRecord>(fresh_record(k, Status::not_run));
-            record->drawn.messages = rendered.messages;
-            record->drawn.bits = cases::hex(result.bits);
-            const uint64_t bytes = capture::capture_bytes(cases_[k].data);
-            judging_bytes_ += bytes;
-            // It may outlive the loop (abandon_judgements), so all that it uses is its own.
-            pool_.submit(
-                [plan = plan_, k, view = result.view, consistency = std::move(result.consistency),
-                 strays = std::move(rendered.stray_writes), record, judge = config_.judge] {
-                    judge(*record, (*plan)[k].data, view, {consistency, strays});
-                    cases::give_back_memory();
-                },
-                [this, k, bytes, record, keep = result.keep] {
-                    judging_bytes_ -= bytes;
-                    on_judged(k, std::move(*record));
-                });
+    switch (schedule_.drawn(k, bits_of(result))) {
+        case Schedule::Drawn::judge:
+            judge(k, result);
             break;
-        }
         case Schedule::Drawn::same:
             if (schedule_.confirmed(k)) {
                 settle(k, taken(judged_, k));
             }
             break;
-        case Schedule::Drawn::differs: {
-            CaseRecord record = taken(judged_, k);
-            record.reason = "rendering " + std::to_string(schedule_.attempts(k)) +
-                            " has other bits than the first, which counted as " +
-                            std::string(report::to_string(record.status));
-            record.status = Status::flake;
-            record.rerun = repeating(record.rerun, config_.schedule.repeat, schedule_.attempts(k));
-            settle(k, std::move(record));
+        case Schedule::Drawn::differs:
+            settle(k, flake_record(k));
             break;
-        }
     }
+}
+
+void RunLoop::judge(size_t k, CaseResult& result) {
+    judging_.submit({plan_, &cases_[k].data}, std::move(result), fresh_record(k, Status::not_run),
+                    [this, k](CaseRecord record) { on_judged(k, std::move(record)); });
 }
 
 void RunLoop::on_judged(size_t k, CaseRecord record) {
@@ -468,12 +456,8 @@ void RunLoop::charge(CaseRecord& record, const Schedule::Released& death) const 
     record.death.signal = death.signal;
     record.death.step = death.step;
     record.reason = death.unrepeated_death + "; no case of its batch repeated that alone";
-    record.rerun = repeating(record.rerun, config_.schedule.repeat, kRepeatsOfDeath);
     for (const size_t k : death.suspects) {
         record.death.suspects.push_back(cases_[k].data.id);
-        if (k != death.k && !cases_[k].selector.empty()) {
-            record.rerun += " " + cases_[k].selector;
-        }
     }
     if (record.death.suspects.size() > 1) {
         record.reason +=
@@ -488,28 +472,8 @@ void RunLoop::finish(size_t k, CaseRecord record) {
     if (config_.requires_support) {
         require_support(record);
     }
-    if (!record.outcome.findings.empty()) {
-        record.commands.explain =
-            cases_[k].explain +
-            report::sample_options(report::leading_finding(record), cases_[k].data.target);
-    }
-    const bool died = record.status == Status::crash || record.status == Status::timeout ||
-                      record.status == Status::device_lost;
-    const bool is_plain = std::ranges::all_of(record.outcome.groups,
-                                              [](const auto& group) { return group.door.empty(); });
-    const bool is_judged =
-        !died && record.status != Status::flake && !record.outcome.findings.empty();
-    if (is_judged && is_plain && record.rerun == cases_[k].rerun &&
-        !cases_[k].plain_rerun.empty()) {
-        record.rerun = cases_[k].plain_rerun;
-    }
-    if (died || !record.outcome.findings.empty()) {
-        // The program draws the plain picture: what only doors show it would not.
-        const bool is_of_doors =
-            !died && std::ranges::all_of(record.outcome.groups,
-                                         [](const auto& group) { return !group.door.empty(); });
-        record.commands.reproducer = is_of_doors ? "" : cases_[k].reproducer;
-        record.commands.no_reproducer = is_of_doors ? report::kDoorsAlone : cases_[k].no_reproducer;
+    if (config_.add_commands) {
+        config_.add_commands(cases_[k].data, record);
     }
     if (journal_ != nullptr) {
         check(journal_->write_end(record));

@@ -19,8 +19,7 @@
 #include "report/journal/journal.hpp"
 #include "report/record/run.hpp"
 #include "run/expected/expectation_file.hpp"
-#include "run/judge.hpp"
-#include "run/process/pool.hpp"
+#include "run/judging.hpp"
 #include "run/process/signal_fd.hpp"
 #include "run/schedule.hpp"
 #include "run/worker/start_pauses.hpp"
@@ -29,16 +28,12 @@
 namespace run {
 
 // One case of a run.
-struct PlannedCase {
+struct Task {
     cases::Case data;
+    report::PlannedCase planned;  // of it
     std::optional<ExpectationLine> expected;
-    std::vector<std::string> left_out_doors;  // as in report::PlannedCase
-    std::string error;                        // not empty: not rendered, status error
-    bool alone = false;                       // was in flight when an earlier run was cut off
-    std::string selector;                     // names the case in a command line
-    std::string rerun, explain;               // command lines without --pixel
-    std::string plain_rerun;                  // the same without doors
-    std::string reproducer, no_reproducer;    // as in report::CaseRecord
+    std::string error;   // not empty: not rendered, status error
+    bool alone = false;  // was in flight when an earlier run was cut off
 };
 
 struct LoopConfig {
@@ -49,12 +44,11 @@ struct LoopConfig {
     // How long the device may work on one submission; what the batches before took decides how
     // large the next one is. A case alone may take longer.
     std::optional<std::chrono::milliseconds> gpu_budget;
-    cases::Profile profile = cases::Profile::direct3d;
+    JudgingOptions judging;
     bool requires_support = false;  // a case that is not supported counts as failed
     bool keeps_workers = false;     // take_workers() is asked for
-    ref::Limits limits;
-    KeepPictures pictures = KeepPictures::failed;
-    Judge judge = {};  // empty: run::judge with these limits, profile and pictures
+    // Called with each final record before it is written, to add the command lines.
+    std::function<void(const cases::Case& c, report::CaseRecord& record)> add_commands = {};
 };
 
 class RunLoop {
@@ -66,7 +60,7 @@ class RunLoop {
     // because they have failed: whatever comes of that is no expected result. False ends the run as
     // on_record does.
     using OnProgress = std::function<bool(size_t settled, size_t unconfirmed)>;
-    using Plan = std::shared_ptr<const std::vector<PlannedCase>>;
+    using Plan = std::shared_ptr<const std::vector<Task>>;
 
     // Without a journal the records go to `on_record` alone.
     RunLoop(LoopConfig config, Plan plan, report::Journal* journal, SignalFd& signals,
@@ -83,7 +77,7 @@ class RunLoop {
     std::vector<WorkerClient> take_workers();
     // After a run() that has ended early: judgements that go on are not waited for. They may take
     // minutes, of a case that needs rationals; the process ends as Pool::has_abandoned() says.
-    void abandon_judgements() { pool_.abandon(); }
+    void abandon_judgements() { judging_.abandon(); }
 
   private:
     struct Slot {
@@ -97,6 +91,9 @@ class RunLoop {
         std::vector<size_t> without_result() const;  // of the batch
     };
 
+    void take_up(std::vector<WorkerClient> workers, const capture::DeviceInfo& device);
+    void wait() const;
+    void end_early();
     void feed(Slot& slot);
     void start_worker(Slot& slot);
     void advance(Slot& slot);
@@ -105,28 +102,30 @@ class RunLoop {
     void on_batch_done(Slot& slot);
     void on_death(Slot& slot, const Death& death);
     void on_start_failure(Slot& slot, const std::string& why);
+    void judge(size_t k, CaseResult& result);
     void on_judged(size_t k, report::CaseRecord record);
     void settle(size_t k, report::CaseRecord record);
     void charge(report::CaseRecord& record, const Schedule::Released& death) const;
     void finish(size_t k, report::CaseRecord record);
     report::CaseRecord fresh_record(size_t k, report::Status status,
                                     const std::string& reason = {}) const;
+    report::CaseRecord undrawn_record(const Slot& slot, size_t k,
+                                      const capture::Rendered& rendered) const;
+    report::CaseRecord flake_record(size_t k);
     bool is_unexpected(size_t k, const report::CaseRecord& record) const;
     void keep_gpu_budget(const Slot& slot);
-    int poll_timeout() const;
     void check(const cases::Expected<void>& written);
     void fail(const std::string& why);
 
     LoopConfig config_;
     Plan plan_;
-    const std::vector<PlannedCase>& cases_;  // of plan_
+    const std::vector<Task>& cases_;  // of plan_
     report::Journal* journal_;
     SignalFd& signals_;
     OnRecord on_record_;
     OnProgress on_progress_;
     Schedule schedule_;
-    Pool pool_;
-    uint64_t judging_bytes_ = 0;  // captures in the pool
+    Judging judging_;
     std::vector<Slot> slots_;
     std::map<size_t, report::CaseRecord> judged_;  // waiting for more renderings
     std::map<size_t, report::CaseRecord> held_;    // waiting for the rest of a dead batch

@@ -18,12 +18,14 @@ Session::Session(LoopConfig config, WorkerClient first, capture::DeviceInfo devi
 Session::Results Session::draw(std::vector<cases::Case> cases,
                                const std::function<bool(size_t)>& on_progress) {
     Results results;
-    const auto plan = std::make_shared<std::vector<PlannedCase>>(cases.size());
+    const auto plan = std::make_shared<std::vector<Task>>(cases.size());
     std::map<std::string, size_t> index;
     for (size_t k = 0; k < cases.size(); ++k) {
-        results.records.push_back(make_record(cases[k]));
-        index.emplace(cases[k].id, k);
-        (*plan)[k].data = std::move(cases[k]);
+        Task& task = (*plan)[k];
+        task.planned = planned_case(cases[k]);
+        task.data = std::move(cases[k]);
+        results.records.emplace_back(task.planned);
+        index.emplace(task.planned.id, k);
     }
     bool goes_on = true;
     RunLoop loop(
@@ -52,13 +54,13 @@ Session::Pictures Session::pictures(std::vector<cases::Case> cases) {
     for (const cases::Case& c : cases) {
         drawn->emplace(c.id, capture::Drawn());
     }
-    config_.judge = [drawn](report::CaseRecord& record, const cases::Case& c,
-                            const capture::CaptureView& view, const auto&) {
+    config_.judging.judge = [drawn](report::CaseRecord& record, const cases::Case& c,
+                                    const capture::CaptureView& view, const auto&) {
         drawn->at(c.id).picture = capture::copy_of(view);
         record.status = report::Status::pass;
     };
     Results results = draw(std::move(cases));
-    config_.judge = {};
+    config_.judging.judge = {};
     Pictures out{{}, results.interrupted, std::move(results.failure)};
     for (const report::CaseRecord& record : results.records) {
         if (record.status == report::Status::pass) {

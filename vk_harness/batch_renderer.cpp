@@ -117,10 +117,10 @@ Device open_device(const Instance& instance, const Options& options) {
 BatchRenderer::BatchRenderer(const Options& options)
     : instance_(Instance::create(options)),
       device_(open_device(instance_, options)),
-      pipelines_(PipelineCache::create(device_)),
+      pipelines_(device_),
       targets_(device_),
       textures_(device_),
-      submission_(Submission::create(device_)),
+      submission_(device_),
       depth_codes_(device_) {}
 
 BatchRenderer::~BatchRenderer() {
@@ -282,7 +282,7 @@ Buffer& BatchRenderer::write_vertices_of(std::span<CasePlan> plans) {
     for (CasePlan& plan : plans) {
         bytes = place_vertices(plan, bytes);
     }
-    Buffer& vertices = *submission_.vertices(bytes);
+    Buffer& vertices = submission_.vertices(bytes);
     for (const CasePlan& plan : plans) {
         write_vertices(plan, vertices.bytes());
         make_door_buffers(device_, pipelines_, plan, vertices.bytes());
@@ -303,7 +303,7 @@ Buffer& BatchRenderer::make_readback(std::span<CasePlan> plans, bool by_rows, Gu
         }
     }
     bytes = guards.place(bytes);
-    Buffer& readback = *submission_.readback(bytes);
+    Buffer& readback = submission_.readback(bytes);
     poison(readback.bytes().first(bytes));
     readback.flush();
     return readback;
@@ -358,7 +358,7 @@ void BatchRenderer::read_depth_codes(const CasePlan& plan, std::span<const std::
         return;
     }
     if (!asking_) {
-        asking_ = Submission::create(device_);
+        asking_.emplace(device_);
     }
     const auto k = static_cast<size_t>(depth - plan.attachments.begin());
     const std::span words(

@@ -63,40 +63,33 @@ std::optional<Rejection> check_counting(const Capabilities& device, const cases:
     return std::nullopt;
 }
 
-std::optional<Rejection> check_case(const Capabilities& capabilities, const cases::Case& c,
-                                    bool reads_hits) {
+namespace {
+
+void check_all(const Capabilities& capabilities, const cases::Case& c, bool reads_hits) {
     for (const cases::Draw& draw : c.draws) {
-        if (auto rejection = check_draw(capabilities, draw)) {
-            return rejection;
-        }
-        if (auto rejection = check_fragment_size(capabilities.fragment_sizes, draw, c.target)) {
-            return rejection;
-        }
+        check_draw(capabilities, draw);
+        check_fragment_size(capabilities.fragment_sizes, draw, c.target);
         if (draw.other_colors.size() != c.target.other_colors.size()) {
-            return invalid("a draw writes to {} colour targets of {}", draw.other_colors.size() + 1,
-                           c.target.color_count());
+            throw invalid("a draw writes to {} colour targets of {}", draw.other_colors.size() + 1,
+                          c.target.color_count());
         }
         const std::vector<uint32_t> drawn = cases::drawn_attributes(c.target, draw);
         if (std::any_of(drawn.begin(), drawn.end(),
                         [&](uint32_t k) { return k >= draw.attributes.size(); })) {
-            return invalid("a draw's colour comes from an attribute that it does not have");
+            throw invalid("a draw's colour comes from an attribute that it does not have");
         }
     }
-    if (auto rejection = c.blit ? check_blit(capabilities, c) : check_color(capabilities, c)) {
-        return rejection;
-    }
-    if (auto rejection = check_resolve_and_stencil(capabilities, c.target)) {
-        return rejection;
-    }
+    c.blit ? check_blit(capabilities, c) : check_color(capabilities, c);
+    check_resolve_and_stencil(capabilities, c.target);
     if (c.draws.size() >= kMaxId) {
-        return unsupported("the case has {} draws, the harness tells {} apart", c.draws.size(),
-                           kMaxId - 1);
+        throw unsupported("the case has {} draws, the harness tells {} apart", c.draws.size(),
+                          kMaxId - 1);
     }
     const uint32_t most = capabilities.viewport_output || can_have_geometry(capabilities, c)
                               ? capabilities.max_viewports
                               : 1;
     if (const uint32_t viewports = viewport_count(c); viewports > most) {
-        return unsupported(
+        throw unsupported(
             "the case chooses from {} viewports by gl_ViewportIndex, the device from {} (features "
             "multiViewport and shaderOutputViewportIndex)",
             viewports, most);
@@ -104,50 +97,52 @@ std::optional<Rejection> check_case(const Capabilities& capabilities, const case
     const TargetLayout layout = target_layout(capabilities, c);
     for (const cases::Draw& draw : c.draws) {
         if (draw.layer >= c.target.layers) {
-            return invalid("a draw goes to layer {} of {}", draw.layer, c.target.layers);
+            throw invalid("a draw goes to layer {} of {}", draw.layer, c.target.layers);
         }
         const PipelineKey key = pipeline_key(c, draw, layout);
-        if (key.discard_by == cases::DiscardBy::demote && !capabilities.discard.demote) {
-            return unsupported("the device lacks the feature shaderDemoteToHelperInvocation");
-        }
-        if (key.discard_by == cases::DiscardBy::terminate && !capabilities.discard.terminate) {
-            return unsupported("the device lacks the feature shaderTerminateInvocation");
-        }
+        refuse_without(key.discard_by == cases::DiscardBy::demote && !capabilities.discard.demote,
+                       "shaderDemoteToHelperInvocation");
+        refuse_without(
+            key.discard_by == cases::DiscardBy::terminate && !capabilities.discard.terminate,
+            "shaderTerminateInvocation");
         if (shaders::capture_vertex(vertex_variant(key)).empty() ||
             shaders::capture_fragment(fragment_variant(key)).empty()) {
-            return invalid(
+            throw Rejection{
+                Rendered::Status::not_built,
                 "a draw asks for a combination of shader features that no shader was built for; "
-                "put them into different draws");
+                "put them into different draws"};
         }
     }
-    if (auto missing = missing_clip_support(capabilities.clip, c)) {
-        return unsupported("{}", *missing);
-    }
+    refuse(missing_clip_support(capabilities.clip, c));
     // What is cleared by a draw has to be no rounded number, which a depth of D24S8 may be.
     if (c.variation.door == cases::Door::clear_draw && !cases::can_take(c.variation.door, c)) {
-        return unsupported(
+        throw unsupported(
             "the device's depth beside a stencil rounds the clear value, and a draw may round "
             "another way than a clear");
     }
     if (c.variation.door != cases::Door::none) {
-        if (auto missing = missing_door_support(capabilities.doors, c.variation.door)) {
-            return unsupported("{}", *missing);
-        }
-        if (auto closed = closed_by(layout, c.variation.door)) {
-            return unsupported("{}", *closed);
-        }
-        if (auto missing = missing_mesh_layers(capabilities.doors, c)) {
-            return unsupported("{}", *missing);
-        }
-        if (auto missing = missing_images(capabilities, c)) {
-            return unsupported("{}", *missing);
-        }
+        refuse(missing_door_support(capabilities.doors, c.variation.door));
+        refuse(closed_by(layout, c.variation.door));
+        refuse(missing_mesh_layers(capabilities.doors, c));
+        refuse(missing_images(capabilities, c));
     }
-    if (auto rejection = check_target(capabilities, c)) {
-        return rejection;
-    }
+    check_target(capabilities, c);
     // Last, since it says something of the harness, not of the device alone.
-    return reads_hits ? check_counting(capabilities, c, layout) : std::nullopt;
+    if (auto rejection = check_counting(capabilities, c, layout); rejection && reads_hits) {
+        throw *rejection;
+    }
+}
+
+}  // namespace
+
+std::optional<Rejection> check_case(const Capabilities& capabilities, const cases::Case& c,
+                                    bool reads_hits) {
+    try {
+        check_all(capabilities, c, reads_hits);
+        return std::nullopt;
+    } catch (Rejection& rejection) {
+        return std::move(rejection);
+    }
 }
 
 }  // namespace vk_harness

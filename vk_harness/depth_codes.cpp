@@ -58,7 +58,7 @@ DepthCodes::Asking::Asking(const Device& device, const PipelineCache& pipelines,
       codes(Buffer::create(device, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HostAccess::write)),
       read(Buffer::create(device, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, HostAccess::read)),
       sets(make_sets(device, {VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
-                     pipelines.copy_set_layout())) {
+                     pipelines.layouts().copy_set.get())) {
     DescriptorWrites writes;
     writes.add(sets.sets.front(), 0, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
                {VK_NULL_HANDLE, image.view.get(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
@@ -87,10 +87,10 @@ void DepthCodes::Asking::record(const Device& device, const PipelineCache& pipel
                    VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
     const std::array<uint32_t, kCopyConstants> constants = {extent.width, extent.height, 1, 0, 0};
     vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
-    vk.vkCmdPushConstants(commands, pipelines.copy_layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
+    vk.vkCmdPushConstants(commands, pipelines.layouts().copy.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
                           sizeof(constants), constants.data());
-    vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.copy_layout(), 0,
-                               1, sets.sets.data(), 0, nullptr);
+    vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
+                               pipelines.layouts().copy.get(), 0, 1, sets.sets.data(), 0, nullptr);
     vk.vkCmdDispatch(commands, (extent.width + kCopyGroupSize - 1) / kCopyGroupSize,
                      (extent.height + kCopyGroupSize - 1) / kCopyGroupSize, 1);
 }

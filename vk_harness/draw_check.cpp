@@ -20,82 +20,72 @@ bool is_on_finest_grid(float v) {
 }
 
 // A device may snap finer than the reference can follow; Vulkan sets no upper bound.
-std::optional<Rejection> check_grids(const DeviceInfo& device, const cases::Viewport& v) {
+void check_grids(const DeviceInfo& device, const cases::Viewport& v) {
     constexpr const char* kText =
         "the device {} to 2^-{} pixels ({}), and the reference judges grids down to 2^-{}";
     if (device.subpixel_bits > cases::kMostSubpixelBits) {
-        return unsupported(kText, "snaps vertices", device.subpixel_bits, "subPixelPrecisionBits",
-                           cases::kMostSubpixelBits);
+        throw unsupported(kText, "snaps vertices", device.subpixel_bits, "subPixelPrecisionBits",
+                          cases::kMostSubpixelBits);
     }
     // Bounds that are on the grid stay what they are.
     const float bounds[] = {v.x, v.y, v.width, v.height};
     if (device.viewport_subpixel_bits > cases::kMostSubpixelBits &&
         !std::all_of(std::begin(bounds), std::end(bounds), is_on_finest_grid)) {
-        return unsupported(kText, "keeps viewports", device.viewport_subpixel_bits,
-                           "viewportSubPixelBits", cases::kMostSubpixelBits);
+        throw unsupported(kText, "keeps viewports", device.viewport_subpixel_bits,
+                          "viewportSubPixelBits", cases::kMostSubpixelBits);
     }
-    return std::nullopt;
 }
 
-std::optional<Rejection> check_viewport(const Capabilities& c, const cases::Viewport& v) {
+void check_viewport(const Capabilities& c, const cases::Viewport& v) {
     const float height = std::abs(v.height);
     for (const float value : {v.x, v.y, v.width, v.height, v.min_depth, v.max_depth}) {
         if (!std::isfinite(value)) {
-            return invalid("the viewport has a number that is not finite");
+            throw invalid("the viewport has a number that is not finite");
         }
     }
     if (!(v.width > 0.0F) || v.min_depth < 0.0F || v.min_depth > 1.0F || v.max_depth < 0.0F ||
         v.max_depth > 1.0F) {
-        return invalid("the viewport's width must be positive and its depths lie in [0, 1]");
+        throw invalid("the viewport's width must be positive and its depths lie in [0, 1]");
     }
     const auto max_width = static_cast<float>(c.limits.maxViewportDimensions[0]);
     const auto max_height = static_cast<float>(c.limits.maxViewportDimensions[1]);
     if (v.width > max_width || height > max_height) {
-        return unsupported("the viewport has {} x {} pixels, the device allows {} x {}", v.width,
-                           height, max_width, max_height);
+        throw unsupported("the viewport has {} x {} pixels, the device allows {} x {}", v.width,
+                          height, max_width, max_height);
     }
     const float low = c.limits.viewportBoundsRange[0];
     const float high = c.limits.viewportBoundsRange[1];
     const float ends[] = {v.x, v.y, v.x + v.width, v.y + v.height};
     if (std::any_of(std::begin(ends), std::end(ends),
                     [low, high](float end) { return !(end >= low && end <= high); })) {
-        return unsupported("the viewport leaves the device's range of {} to {} pixels", low, high);
+        throw unsupported("the viewport leaves the device's range of {} to {} pixels", low, high);
     }
-    return check_grids(c.info, v);
+    check_grids(c.info, v);
 }
 
-std::optional<Rejection> check_depth(const Capabilities& c, const cases::DepthState& depth) {
+void check_depth(const Capabilities& c, const cases::DepthState& depth) {
     const bool clamps_bias = depth.bias && std::abs(depth.bias->clamp) > 0.0F;
     for (const auto& [lacks, feature] :
          {std::pair(depth.clamp && !c.depth_clamp, "depthClamp"),
           {depth.clip && !c.depth_clip_enable, "depthClipEnable of VK_EXT_depth_clip_enable"},
           {clamps_bias && !c.depth_bias_clamp, "depthBiasClamp"},
           {depth.bounds && !c.depth_bounds, "depthBounds"}}) {
-        if (lacks) {
-            return unsupported("the device lacks the feature {}", feature);
-        }
+        refuse_without(lacks, feature);
     }
     if (depth.bias) {
-        if (auto missing = missing_depth_bias_support(c.depth_bias, *depth.bias)) {
-            return unsupported("{}", *missing);
-        }
+        refuse(missing_depth_bias_support(c.depth_bias, *depth.bias));
     }
-    return std::nullopt;
 }
 
 // What an attribute asks of the fragment stage.
-std::optional<Rejection> check_attribute(const Capabilities& c, const cases::Draw& draw,
-                                         const cases::Attribute& a) {
+void check_attribute(const Capabilities& c, const cases::Draw& draw, const cases::Attribute& a) {
     const size_t vertices = draw.positions.size();
     if (a.source == cases::Source::vertex && a.values.size() != vertices) {
-        return invalid("attribute '{}' has {} values for {} vertices", a.name, a.values.size(),
-                       vertices);
+        throw invalid("attribute '{}' has {} values for {} vertices", a.name, a.values.size(),
+                      vertices);
     }
-    if (a.source == cases::Source::barycentric && !c.barycentrics) {
-        return unsupported(
-            "the device lacks the feature fragmentShaderBarycentric "
-            "(VK_KHR_fragment_shader_barycentric)");
-    }
+    refuse_without(a.source == cases::Source::barycentric && !c.barycentrics,
+                   "fragmentShaderBarycentric (VK_KHR_fragment_shader_barycentric)");
     const bool is_derivative = a.probe >= cases::Probe::dx && a.probe <= cases::Probe::width_coarse;
     const bool is_at = a.probe >= cases::Probe::at_centroid && a.probe <= cases::Probe::at_offset;
     // The shader that takes derivatives has interpolateAt* too.
@@ -103,152 +93,125 @@ std::optional<Rejection> check_attribute(const Capabilities& c, const cases::Dra
                                    a.source == cases::Source::sample_id ||
                                    a.source == cases::Source::sample_position || is_derivative ||
                                    is_at || a.probe == cases::Probe::lod;
-    if (needs_sample_rate && !c.has_sample_shading) {
-        return unsupported("the device lacks the feature sampleRateShading");
-    }
-    if ((is_derivative || is_at || a.probe == cases::Probe::lod) &&
-        !c.portability.interpolation_functions) {
-        return unsupported(
-            "the device lacks the feature shaderSampleRateInterpolationFunctions "
-            "(VK_KHR_portability_subset)");
-    }
+    refuse_without(needs_sample_rate && !c.has_sample_shading, "sampleRateShading");
+    refuse_without((is_derivative || is_at || a.probe == cases::Probe::lod) &&
+                       !c.portability.interpolation_functions,
+                   "shaderSampleRateInterpolationFunctions (VK_KHR_portability_subset)");
     for (const float offset : a.probe_offset) {
         // Beyond the range the position is undefined; a device's range may end at 0.
         if (a.probe == cases::Probe::at_offset && !(offset >= c.limits.minInterpolationOffset &&
                                                     offset <= c.limits.maxInterpolationOffset)) {
-            return unsupported(
+            throw unsupported(
                 "interpolateAtOffset by {} pixels leaves the device's range of {} to {}", offset,
                 c.limits.minInterpolationOffset, c.limits.maxInterpolationOffset);
         }
     }
     for (const uint32_t side : a.texture_size) {
         if (a.probe == cases::Probe::lod && side > c.limits.maxImageDimension2D) {
-            return unsupported("a texture of {} texels a side exceeds the device's {}", side,
-                               c.limits.maxImageDimension2D);
+            throw unsupported("a texture of {} texels a side exceeds the device's {}", side,
+                              c.limits.maxImageDimension2D);
         }
     }
-    return std::nullopt;
 }
 
-std::optional<Rejection> check_conservative(const Capabilities& device, const cases::Draw& draw) {
+void check_conservative(const Capabilities& device, const cases::Draw& draw) {
     using enum cases::Conservative;
     if (draw.conservative == none) {
-        return std::nullopt;
+        return;
     }
     if (!device.has_conservative) {
-        return unsupported("the device lacks VK_EXT_conservative_rasterization");
+        throw unsupported("the device lacks VK_EXT_conservative_rasterization");
     }
     if (draw.conservative == underestimate && !device.has_underestimation) {
-        return unsupported("the device does not underestimate (primitiveUnderestimation)");
+        throw unsupported("the device does not underestimate (primitiveUnderestimation)");
     }
     if (!(draw.conservative_extra <= device.most_overestimation)) {
-        return unsupported(
+        throw unsupported(
             "the draw enlarges its triangles by {} pixels, the device allows {} "
             "(maxExtraPrimitiveOverestimationSize)",
             draw.conservative_extra, device.most_overestimation);
     }
-    return std::nullopt;
 }
 
 }  // namespace
 
-std::optional<Rejection> check_draw(const Capabilities& c, const cases::Draw& draw) {
-    if (auto rejection = check_viewport(c, draw.viewport)) {
-        return rejection;
-    }
+void check_draw(const Capabilities& c, const cases::Draw& draw) {
+    check_viewport(c, draw.viewport);
     const cases::Rect& s = draw.scissor;
     constexpr int64_t kMax = 0x7fffffff;
     if (s.x < 0 || s.y < 0 || int64_t{s.x} + s.width > kMax || int64_t{s.y} + s.height > kMax) {
-        return invalid("the scissor must begin at 0 or later and end below 2^31");
+        throw invalid("the scissor must begin at 0 or later and end below 2^31");
     }
-    if (draw.topology == cases::Topology::triangle_fan && !c.portability.triangle_fans) {
-        return unsupported("the device lacks the feature triangleFans");
-    }
+    refuse_without(draw.topology == cases::Topology::triangle_fan && !c.portability.triangle_fans,
+                   "triangleFans");
     const std::optional<float> shading = draw.multisample.min_sample_shading;
     if (shading && (!(*shading >= 0.0F) || *shading > 1.0F)) {
-        return invalid("the fraction of samples that is shaded at least must lie in [0, 1]");
+        throw invalid("the fraction of samples that is shaded at least must lie in [0, 1]");
     }
-    if (shading && !c.has_sample_shading) {
-        return unsupported("the device lacks the feature sampleRateShading");
-    }
+    refuse_without(shading && !c.has_sample_shading, "sampleRateShading");
     if (draw.attributes.size() > cases::kMaxAttributes) {
-        return invalid("a draw has {} attributes, at most {} are allowed", draw.attributes.size(),
-                       cases::kMaxAttributes);
+        throw invalid("a draw has {} attributes, at most {} are allowed", draw.attributes.size(),
+                      cases::kMaxAttributes);
     }
-    if (draw.query == cases::Query::occlusion_precise && !c.precise_queries) {
-        return unsupported("the device lacks the feature occlusionQueryPrecise");
-    }
-    if (cases::is_statistic(draw.query) && !c.pipeline_statistics) {
-        return unsupported("the device lacks the feature pipelineStatisticsQuery");
-    }
-    if (auto rejection = check_conservative(c, draw)) {
-        return rejection;
-    }
-    if (auto rejection = check_depth(c, draw.depth)) {
-        return rejection;
-    }
+    refuse_without(draw.query == cases::Query::occlusion_precise && !c.precise_queries,
+                   "occlusionQueryPrecise");
+    refuse_without(cases::is_statistic(draw.query) && !c.pipeline_statistics,
+                   "pipelineStatisticsQuery");
+    check_conservative(c, draw);
+    check_depth(c, draw.depth);
     const size_t vertices = draw.positions.size();
     for (const cases::Attribute& attribute : draw.attributes) {
-        if (auto rejection = check_attribute(c, draw, attribute)) {
-            return rejection;
-        }
+        check_attribute(c, draw, attribute);
     }
     for (const auto& [count, distances] :
          {std::pair(draw.distances.clip_count, &draw.distances.clip),
           std::pair(draw.distances.cull_count, &draw.distances.cull)}) {
         if (count > 4 || distances->size() != (count > 0 ? vertices : 0)) {
-            return invalid("{} distances a vertex have values at {} of {} vertices", count,
-                           distances->size(), vertices);
+            throw invalid("{} distances a vertex have values at {} of {} vertices", count,
+                          distances->size(), vertices);
         }
     }
     const size_t elements = draw.indices ? draw.indices->size() : vertices;
     if (vertices >= kMaxId || elements >= kMaxId) {
-        return unsupported("a draw has {} vertices, the harness tells {} apart",
-                           std::max(vertices, elements), kMaxId - 1);
+        throw unsupported("a draw has {} vertices, the harness tells {} apart",
+                          std::max(vertices, elements), kMaxId - 1);
     }
     if (draw.primitive_restart && !draw.indices) {
-        return invalid("primitive restart needs indices");
+        throw invalid("primitive restart needs indices");
     }
-    if (draw.primitive_restart && draw.topology == cases::Topology::triangle_list &&
-        !c.list_restart) {
-        return unsupported(
-            "the device lacks the feature primitiveTopologyListRestart "
-            "(VK_EXT_primitive_topology_list_restart)");
-    }
+    refuse_without(draw.primitive_restart && draw.topology == cases::Topology::triangle_list &&
+                       !c.list_restart,
+                   "primitiveTopologyListRestart (VK_EXT_primitive_topology_list_restart)");
     if (draw.indices) {
         for (const uint32_t index : *draw.indices) {
             const bool restart = draw.primitive_restart && index == cases::kRestartIndex;
             if (!restart && index >= vertices) {
-                return invalid("index {} is beyond the {} vertices of its draw", index, vertices);
+                throw invalid("index {} is beyond the {} vertices of its draw", index, vertices);
             }
         }
     }
-    return std::nullopt;
 }
 
 // "If any of the following conditions are met", fragments have one pixel (Vulkan specification,
 // "Combining the Fragment Shading Rates"); those that a case may meet, with what a device may have
 // against it.
-std::optional<Rejection> check_fragment_size(const FragmentSizeSupport& device,
-                                             const cases::Draw& draw, const cases::Target& target) {
+void check_fragment_size(const FragmentSizeSupport& device, const cases::Draw& draw,
+                         const cases::Target& target) {
     if (!cases::asks_shading_rate(draw)) {
-        return std::nullopt;
+        return;
     }
-    if (!device.is_supported) {
-        return unsupported(
-            "the device lacks the feature pipelineFragmentShadingRate "
-            "(VK_KHR_fragment_shading_rate)");
-    }
+    refuse_without(!device.is_supported,
+                   "pipelineFragmentShadingRate (VK_KHR_fragment_shading_rate)");
     if (!device.has(draw.fragment_size, target.samples)) {
-        return unsupported("the device has no fragments of {} x {} pixels at sample count {}",
-                           draw.fragment_size[0], draw.fragment_size[1], target.samples);
+        throw unsupported("the device has no fragments of {} x {} pixels at sample count {}",
+                          draw.fragment_size[0], draw.fragment_size[1], target.samples);
     }
     if (!cases::has_large_fragments(draw)) {
-        return std::nullopt;
+        return;
     }
     const uint32_t all = (1U << target.samples) - 1;
     if ((draw.multisample.sample_mask & all) != all && !device.with_sample_mask) {
-        return unsupported(
+        throw unsupported(
             "the device has fragments of one pixel where a sample mask is used "
             "(fragmentShadingRateWithSampleMask)");
     }
@@ -256,11 +219,10 @@ std::optional<Rejection> check_fragment_size(const FragmentSizeSupport& device,
         return a.source == cases::Source::sample_mask_in;
     });
     if (has_mask && !device.with_shader_mask) {
-        return unsupported(
+        throw unsupported(
             "the device has fragments of one pixel where the shader reads gl_SampleMaskIn "
             "(fragmentShadingRateWithShaderSampleMask)");
     }
-    return std::nullopt;
 }
 
 }  // namespace vk_harness

@@ -119,11 +119,11 @@ std::optional<Rejection> Planner::plan(CasePlan& plan) const {
     }
     plan.attachments = attachments_of(test, layout);
     if (test.blit) {
-        plan.blit = std::make_shared<BlitImages>(BlitImages::create(*device_, test));
+        plan.blit = std::make_shared<BlitImages>(*device_, test);
         return std::nullopt;
     }
     if (cases::asks_queries(test)) {
-        plan.queries = std::make_shared<Queries>(Queries::create(*device_, test));
+        plan.queries = std::make_shared<Queries>(*device_, test);
     }
     plan.images = targets_->get(test.target, plan.attachments, image_way(test));
     if (auto closed = closed_door(plan, layout)) {

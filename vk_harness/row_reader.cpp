@@ -68,7 +68,7 @@ void read_rows(const Device& device, Submission& submission, const CasePlan& pla
         cases::Target band = target;
         band.height = rows.count;
         const ReadbackLayout layout = make_layout(band, group, 0, alignment);
-        Buffer& buffer = *submission.readback(layout.end);
+        Buffer& buffer = submission.readback(layout.end);
         poison(buffer.bytes().first(layout.end));
         buffer.flush();
         const VkCommandBuffer commands = submission.begin();

@@ -16,29 +16,29 @@ namespace vk_harness {
 namespace {
 
 // Where the device puts the samples has to be known.
-std::optional<Rejection> check_locations(const Capabilities& c, const cases::Target& t) {
+void check_locations(const Capabilities& c, const cases::Target& t) {
     if (t.sample_locations.empty()) {
         const bool is_told = std::ranges::any_of(
             c.told_locations,
             [&](const cases::SampleLocations& own) { return own.size() == t.samples; });
         if (t.samples > 1 && !is_told && !c.info.sample_locations_error.empty()) {
-            return invalid("{}", c.info.sample_locations_error);
+            throw invalid("{}", c.info.sample_locations_error);
         }
         if (t.samples > 1 && !c.has_standard_locations && !is_told) {
-            return unsupported(
+            throw unsupported(
                 "the device does not promise the standard sample locations, and does not tell its "
                 "own at sample count {} by gl_SamplePosition, in sixteenths of a pixel, alike in "
                 "every pixel",
                 t.samples);
         }
-        return std::nullopt;
+        return;
     }
     if (t.sample_locations.size() != t.samples) {
-        return invalid("the target has {} sample locations for {} samples",
-                       t.sample_locations.size(), t.samples);
+        throw invalid("the target has {} sample locations for {} samples",
+                      t.sample_locations.size(), t.samples);
     }
     if ((c.location_counts & t.samples) == 0) {
-        return unsupported(
+        throw unsupported(
             "the device does not take sample locations at sample count {} "
             "(VK_EXT_sample_locations)",
             t.samples);
@@ -47,18 +47,17 @@ std::optional<Rejection> check_locations(const Capabilities& c, const cases::Tar
         for (const uint8_t sixteenths : location) {
             const float at = static_cast<float>(sixteenths) / 16.0F;
             if (at < c.location_range[0] || at > c.location_range[1]) {
-                return unsupported(
+                throw unsupported(
                     "the sample location {}/16 is outside the device's range of {} to {} pixels",
                     sixteenths, c.location_range[0], c.location_range[1]);
             }
         }
     }
-    return std::nullopt;
 }
 
-std::optional<Rejection> check_depth_format(const Capabilities& c, const cases::Target& t) {
+void check_depth_format(const Capabilities& c, const cases::Target& t) {
     if (t.depth_format == cases::DepthFormat::d32_float) {
-        return std::nullopt;
+        return;
     }
     const std::string_view name = t.has_stencil ? row_of(t.depth_format).with_stencil_name
                                                 : row_of(t.depth_format).vulkan_name;
@@ -66,18 +65,17 @@ std::optional<Rejection> check_depth_format(const Capabilities& c, const cases::
     const VkSampleCountFlags counts =
         t.has_stencil ? t.samples : c.depth_sample_counts.at(static_cast<size_t>(t.depth_format));
     if (counts == 0) {
-        return unsupported("the device cannot draw to and read back format {}", name);
+        throw unsupported("the device cannot draw to and read back format {}", name);
     }
     if (t.samples > 1 && t.depth_format == cases::DepthFormat::d24_unorm &&
         !can_ask_codes(c, t.has_stencil ? depth_stencil_format(t.depth_format)
                                         : depth_format(t.depth_format))) {
-        return unsupported("single samples of {} cannot be read exactly", name);
+        throw unsupported("single samples of {} cannot be read exactly", name);
     }
     if ((counts & t.samples) == 0) {
-        return unsupported("the device does not draw {} samples a pixel with format {}", t.samples,
-                           name);
+        throw unsupported("the device does not draw {} samples a pixel with format {}", t.samples,
+                          name);
     }
-    return std::nullopt;
 }
 
 // Whether a colour is blended by the constant's alpha.
@@ -97,8 +95,7 @@ bool is_reinterpreted(cases::ColorFormat format) {
 }
 
 // A colour target's format, as an attachment, blended where a draw blends, read back.
-std::optional<Rejection> check_color_format(const Capabilities& c, const cases::Case& test,
-                                            uint32_t location) {
+void check_color_format(const Capabilities& c, const cases::Case& test, uint32_t location) {
     const cases::ColorTarget& color = test.target.color_at(location);
     const auto any_output = [&](const auto& is) {
         return std::any_of(test.draws.begin(), test.draws.end(), [&](const cases::Draw& draw) {
@@ -107,16 +104,14 @@ std::optional<Rejection> check_color_format(const Capabilities& c, const cases::
     };
     const bool blends = any_output([](const auto& output) { return output.blend.has_value(); });
     if (blends && is_integer(color.format)) {
-        return invalid("a target of integers is blended");
+        throw invalid("a target of integers is blended");
     }
     const bool multisampled = test.target.samples > 1;
-    if (blends && !c.portability.constant_alpha_factors && any_output(names_constant_alpha)) {
-        return unsupported(
-            "the device lacks the feature constantAlphaColorBlendFactors "
-            "(VK_KHR_portability_subset)");
-    }
+    refuse_without(
+        blends && !c.portability.constant_alpha_factors && any_output(names_constant_alpha),
+        "constantAlphaColorBlendFactors (VK_KHR_portability_subset)");
     if (multisampled && !c.portability.view_reinterpretation && is_reinterpreted(color.format)) {
-        return unsupported(
+        throw unsupported(
             "single samples of {} cannot be read without the feature "
             "imageViewFormatReinterpretation (VK_KHR_portability_subset)",
             cases::name_of(color.format));
@@ -127,22 +122,21 @@ std::optional<Rejection> check_color_format(const Capabilities& c, const cases::
         (multisampled ? VkFormatFeatureFlags{VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT}
                       : VkFormatFeatureFlags{VK_FORMAT_FEATURE_TRANSFER_SRC_BIT});
     if (!has_features(c, to_vulkan(color.format), needed)) {
-        return unsupported("the device does not draw{} to the colour format {}",
-                           blends ? " and blend" : "", cases::name_of(color.format));
+        throw unsupported("the device does not draw{} to the colour format {}",
+                          blends ? " and blend" : "", cases::name_of(color.format));
     }
     const ImageLimits image =
         image_limits(c.physical, to_vulkan(color.format), color_usage(test.target.samples),
                      color_flags(test.target.samples));
     if (image.failed != VK_SUCCESS) {
-        return invalid("{}", failed_query(image.failed));
+        throw invalid("{}", failed_query(image.failed));
     }
     if ((image.samples & test.target.samples) == 0 || image.width < test.target.width ||
         image.height < test.target.height || image.layers < test.target.layers) {
-        return unsupported("the device has no {} x {} target of format {} with {} samples",
-                           test.target.width, test.target.height, cases::name_of(color.format),
-                           test.target.samples);
+        throw unsupported("the device has no {} x {} target of format {} with {} samples",
+                          test.target.width, test.target.height, cases::name_of(color.format),
+                          test.target.samples);
     }
-    return std::nullopt;
 }
 
 }  // namespace
@@ -151,115 +145,100 @@ bool can_have_geometry(const Capabilities& c, const cases::Case& test) {
     return c.doors.geometry && cases::can_take(cases::Door::geometry, test);
 }
 
-std::optional<Rejection> check_target(const Capabilities& c, const cases::Case& test) {
+void check_target(const Capabilities& c, const cases::Case& test) {
     const cases::Target& t = test.target;
     if (t.width == 0 || t.height == 0) {
-        return invalid("the target has no pixels");
+        throw invalid("the target has no pixels");
     }
     if (t.width > c.max_width || t.height > c.max_height) {
-        return unsupported("the target has {} x {} pixels, the device allows {} x {}", t.width,
-                           t.height, c.max_width, c.max_height);
+        throw unsupported("the target has {} x {} pixels, the device allows {} x {}", t.width,
+                          t.height, c.max_width, c.max_height);
     }
     if (t.layers == 0 ||
         (t.layers > 1 && (capture::resolves_color(t) || capture::resolves_depth(t)))) {
-        return invalid("a target has at least one layer, and one that is resolved only one");
+        throw invalid("a target has at least one layer, and one that is resolved only one");
     }
     if (t.layers > c.max_layers) {
-        return unsupported("the target has {} layers, the device allows {} (maxFramebufferLayers)",
-                           t.layers, c.max_layers);
+        throw unsupported("the target has {} layers, the device allows {} (maxFramebufferLayers)",
+                          t.layers, c.max_layers);
     }
     if (t.layers > 1 && t.samples > 1 && !c.portability.multisampled_arrays) {
-        return unsupported(
+        throw unsupported(
             "the device lacks the feature multisampleArrayImage (VK_KHR_portability_subset)");
     }
     if (names_layers(test) && !c.layer_output && !can_have_geometry(c, test)) {
-        return unsupported(
+        throw unsupported(
             "the device lacks the feature shaderOutputLayer, by which a vertex shader chooses the "
             "layer");
     }
     if (t.samples == 0 || t.samples > 64 || (t.samples & (t.samples - 1)) != 0) {
-        return invalid("{} samples a pixel is not a power of two up to 64", t.samples);
+        throw invalid("{} samples a pixel is not a power of two up to 64", t.samples);
     }
     if ((c.sample_counts & t.samples) == 0) {
-        return unsupported("the device does not draw {} samples a pixel", t.samples);
+        throw unsupported("the device does not draw {} samples a pixel", t.samples);
     }
-    if (auto rejection = check_depth_format(c, t)) {
-        return rejection;
-    }
-    if (auto rejection = check_locations(c, t)) {
-        return rejection;
-    }
+    check_depth_format(c, t);
+    check_locations(c, t);
     const std::vector<Attachment> attachments = attachments_of(test, target_layout(c, test));
     if (attachments.empty()) {
-        return invalid("the target has no attachments");
+        throw invalid("the target has no attachments");
     }
     const uint32_t colors = color_count(attachments);
     if (colors > c.info.max_color_attachments) {
-        return unsupported("the case needs {} colour attachments, the device has {}", colors,
-                           c.info.max_color_attachments);
+        throw unsupported("the case needs {} colour attachments, the device has {}", colors,
+                          c.info.max_color_attachments);
     }
     const VkDeviceSize words = VkDeviceSize{t.width} * t.rows() * t.samples;
     if (t.samples > 1 && words * 16 > c.limits.maxStorageBufferRange) {
-        return unsupported(
+        throw unsupported(
             "reading {} samples singly exceeds the device's storage buffer range of {} bytes",
             words, c.limits.maxStorageBufferRange);
     }
     if (words * 16 > c.max_allocation) {
-        return unsupported(
-            "an attachment of {} bytes exceeds the device's largest allocation of {}", words * 16,
-            c.max_allocation);
+        throw unsupported("an attachment of {} bytes exceeds the device's largest allocation of {}",
+                          words * 16, c.max_allocation);
     }
     const VkDeviceSize needed = attachment_bytes(t, attachments);
     if (needed > c.total_memory) {
-        return unsupported("the attachments take {} bytes, the device has {}", needed,
-                           c.total_memory);
+        throw unsupported("the attachments take {} bytes, the device has {}", needed,
+                          c.total_memory);
     }
-    return std::nullopt;
 }
 
 // Colour targets, and what draws do to them.
-std::optional<Rejection> check_color(const Capabilities& c, const cases::Case& test) {
+void check_color(const Capabilities& c, const cases::Case& test) {
     if (!test.target.color) {
-        return std::nullopt;
+        return;
     }
     const bool operates = std::any_of(test.draws.begin(), test.draws.end(), [](const auto& draw) {
         return draw.color.logic.has_value();
     });
-    if (operates && !c.logic_op) {
-        return unsupported("the device lacks the feature logicOp");
-    }
+    refuse_without(operates && !c.logic_op, "logicOp");
     if (operates && test.target.has_instruments) {
-        return invalid("a logical operation switches off the blending that counts hits");
+        throw invalid("a logical operation switches off the blending that counts hits");
     }
     const bool takes_second = std::any_of(test.draws.begin(), test.draws.end(), [](const auto& d) {
         return d.color.blend && cases::takes_second(*d.color.blend);
     });
-    if (takes_second && !c.dual_source) {
-        return unsupported("the device lacks the feature dualSrcBlend");
-    }
+    refuse_without(takes_second && !c.dual_source, "dualSrcBlend");
     if (takes_second && test.target.has_instruments) {
-        return invalid("a second source is blended beside the attachments that count hits");
+        throw invalid("a second source is blended beside the attachments that count hits");
     }
     const bool is_one = std::any_of(test.draws.begin(), test.draws.end(),
                                     [](const auto& draw) { return draw.color.alpha_to_one; });
-    if (is_one && !c.alpha_to_one) {
-        return unsupported("the device lacks the feature alphaToOne");
-    }
+    refuse_without(is_one && !c.alpha_to_one, "alphaToOne");
     if (is_one && test.target.has_instruments) {
-        return invalid("alpha to one changes the attachments that tell of fragments");
+        throw invalid("alpha to one changes the attachments that tell of fragments");
     }
     const bool takes_samples =
         std::any_of(test.draws.begin(), test.draws.end(),
                     [](const auto& draw) { return draw.color.alpha_to_coverage; });
     if (takes_samples && test.target.has_instruments) {
-        return invalid("alpha to coverage takes the alpha of what tells of fragments");
+        throw invalid("alpha to coverage takes the alpha of what tells of fragments");
     }
     for (uint32_t location = 0; location < test.target.color_count(); ++location) {
-        if (auto rejection = check_color_format(c, test, location)) {
-            return rejection;
-        }
+        check_color_format(c, test, location);
     }
-    return std::nullopt;
 }
 
 }  // namespace vk_harness

@@ -4,8 +4,6 @@
 // What of a case's target a device cannot have.
 #pragma once
 
-#include <optional>
-
 #include "vk_harness/device/capabilities.hpp"
 #include "vk_harness/device/rejection.hpp"
 
@@ -14,9 +12,9 @@ namespace vk_harness {
 // Whether a geometry shader can hand on the case's triangles, and name their layers and viewports.
 bool can_have_geometry(const Capabilities& c, const cases::Case& test);
 
-// Why the device cannot have the target's size, samples, layers and depth; nothing if it can.
-std::optional<Rejection> check_target(const Capabilities& c, const cases::Case& test);
+// Throws why the device cannot have the target's size, samples, layers and depth, if it cannot.
+void check_target(const Capabilities& c, const cases::Case& test);
 // The same of its colour targets, and of what the draws do to them.
-std::optional<Rejection> check_color(const Capabilities& c, const cases::Case& test);
+void check_color(const Capabilities& c, const cases::Case& test);
 
 }  // namespace vk_harness

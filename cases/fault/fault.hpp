@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The catalogue of faults: what a device may do wrong, a row each. Bodies stand elsewhere and name
-// their row: arithmetic in rasterizers/software, which varies its code path and never the picture;
-// calls in tests/breaking_layer. docs/mutants.md is made of the rows.
+// The catalogue of faults: what a device may do wrong, a row each. Bodies name their row, and a row
+// may have one of each kind: a change of the case (change.hpp), code of the software device, which
+// varies its arithmetic and never the picture, calls (tests/breaking_layer). docs/mutants.md is
+// made of the rows.
 #pragma once
 
 #include <algorithm>
@@ -14,20 +15,24 @@
 
 #include "cases/fault/geometry_rows.hpp"
 #include "cases/fault/row.hpp"
+#include "cases/fault/state_rows.hpp"
 #include "cases/fault/stencil_rows.hpp"
 #include "cases/fault/target_rows.hpp"
 #include "cases/fault/value_rows.hpp"
 
 namespace cases {
 
+// All rows: those that the software device has code for, and behind them those that it draws by a
+// change of the case or the picture.
+inline constexpr size_t kCodeFaultCount = std::size(kGeometryFaults) + std::size(kValueFaults) +
+                                          std::size(kTargetFaults) + std::size(kStencilFaults);
 inline constexpr auto kFaults = [] {
-    std::array<FaultRow, std::size(kGeometryFaults) + std::size(kValueFaults) +
-                             std::size(kTargetFaults) + std::size(kStencilFaults)>
-        rows;
+    std::array<FaultRow, kCodeFaultCount + std::size(kStateFaults)> rows;
     size_t count = 0;
     for (const std::span<const FaultRow> part :
          {std::span<const FaultRow>(kGeometryFaults), std::span<const FaultRow>(kValueFaults),
-          std::span<const FaultRow>(kTargetFaults), std::span<const FaultRow>(kStencilFaults)}) {
+          std::span<const FaultRow>(kTargetFaults), std::span<const FaultRow>(kStencilFaults),
+          std::span<const FaultRow>(kStateFaults)}) {
         for (const FaultRow& row : part) {
             rows[count] = row;
             rows[count].fault = static_cast<Fault>(count + 1);
@@ -36,6 +41,14 @@ inline constexpr auto kFaults = [] {
     }
     return rows;
 }();
+inline constexpr std::span<const FaultRow> kCodeFaults(kFaults.data(), kCodeFaultCount);
+inline constexpr std::span<const FaultRow> kStateFaultRows(kFaults.data() + kCodeFaultCount,
+                                                           std::size(kStateFaults));
+
+// Whether the software device has code for a fault; not none.
+constexpr bool has_code(Fault fault) {
+    return static_cast<size_t>(fault) <= kCodeFaultCount;
+}
 
 // The fault of that name; none if no row has it.
 constexpr Fault find_fault(std::string_view name) {

@@ -155,7 +155,7 @@ constexpr std::array kRules = {
          "Drawn with d and again with -d, otherwise alike, a triangle that the plane cuts has each "
          "of its samples hit exactly once along the cut, samples on the plane included, and where "
          "it crosses an edge that two such triangles share, these hit together once.",
-         "vertexpostproc-clipping", "", "ref/expectation/narrowing_complements.cpp"},
+         "vertexpostproc-clipping", "", "ref/expectation/complement_sets.cpp"},
     Rule{rule::cull_distance, Profile::vulkan,
          "A triangle whose cull distances are all negative is not drawn",
          "It is discarded if one of the cull distances is negative at all three vertices, and "
@@ -305,7 +305,7 @@ constexpr std::array kRules = {
          "Of several colour targets each holds what the shader writes to its location, cleared, "
          "converted, blended and masked as its own format and state say, whatever those of the "
          "others are. Blend constants and the logical operation are one for all of them.",
-         "interfaces-fragmentoutput", "", "ref/color/neighbour.hpp"},
+         "interfaces-fragmentoutput", "", "cases/fault/neighbour.hpp"},
     Rule{rule::write_consistent, Profile::vulkan, "A fragment writes all its attachments, or none",
          "Different color attachments of one draw receive the same fragments, and additive "
          "blending of exactly representable values is exact.",

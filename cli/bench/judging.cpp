@@ -100,7 +100,7 @@ void time_suite(std::span<const cases::Case> cases, JudgingFigures& figures) {
 bool judged(const cases::Case& c, const capture::Capture& capture, double& seconds) {
     const std::vector<diff::Consistency> same(cases::derivations(c).size());
     const Clock::time_point begin = Clock::now();
-    report::CaseRecord record = run::make_record(c);
+    report::CaseRecord record = run::planned_case(c);
     run::judge(record, c, capture, {same, {}}, ref::Limits{}, cases::Profile::direct3d,
                run::KeepPictures::failed);
     seconds += seconds_since(begin);

@@ -198,7 +198,7 @@ CapturesCommand::End CapturesCommand::draw_to(const fs::path& in, const fs::path
 std::vector<CaseRecord> CapturesCommand::draw(const std::vector<cases::Case>& cases) {
     std::vector<CaseRecord> records;
     for (const cases::Case& c : cases) {
-        records.push_back(run::make_record(c));
+        records.push_back(run::planned_case(c));
         records.back().status = Status::not_run;
     }
     if (is_interrupted_ || cases.empty()) {

@@ -10,8 +10,8 @@ namespace cli {
 
 using cases::counted;
 
-HuntStatus::HuntStatus(const FuzzOptions& options)
-    : progress_(options.run.quiet ? ProgressStyle::none : options.run.progress, 0),
+HuntStatus::HuntStatus(const RunOptions& options)
+    : progress_(options.quiet ? ProgressStyle::none : options.progress, 0),
       begin_(std::chrono::steady_clock::now()) {}
 
 void HuntStatus::show(const fuzz::HuntCounts& c, size_t causes) {

@@ -15,7 +15,7 @@ namespace cli {
 
 class HuntStatus {
   public:
-    explicit HuntStatus(const FuzzOptions& options);
+    explicit HuntStatus(const RunOptions& options);
     void show(const fuzz::HuntCounts& counts, size_t causes);
     void show_words(const std::string& words) { progress_.show_words(words); }
     void clear() { progress_.clear(); }

@@ -37,7 +37,7 @@ void tell_cause(const Entry& entry, const fs::path& folder) {
         return;
     }
     std::string with;
-    for (const std::string& word : entry.essentials) {
+    for (const std::string& word : to_texts(entry.essentials)) {
         with += (with.empty() ? "" : ", ") + word;
     }
     say(fmt::format("{} {}\n      {}{}\n      with {}\n",

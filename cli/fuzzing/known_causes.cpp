@@ -13,6 +13,7 @@
 #include "cases/write/to_toml.hpp"
 #include "cli/prepare/expectations.hpp"
 #include "cli/prepare/run_plan.hpp"
+#include "fuzz/same_cause.hpp"
 
 namespace cli {
 
@@ -30,7 +31,7 @@ constexpr size_t kMostDeaths = 1;    // cases of one line that are drawn to see 
 // A case that fails as an expectation file says, and what no entry explains of it.
 struct Open {
     std::string text, bug;
-    std::set<std::string> facts;
+    fuzz::Facts facts;
     std::vector<Symptom> symptoms;
 };
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "cli/options/command_options.hpp"
+#include "cli/options/parse.hpp"
 
 namespace cli {
 
@@ -45,10 +45,9 @@ bool CommandEntry::takes_cases() const {
     });
 }
 
-CommandTable command_table() {
+CommandTable command_table(std::span<const Command> commands) {
     CLI::App app("", "edgecase");
-    AllOptions all;
-    define(app, all);
+    declare(app, commands);
     CommandTable table;
     table.text = "check triangle rasterization of Vulkan drivers against an exact reference";
     table.footer = app.get_footer();

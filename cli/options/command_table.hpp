@@ -4,10 +4,13 @@
 // The option table as plain data: what help, completion and the manual page are made of.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
 namespace cli {
+
+struct Command;
 
 struct OptionEntry {
     std::vector<std::string> names;  // "-o", "--output"; for a positional its name, "SELECTOR"
@@ -29,6 +32,6 @@ struct CommandTable {
     std::vector<CommandEntry> commands;
 };
 
-CommandTable command_table();
+CommandTable command_table(std::span<const Command> commands);
 
 }  // namespace cli

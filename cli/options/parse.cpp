@@ -3,11 +3,9 @@
 #include "cli/options/parse.hpp"
 
 #include <algorithm>
-#include <variant>
+#include <string_view>
 
-#include "cases/base/regex.hpp"
 #include "cases/select/selector.hpp"
-#include "cli/options/command_options.hpp"
 #include "cli/options/value_checks.hpp"
 #include "report/record/run.hpp"
 
@@ -44,8 +42,7 @@ Stop unknown_words(const CLI::App& command, const std::vector<std::string>& unkn
 }
 
 // The sentence, which begins with the name of an option, about its variable if that was meant.
-std::string name_variable(const std::string& text, const CLI::App& command,
-                          const std::vector<std::string>& words) {
+std::string name_variable(const std::string& text, const CLI::App& command, const Words& words) {
     for (const CLI::Option* option : command.get_options()) {
         const std::string name = option->get_name() + ":";
         if (text.starts_with(name) && !option->get_envname().empty() && !is_given(*option, words)) {
@@ -57,7 +54,7 @@ std::string name_variable(const std::string& text, const CLI::App& command,
 
 // What CLI11 says, as one sentence.
 Stop parse_error(const CLI::ParseError& error, const CLI::App& app, const std::string& command,
-                 const std::vector<std::string>& words) {
+                 const Words& words) {
     std::string text = error.what();
     std::replace(text.begin(), text.end(), '\n', ' ');
     while (!text.empty() && (text.back() == ' ' || text.back() == '.')) {
@@ -94,191 +91,110 @@ Stop parse_error(const CLI::ParseError& error, const CLI::App& app, const std::s
     return usage_error(text, command);
 }
 
-// A resumed run has the options of the interrupted one, so others would be ignored.
-OrStop<std::monostate> check_resume(const CLI::App& run, const std::vector<std::string>& words) {
-    // The last four only repeat what the run began with (prepare_resume).
-    const std::vector<std::string> may = {"--resume",   "--jobs", "--quiet", "--verbose", "--color",
-                                          "--progress", "--icd",  "--json",  "--junit",   "--html"};
-    for (const CLI::Option* option : run.get_options()) {
-        const std::string name = option->get_name();
-        const bool is_variable = !option->get_envname().empty() && !is_given(*option, words);
-        if (option->count() > 0 && !is_variable &&
-            std::find(may.begin(), may.end(), name) == may.end()) {
-            const bool is_option = !name.empty() && name.front() == '-';
-            return tl::unexpected(usage_error(
-                "--resume goes on with the cases and options of the interrupted run, so " +
-                    (is_option ? name + " cannot be given" : "no selector can be given") +
-                    "; leave it out or start a new run",
-                "run"));
-        }
-    }
-    return std::monostate{};
-}
-
-// Of a level that is stricter than the profile nothing is known, so that no run would fail at it.
-OrStop<std::monostate> check_fail_at(const RunOptions& o, const std::string& command) {
-    if (!o.fail_at || *o.fail_at <= o.profile) {
-        return std::monostate{};
-    }
-    const std::string level(cases::to_string(*o.fail_at)), profile(cases::to_string(o.profile));
-    return tl::unexpected(
-        usage_error("--fail-at " + level + " is stricter than the profile " + profile +
-                        ", at which nothing of that level is judged; write --fail-at " + profile +
-                        " or --profile " + level,
-                    command));
-}
-
-OrStop<std::monostate> check_run(const CLI::App& run, const RunOptions& o,
-                                 const std::vector<std::string>& words) {
-    if (!o.resume.empty()) {
-        if (auto checked = check_resume(run, words); !checked) {
-            return checked;
-        }
-    }
-    if (o.no_expect && !o.expect.empty()) {
-        return tl::unexpected(usage_error("--expect and --no-expect exclude each other", "run"));
-    }
-    if (o.no_expect && o.strict) {
-        return tl::unexpected(usage_error(
-            "--strict asks how known failures look, and with --no-expect none is known; leave out "
-            "one of the two",
-            "run"));
-    }
-    if (auto checked = cases::check_regex(o.require_device); !checked) {
-        return tl::unexpected(usage_error("--require-device: " + checked.error().message, "run"));
-    }
-    return std::monostate{};
-}
-
-// A hunt that goes on has the seed, shard and profile that it began with; where it ends, which
-// device of that name draws and what else is known may be said anew.
-OrStop<std::monostate> check_fuzz(const CLI::App& fuzz, const FuzzOptions& o,
-                                  const std::vector<std::string>& words) {
-    const auto refused = [](const std::string& what) {
-        return tl::unexpected(usage_error(
-            "--resume goes on with the cases, seed, shard, profile and folder of the hunt, so " +
-                what + (what.starts_with("no ") ? " can" : " cannot") +
-                " be given; leave it out or start a new hunt",
-            "fuzz"));
-    };
-    for (const char* name : {"--seed", "--shard", "--profile", "--output", "--print", "--suite"}) {
-        if (!o.run.resume.empty() && is_given(fuzz, name, words)) {
-            return refused(name);
-        }
-    }
-    if (!o.run.resume.empty() && !o.run.suite.selectors.empty()) {
-        return refused("no selector");
-    }
-    if (o.run.no_expect && !o.run.expect.empty()) {
-        return tl::unexpected(usage_error("--expect and --no-expect exclude each other", "fuzz"));
-    }
-    return std::monostate{};
-}
-
-// A command takes the place of a device.
-OrStop<std::monostate> check_reduce(const CLI::App& reduce, const ReduceOptions& o,
-                                    const std::vector<std::string>& words) {
-    const auto refused = [](const std::string& sentence) {
-        return tl::unexpected(usage_error(sentence, "reduce"));
-    };
-    if (!is_given(reduce, "--captures-command", words)) {
-        for (const std::string name : {"--subpixel-bits", "--sample-locations"}) {
-            if (is_given(reduce, name.c_str(), words)) {
-                return refused(name +
-                               " is for a renderer that --captures-command starts; devices tell it "
-                               "themselves");
-            }
-        }
-        return std::monostate{};
-    }
-    for (const char* name : {"--device", "--icd", "--renderer", "--validation"}) {
-        if (is_given(reduce, name, words)) {
-            return refused(std::string(name) +
-                           " chooses a device, and --captures-command draws without one; leave one "
-                           "of them out");
-        }
-    }
-    for (const char* word : {"%in", "%out"}) {
-        if (o.captures_command.find(word) == std::string::npos) {
-            return refused(std::string("--captures-command has no ") + word +
-                           ", the folder of the " +
-                           (word[1] == 'i' ? "exported cases" : "captures") +
-                           "; write for example 'my-renderer %in %out'");
-        }
-    }
-    return std::monostate{};
-}
-
-OrStop<std::monostate> check_expect(const CLI::App& expect, const ExpectOptions& o,
-                                    const std::vector<std::string>& words) {
-    for (const char* name : {"--bits", "--bug", "--reason", "--until", "--dry-run"}) {
-        if (o.update.empty() && is_given(expect, name, words)) {
-            return tl::unexpected(usage_error(
-                std::string(name) + " says how a file is brought up to date; give --update too",
-                "expect"));
-        }
-    }
-    return std::monostate{};
-}
-
-OrStop<std::monostate> check_loudness(const CLI::App& command) {
+void check_loudness(const CLI::App& command) {
     for (const char* name : {"--quiet", "--verbose"}) {
         const CLI::Option* option = command.get_option_no_throw(name);
         if (option == nullptr || option->count() == 0) {
-            return std::monostate{};
+            return;
         }
     }
-    return tl::unexpected(
-        Stop{report::kExitUsage, {"-q and -v contradict each other; leave one out"}});
+    throw Stop{report::kExitUsage, {"-q and -v contradict each other; leave one out"}};
 }
 
-// An algorithm has no driver, so these would be ignored.
-OrStop<std::monostate> check_device(const CLI::App& command, DeviceOptions& o,
-                                    const std::vector<std::string>& words) {
-    for (const char* name : {"--device", "--icd"}) {
-        if (!o.renderer.empty() && is_given(command, name, words)) {
-            return tl::unexpected(usage_error(std::string(name) + " chooses a driver, and '" +
-                                                  o.renderer +
-                                                  "' draws without one; leave out one of the two",
-                                              command.get_name()));
-        }
-    }
-    o.icd_from = is_given(command, "--icd", words) ? "--icd" : "EDGECASE_ICD";
-    return std::monostate{};
-}
-
-OrStop<std::monostate> check_explain(const ExplainOptions& o) {
-    if (o.rule.empty() && !o.has_pixel && (o.sample > 0 || o.layer > 0)) {
-        return tl::unexpected(
-            usage_error("--sample and --layer name a sample of a pixel; add --pixel", "explain"));
-    }
-    if (!o.rule.empty() && (o.has_pixel || !o.suite.selectors.empty())) {
-        return tl::unexpected(usage_error(
-            "--rule explains a rule, not a case; leave out the selector and --pixel", "explain"));
-    }
-    return std::monostate{};
-}
+constexpr const char* kSummary =
+    "Edgecase: checks triangle rasterization of Vulkan drivers against an exact reference.";
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  edgecase run                                   the whole suite on the first device\n"
+    "  edgecase run 'coverage/**' -o out/mine         one family, reports in out/mine\n"
+    "  edgecase run my-case.toml --device llvmpipe    a file of your own on a chosen device\n"
+    "  edgecase explain ties/apex-up --pixel 10,11    why a sample must be covered\n"
+    "  edgecase doctor                                what is installed, what is missing\n"
+    "\n"
+    "Selectors: globs on ids ('*' within a part, '**' across), '@rule:PATTERN', a case file or "
+    "folder,\n"
+    "  '-' for ids on standard input, '!' in front excludes. Without any, the whole suite.\n"
+    "\n"
+    "Exit codes:\n"
+    "    0  every selected case ended as expected\n"
+    "    1  an unexpected result: fail, crash, timeout, device lost, flake, xpass, improved\n"
+    "    2  wrong use of the command line\n"
+    "    3  an invalid case, suite, expectation file or journal\n"
+    "    4  no case is selected\n"
+    "    5  no device, or not the demanded one\n"
+    "    6  everything was skipped or unsupported\n"
+    "    7  internal error, or cases were not run or could not be judged, or a report could not be "
+    "written\n"
+    "  130  interrupted; the reports hold what was done\n";
 
 }  // namespace
 
-OrStop<std::string> parse(CLI::App& app, AllOptions& all, std::vector<std::string> words) {
-    define(app, all);
-    const std::vector<std::string> commands = names_of_commands(app);
+// An algorithm has no driver, so these would be ignored.
+void check_device(const CLI::App& command, DeviceOptions& o, const Words& words) {
+    for (const char* name : {"--device", "--icd"}) {
+        if (!o.renderer.empty() && is_given(command, name, words)) {
+            throw usage_error(std::string(name) + " chooses a driver, and '" + o.renderer +
+                                  "' draws without one; leave out one of the two",
+                              command.get_name());
+        }
+    }
+    o.icd_from = is_given(command, "--icd", words) ? "--icd" : "EDGECASE_ICD";
+}
+
+// Of a level that is stricter than the profile nothing is known, so that no run would fail at it.
+void check_fail_at(const CLI::App& command, const RunOptions& o) {
+    if (!o.fail_at || *o.fail_at <= o.profile) {
+        return;
+    }
+    const std::string level(cases::to_string(*o.fail_at)), profile(cases::to_string(o.profile));
+    throw usage_error("--fail-at " + level + " is stricter than the profile " + profile +
+                          ", at which nothing of that level is judged; write --fail-at " + profile +
+                          " or --profile " + level,
+                      command.get_name());
+}
+
+std::vector<Action> declare(CLI::App& app, std::span<const Command> commands) {
+    app.footer(kFooter);
+    app.set_help_flag("-h,--help", "this help");
+    app.add_flag("--version")->description("print the version");
+    app.require_subcommand(0, 1);
+    app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    std::vector<Action> actions;
+    for (const Command& command : commands) {
+        CLI::App* const own = app.add_subcommand(command.help.name, command.help.text);
+        actions.push_back(command.declare(*own));
+        own->set_help_flag("-h,--help", "this help");
+        if (const std::string_view examples =
+                command.help.examples == nullptr ? std::string_view() : command.help.examples;
+            command.help.examples != nullptr) {
+            own->footer(examples.empty() ? "" : "Examples:\n" + std::string(examples));
+        }
+        own->group(command.help.group);
+        own->allow_extras();  // so that unknown options get our own words
+    }
+    return actions;
+}
+
+CarryOut parse(std::span<const Command> commands, const Words& words) {
+    CLI::App app(kSummary, "edgecase");
+    const std::vector<Action> actions = declare(app, commands);
+    const std::vector<std::string> names = names_of_commands(app);
     const std::string first = words.size() > 1 ? words[1] : "";
-    const bool is_command = std::find(commands.begin(), commands.end(), first) != commands.end();
+    const auto named = std::find(names.begin(), names.end(), first);
+    const bool is_command = named != names.end();
     if (first.empty()) {
-        return tl::unexpected(usage_error("a command is missing, for example 'edgecase run'", ""));
+        throw usage_error("a command is missing, for example 'edgecase run'", "");
     }
     if (!is_command && first.front() != '-') {
         const std::string hint = first == "help"    ? "; did you mean '--help'?"
                                  : first == "merge" ? "; did you mean 'report --merge'?"
-                                                    : cases::did_you_mean(first, commands);
-        return tl::unexpected(usage_error("unknown command '" + first + "'" + hint, ""));
+                                                    : cases::did_you_mean(first, names);
+        throw usage_error("unknown command '" + first + "'" + hint, "");
     }
     if (!is_command && first != "-h" && first != "--help" && first != "--version") {
-        return tl::unexpected(usage_error(
+        throw usage_error(
             "unknown option '" + first + "'" + cases::did_you_mean(first, {"--help", "--version"}),
-            ""));
+            "");
     }
     std::vector<std::string> reversed(words.rbegin(), words.rend() - 1);  // as CLI11 wants them
     try {
@@ -286,83 +202,31 @@ OrStop<std::string> parse(CLI::App& app, AllOptions& all, std::vector<std::strin
     } catch (const CLI::CallForHelp&) {
         const CLI::App* command = is_command ? app.get_subcommand(first) : &app;
         std::fputs((is_command ? command->help("edgecase") : app.help()).c_str(), stdout);
-        return std::string("help");
+        return [](const Program&) { return int{report::kExitOk}; };
     } catch (const CLI::ParseError& error) {
         if (is_command) {
-            if (auto checked = check_empty_values(*app.get_subcommand(first), words); !checked) {
-                return tl::unexpected(checked.error());
-            }
+            check_empty_values(*app.get_subcommand(first), words);
         }
-        return tl::unexpected(parse_error(error, app, is_command ? first : "", words));
+        throw parse_error(error, app, is_command ? first : "", words);
     }
+    const auto chosen = is_command ? named : std::find(names.begin(), names.end(), "version");
+    const Action& action = actions.at(static_cast<size_t>(chosen - names.begin()));
     if (!is_command) {
-        return std::string("version");
+        return action.carry_out;
     }
     CLI::App* command = app.get_subcommand(first);
-    if (const auto checked = check_empty_values(*command, words); !checked) {
-        return tl::unexpected(checked.error());
-    }
+    check_empty_values(*command, words);
     std::vector<std::string> unknown = command->remaining();
     if (const auto end = std::find(unknown.begin(), unknown.end(), "--"); end != unknown.end()) {
         unknown.erase(end);  // it ends the options, and CLI11 keeps it
     }
     if (!unknown.empty()) {
-        return tl::unexpected(unknown_words(*command, unknown));
+        throw unknown_words(*command, unknown);
     }
-    for (const auto& check : {check_alternatives, check_files}) {
-        if (const auto checked = check(*command); !checked) {
-            return tl::unexpected(checked.error());
-        }
-    }
-    if (first == "explain") {
-        if (const auto checked = check_explain(all.explain); !checked) {
-            return tl::unexpected(checked.error());
-        }
-    }
-    for (const auto& [name, device] :
-         {std::pair("run", &all.run.device), std::pair("gtest", &all.gtest.run.device),
-          std::pair("fuzz", &all.fuzz.run.device), std::pair("reduce", &all.reduce.run.device),
-          std::pair("doctor", &all.doctor.device), std::pair("bench", &all.bench.device),
-          std::pair("probe", &all.probe.device)}) {
-        if (first == name) {
-            if (const auto checked = check_device(*command, *device, words); !checked) {
-                return tl::unexpected(checked.error());
-            }
-        }
-    }
-    OrStop<std::monostate> checked = check_loudness(*command);
-    if (checked && first == "run") {
-        checked = check_run(*command, all.run, words);
-        checked = checked ? check_fail_at(all.run, first) : checked;
-    } else if (checked && first == "gtest") {
-        checked = check_fail_at(all.gtest.run, first);
-    } else if (checked && first == "diff") {
-        checked = check_fail_at(all.diff.run, first);
-    } else if (checked && first == "fuzz") {
-        checked = check_fuzz(*command, all.fuzz, words);
-    } else if (checked && first == "reduce") {
-        checked = check_reduce(*command, all.reduce, words);
-    } else if (checked && first == "expect") {
-        checked = check_expect(*command, all.expect, words);
-    }
-    if (!checked) {
-        return tl::unexpected(checked.error());
-    }
-    return first;
-}
-
-OrStop<RunOptions> parse_run_arguments(const std::vector<std::string>& arguments) {
-    CLI::App app("", "edgecase");
-    AllOptions all;
-    const OrStop<std::string> command = parse(app, all, arguments);
-    if (!command) {
-        return tl::unexpected(command.error());
-    }
-    if (*command != "run") {
-        return tl::unexpected(
-            Stop{report::kExitInvalidFile, {"the journal's command line is not one of 'run'"}});
-    }
-    return all.run;
+    check_files(*command);
+    check_loudness(*command);
+    action.check(*command, words);
+    return action.carry_out;
 }
 
 }  // namespace cli

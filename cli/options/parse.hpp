@@ -4,21 +4,21 @@
 // Parses the command line. CLI11's errors are caught and told in our own words.
 #pragma once
 
-#include <string>
+#include <functional>
+#include <span>
 #include <vector>
 
-#include "cli/options/command_options.hpp"
+#include "cli/options/command.hpp"
 #include "cli/options/options.hpp"
 #include "cli/options/stop.hpp"
 
 namespace cli {
 
-// Parses everything into `all`; the chosen command's name, "" for none, or why not. Help is printed
-// here.
-OrStop<std::string> parse(CLI::App& app, AllOptions& all, std::vector<std::string> words);
+// Declares all commands with their options, and returns what is left to be done for each.
+std::vector<Action> declare(CLI::App& app, std::span<const Command> commands);
 
-// The options of `edgecase run` from the words of a command line (program and "run" included), as a
-// journal keeps them.
-OrStop<RunOptions> parse_run_arguments(const std::vector<std::string>& arguments);
+using CarryOut = std::function<int(const Program&)>;
+// What the words ask for. Throws the Stop of what cannot be done. Help is printed here.
+CarryOut parse(std::span<const Command> commands, const Words& words);
 
 }  // namespace cli

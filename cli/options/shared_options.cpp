@@ -22,6 +22,14 @@ const std::map<std::string, std::optional<cases::Profile>> kLevelNames = {
 const std::map<std::string, Ci> kCiNames = {
     {"auto", Ci::automatic}, {"github", Ci::github}, {"gitlab", Ci::gitlab}, {"none", Ci::none}};
 
+const std::map<std::string, ProgressStyle> kProgressNames = {{"auto", ProgressStyle::automatic},
+                                                             {"plain", ProgressStyle::plain},
+                                                             {"none", ProgressStyle::none}};
+const std::map<std::string, run::KeepPictures> kCaptureNames = {
+    {"failed", run::KeepPictures::failed},
+    {"all", run::KeepPictures::all},
+    {"none", run::KeepPictures::none}};
+
 bool parse_number(std::string_view text, uint32_t& value) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     return error == std::errc() && end == text.data() + text.size();
@@ -150,6 +158,69 @@ void add_report_files(CLI::App* app, std::string& json, std::string& junit, std:
 
 void add_ci(CLI::App* app, Ci& ci) {
     add_choice(app, "--ci", ci, kCiNames, "what continuous integration is told")->group("Output");
+}
+
+// What run, gtest and diff have in common.
+void add_expect(CLI::App* app, RunOptions& o, const char* what) {
+    app->add_option("--expect", o.expect, what)
+        ->type_name("FILE")
+        ->type_size(1)
+        ->expected(1)
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->group("Judging");
+}
+void add_expectations(CLI::App* app, RunOptions& o) {
+    add_expect(app, o, "an expectation file, instead of those beside the suite");
+    app->add_flag("--no-expect", o.no_expect, "no expectation files")->group("Judging");
+}
+void add_outputs(CLI::App* app, RunOptions& o, const char* folder, bool tells_ci) {
+    add_value(app, "-o,--output", o.output, folder, "DIR", "Output");
+    add_report_files(app, o.json, o.junit, o.html);
+    add_choice(app, "--capture", o.capture, kCaptureNames,
+               "of which cases the reports keep pictures")
+        ->group("Output");
+    app->add_flag_callback(
+           "--no-diagnosis", [&o] { o.diagnosis = false; },
+           "do not look for what the device does wrong, where cases fail")
+        ->group("Output");
+    add_terminal(app, o.quiet, o.verbose, o.color);
+    if (tells_ci) {
+        add_ci(app, o.ci);
+    }
+    add_choice(app, "--progress", o.progress, kProgressNames, "how progress is shown")
+        ->group("Output");
+}
+
+void add_shard(CLI::App* app, Shard& shard, const char* what) {
+    app->add_option(
+           "--shard",
+           [&shard](const CLI::results_t& results) {
+               return parse_pair(results.back(), '/', shard.index, shard.count) &&
+                      shard.index >= 1 && shard.index <= shard.count;
+           },
+           what)
+        ->type_name("I/N")
+        ->group("Selection");
+}
+
+void add_require_support(CLI::App* to, RunOptions& o, const std::string& who) {
+    to->add_flag(
+          "--require-support", o.require_support,
+          "a case that the " + who + " does not support fails, unless a 'skip' line names it")
+        ->group("Judging");
+}
+
+void add_jobs(CLI::App* app, RunOptions& o) {
+    add_value(app, "-j,--jobs", o.jobs, "workers, 1 to 256 [one a core, at most 4]", "N",
+              "Isolation")
+        ->envname("EDGECASE_JOBS")
+        ->check(in_range(1U, 256U));
+}
+
+void add_validation(CLI::App* app, DeviceOptions& o) {
+    app->add_flag("--validation", o.validation, "with the Khronos validation layer")
+        ->group("Device");
 }
 
 }  // namespace cli

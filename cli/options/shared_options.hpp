@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "cases/select/selector.hpp"
-#include "cli/options/command_options.hpp"
+#include "cli/options/options.hpp"
 
 namespace cli {
 
@@ -96,5 +96,14 @@ void add_device(CLI::App* app, DeviceOptions& o);
 void add_terminal(CLI::App* app, bool& quiet, bool& verbose, When& color);
 void add_report_files(CLI::App* app, std::string& json, std::string& junit, std::string& html);
 void add_ci(CLI::App* app, Ci& ci);
+// The expectation files; with a way to have none.
+void add_expect(CLI::App* app, RunOptions& o, const char* what);
+void add_expectations(CLI::App* app, RunOptions& o);
+// The folder of reports, and what is told of a run on the way.
+void add_outputs(CLI::App* app, RunOptions& o, const char* folder, bool tells_ci);
+void add_shard(CLI::App* app, Shard& shard, const char* what);
+void add_require_support(CLI::App* to, RunOptions& o, const std::string& who);
+void add_jobs(CLI::App* app, RunOptions& o);
+void add_validation(CLI::App* app, DeviceOptions& o);
 
 }  // namespace cli

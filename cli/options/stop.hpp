@@ -19,12 +19,39 @@ struct Stop {
 template <class T>
 using OrStop = tl::expected<T, Stop>;
 
+// The value. A command that cannot go on throws its Stop, which edgecase_main tells.
+template <class T>
+T must(OrStop<T> value) {
+    if (!value) {
+        throw std::move(value.error());
+    }
+    return *std::move(value);
+}
+
 inline Stop stop_with(int exit_code, const std::string& line) {
     return {exit_code, {line}};
 }
 
 // Mistakes in files, a line each.
 Stop invalid_files(const cases::Errors& errors);
+template <class T>
+T must(cases::ExpectedAll<T> value) {
+    if (!value) {
+        throw invalid_files(value.error());
+    }
+    return *std::move(value);
+}
+
+// The value, or the end with that code and what is wrong, behind these words.
+template <class T>
+T must(cases::Expected<T> value, int exit_code, const std::string& words = "") {
+    if (!value) {
+        throw stop_with(exit_code, words + value.error().message);
+    }
+    if constexpr (!std::is_void_v<T>) {
+        return *std::move(value);
+    }
+}
 
 // Prints the lines, each after "edgecase: ", and returns the exit code.
 int report_stop(const Stop& stop);

@@ -124,7 +124,7 @@ Stop usage_error(const std::string& sentence, const std::string& command) {
             {sentence + (sentence.ends_with('?') ? " See '" : "; see '") + help + "'"}};
 }
 
-bool is_given(const CLI::Option& option, const std::vector<std::string>& words) {
+bool is_given(const CLI::Option& option, const Words& words) {
     const auto names_it = [&](const std::string& word) {
         const bool is_long = word.starts_with("--");
         const std::vector<std::string>& names = is_long ? option.get_lnames() : option.get_snames();
@@ -138,17 +138,14 @@ bool is_given(const CLI::Option& option, const std::vector<std::string>& words) 
     return std::any_of(words.begin(), end, names_it);
 }
 
-bool is_given(const CLI::App& command, const std::string& name,
-              const std::vector<std::string>& words) {
+bool is_given(const CLI::App& command, const std::string& name, const Words& words) {
     const CLI::Option* option = command.get_option_no_throw(name);
     return option != nullptr && is_given(*option, words);
 }
 
-OrStop<std::monostate> check_empty_values(const CLI::App& command,
-                                          const std::vector<std::string>& words) {
+void check_empty_values(const CLI::App& command, const Words& words) {
     const auto refuse = [&](const std::string& name, const std::string& how) {
-        return tl::unexpected(
-            usage_error(name + ": the value is empty; " + how, command.get_name()));
+        throw usage_error(name + ": the value is empty; " + how, command.get_name());
     };
     // CLI11 takes the next word for the value of "--icd=".
     for (auto word = words.begin(); word != words.end() && *word != "--"; ++word) {
@@ -176,36 +173,20 @@ OrStop<std::monostate> check_empty_values(const CLI::App& command,
             return refuse(option->get_name(), "write a name");
         }
     }
-    return std::monostate{};
 }
 
-OrStop<std::monostate> check_alternatives(const CLI::App& command) {
-    struct Alternative {
-        const char* command;
-        const char* one;
-        std::vector<const char*> others;
-    };
-    static const std::vector<Alternative> kAlternatives = {
-        {"list", "--long", {"--ids", "--json"}},
-        {"list", "--ids", {"--json"}},
-        {"probe", "--compare", {"--json", "--html"}},
-        {"fuzz", "--print", {"--cases", "--time", "--shard", "--known", "--resume", "--output"}},
-    };
-    for (const Alternative& a : kAlternatives) {
-        for (const char* other : a.others) {
-            if (command.get_name() == a.command && has_value(command, a.one) &&
-                has_value(command, other)) {
-                return tl::unexpected(usage_error(std::string(a.one) + " and " + other +
-                                                      " exclude each other; leave out one of the "
-                                                      "two",
-                                                  a.command));
-            }
+void check_alternatives(const CLI::App& command, const char* one,
+                        std::initializer_list<const char*> others) {
+    for (const char* other : others) {
+        if (has_value(command, one) && has_value(command, other)) {
+            throw usage_error(std::string(one) + " and " + other +
+                                  " exclude each other; leave out one of the two",
+                              command.get_name());
         }
     }
-    return std::monostate{};
 }
 
-OrStop<std::monostate> check_files(const CLI::App& command) {
+void check_files(const CLI::App& command) {
     std::string taken;
     std::vector<std::pair<fs::path, std::string>> places;  // of the files, and their options
     for (const char* name : {"--json", "--junit", "--html"}) {
@@ -227,21 +208,19 @@ OrStop<std::monostate> check_files(const CLI::App& command) {
                 }
             }
             if (!why.empty()) {
-                return tl::unexpected(
-                    usage_error(std::string(name) + ": " + why, command.get_name()));
+                throw usage_error(std::string(name) + ": " + why, command.get_name());
             }
             places.emplace_back(place, name);
             continue;
         }
         if (!taken.empty()) {
-            return tl::unexpected(usage_error(taken + " and " + name +
-                                                  " cannot both go to standard output; give one a "
-                                                  "file",
-                                              command.get_name()));
+            throw usage_error(taken + " and " + name +
+                                  " cannot both go to standard output; give one a "
+                                  "file",
+                              command.get_name());
         }
         taken = name;
     }
-    return std::monostate{};
 }
 
 }  // namespace cli

@@ -206,8 +206,8 @@ bool asks_for_set(const std::string& words) {
 }
 
 std::string doors_words(const std::string& words, const std::vector<std::string>& doors) {
-    return words == "all" || words.starts_with("all,") ? words
-                                                       : fmt::format("{}", fmt::join(doors, ","));
+    const bool are_all = words == "all" || words.starts_with("all,");
+    return are_all && !doors.empty() ? words : fmt::format("{}", fmt::join(doors, ","));
 }
 
 }  // namespace cli

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <utility>
 
+#include "cases/model/device.hpp"
 #include "run/worker/derived.hpp"
 
 namespace cli {
@@ -27,9 +28,14 @@ run::LoopConfig loop_config(const Program& program, const RunOptions& options) {
     config.schedule.retries = options.retries;
     config.schedule.suspects_first = options.fail_fast;
     config.requires_support = options.require_support;
-    config.profile = options.profile;
-    config.pictures = options.capture;
+    config.judging.profile = options.profile;
+    config.judging.pictures = options.capture;
     return config;
+}
+
+JudgedDevice judged_device(const capture::DeviceInfo& device) {
+    return {cases::judged_subpixel_bits(device.subpixel_bits), device.sample_locations,
+            device.depth_beside_stencil};
 }
 
 ref::Limits limits_of(const JudgedDevice& device) {
@@ -51,7 +57,7 @@ OrStop<ReadyWorker> ready_first_worker(run::LoopConfig& config, run::SignalFd& s
     }
     OrStop<ReadyWorker> first = await_first_worker(std::move(*worker), config, signals);
     if (first) {
-        config.limits = run::limits_of(first->device);
+        config.judging.limits = run::limits_of(first->device);
         warn_of_limits(first->device);
     }
     return first;

@@ -15,6 +15,8 @@ run::LoopConfig loop_config(const Program& program, const RunOptions& options);
 
 // One line for each wrong limit, for commands whose reports have no place for it.
 void warn_of_limits(const capture::DeviceInfo& device);
+// The device that a run has asked, for commands that ask none.
+JudgedDevice judged_device(const capture::DeviceInfo& device);
 // The limits of a device that is not asked.
 ref::Limits limits_of(const JudgedDevice& device);
 // Starts the first worker and waits until it is ready; the limits are then its device's. Errors: no

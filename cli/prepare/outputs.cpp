@@ -78,57 +78,64 @@ std::string part_file(const std::string& file, size_t part) {
         .string();
 }
 
+// A report in the folder, where it takes the place of what has its name, and in the file that was
+// named. False: none is in the folder.
+bool write_report(const std::filesystem::path& in_folder, const std::string& named,
+                  const cases::Tell& tell, cases::Errors& errors) {
+    const auto check = [&](const cases::Expected<void>& written) {
+        if (!written) {
+            errors.push_back(written.error());
+        }
+        return written.has_value();
+    };
+    const bool is_there = !in_folder.empty() && check(replace_pieces(in_folder, tell));
+    if (!named.empty()) {
+        check(write_pieces(named, tell));
+    }
+    return is_there;
+}
+
 void write_pages(const report::Run& run, const ReportFiles& files, Progress& progress,
-                 cases::Errors& errors) {
-    if (files.folder.empty() && files.html.empty()) {
+                 Written& written) {
+    const std::string in_folder = files.in_folder("report.html").string();
+    if (in_folder.empty() && files.html.empty()) {
         return;
     }
-    const std::string in_folder =
-        files.folder.empty() ? std::string() : (files.folder / "report.html").string();
     report::for_each_page(run, [&](size_t part, const std::string& page) {
         progress.show_words(fmt::format("writing part {} of the page", part));
-        for (const std::string& first : {in_folder, files.html}) {
-            if (first.empty() || (part > 1 && first == "-")) {
-                continue;
-            }
-            const std::string file = part == 1 ? first : part_file(first, part);
-            if (cases::Expected<void> written =
-                    first == in_folder ? replace_text(file, page) : write_text(file, page);
-                !written) {
-                errors.push_back(written.error());
-            }
+        const auto of_part = [part](const std::string& file) {
+            return part == 1 || file.empty() ? file : file == "-" ? "" : part_file(file, part);
+        };
+        if (write_report(
+                of_part(in_folder), of_part(files.html),
+                [&page](const cases::Put& put) { put(page); }, written.errors) &&
+            part == 1) {
+            written.page = in_folder;
         }
     });
 }
 
 }  // namespace
 
-cases::Errors write_reports(const report::Run& run, const ReportFiles& files, Progress& progress) {
+std::filesystem::path ReportFiles::in_folder(const char* name) const {
+    return folder.empty() ? folder : folder / name;
+}
+
+Written write_reports(const report::Run& run, const ReportFiles& files, Progress& progress) {
+    Written written;
     cases::Errors errors;
-    const auto write = [&](const std::string& in_folder, const std::string& extra,
-                           const cases::Tell& tell) {
-        const auto check = [&](const cases::Expected<void>& written) {
-            if (!written) {
-                errors.push_back(written.error());
-            }
-        };
-        if (!files.folder.empty()) {
-            check(replace_pieces(files.folder / in_folder, tell));
-        }
-        if (!extra.empty()) {
-            check(write_pieces(extra, tell));
-        }
-    };
-    cases::Errors of_pages;
-    const auto tell_pages = [&] { write_pages(run, files, progress, of_pages); };
+    const auto tell_pages = [&] { write_pages(run, files, progress, written); };
     const bool is_beside = files.html != "-";  // on standard output one comes after the other
     std::future<void> pages = is_beside ? cases::beside(tell_pages) : std::future<void>();
-    write("results.json", files.json,
-          [&run](const cases::Put& put) { report::tell_json(run, put); });
-    write("junit.xml", files.junit, [&run](const cases::Put& put) { put(report::to_junit(run)); });
+    write_report(
+        files.in_folder("results.json"), files.json,
+        [&run](const cases::Put& put) { report::tell_json(run, put); }, errors);
+    write_report(
+        files.in_folder("junit.xml"), files.junit,
+        [&run](const cases::Put& put) { put(report::to_junit(run)); }, errors);
     is_beside ? pages.get() : tell_pages();
-    errors.insert(errors.end(), of_pages.begin(), of_pages.end());
-    return errors;
+    written.errors.insert(written.errors.begin(), errors.begin(), errors.end());
+    return written;
 }
 
 void remove_reports(const ReportFiles& files) {
@@ -171,14 +178,6 @@ void remove_reports_of_last_run(const RunOptions& options) {
         ReportFiles{options.output, options.json, options.junit, options.html});
 }
 
-std::string written_page(const ReportFiles& files, const cases::Errors& errors) {
-    const std::string page = (files.folder / "report.html").string();
-    const bool is_missing = std::any_of(
-        errors.begin(), errors.end(),
-        [&](const cases::Error& error) { return error.message.starts_with("'" + page + "'"); });
-    return is_missing ? std::string() : page;
-}
-
 std::FILE* console_beside(const std::string& json, const std::string& junit,
                           const std::string& html) {
     return json == "-" || junit == "-" || html == "-" ? stderr : stdout;
@@ -219,7 +218,7 @@ int conclude(const std::filesystem::path& folder, const RunOptions& options, Ci 
     }
     const ReportFiles files{folder, options.json, options.junit, options.html};
     Progress progress(options.quiet ? ProgressStyle::none : options.progress, 0);
-    cases::Errors errors = write_reports(*run, files, progress);
+    auto [errors, page] = write_reports(*run, files, progress);
     progress.clear();
     const cases::Errors of_ci = write_ci(*run, ci, folder, console);
     errors.insert(errors.end(), of_ci.begin(), of_ci.end());
@@ -231,7 +230,7 @@ int conclude(const std::filesystem::path& folder, const RunOptions& options, Ci 
             ending.failure.empty() ? "a report could not be written" : ending.stopped;
         std::fputs(ending.summary.c_str(), console);
         std::fputs(report::console_summary(
-                       *run, written_page(files, errors), style,
+                       *run, page, style,
                        overrides ? report::exit_text(report::kExitInternal, why) : std::string())
                        .c_str(),
                    console);

@@ -24,6 +24,7 @@ namespace cli {
 struct ReportFiles {
     std::filesystem::path folder;  // results.json, junit.xml, report.html
     std::string json, junit, html;
+    std::filesystem::path in_folder(const char* name) const;  // empty without a folder
 };
 
 // Writes text to a file that the user named, or "-": all of it, or the file stays as it was. Error:
@@ -34,10 +35,13 @@ cases::Expected<void> write_pieces(const std::string& file, const cases::Tell& t
 // The same of a file in a folder of ours: where a link has its name, the file takes its place.
 cases::Expected<void> replace_text(const std::filesystem::path& file, const std::string& text);
 
-// Writes all reports of a run and returns what could not be written. Progress tells what is being
-// written, where that takes long.
+// Writes all reports of a run. Progress tells what is being written, where that takes long.
 class Progress;
-cases::Errors write_reports(const report::Run& run, const ReportFiles& files, Progress& progress);
+struct Written {
+    cases::Errors errors;  // what could not be written
+    std::string page;      // report.html in the folder, as the summary names it, if it was
+};
+Written write_reports(const report::Run& run, const ReportFiles& files, Progress& progress);
 // Takes away what write_reports() and write_ci() wrote of an earlier run, so that a run that ends
 // before it reports leaves nothing that looks like its result.
 void remove_reports(const ReportFiles& files);
@@ -46,8 +50,6 @@ void remove_reports(const ReportFiles& files);
 // read (--failed-in).
 void remove_reports_of_last_run(const ReportFiles& files);
 void remove_reports_of_last_run(const RunOptions& options);
-// report.html in the folder, as the summary names it; empty if it could not be written.
-std::string written_page(const ReportFiles& files, const cases::Errors& errors);
 
 // Where the summary goes: standard output, unless a report goes there.
 std::FILE* console_beside(const std::string& json, const std::string& junit,

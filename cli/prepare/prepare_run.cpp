@@ -14,11 +14,14 @@
 #include "cases/model/device.hpp"
 #include "cases/model/rule.hpp"
 #include "cases/select/selector.hpp"
-#include "cli/options/parse.hpp"
+#include "cli/options/run_options.hpp"
 #include "cli/prepare/claims.hpp"
+#include "cli/prepare/command_lines.hpp"
 #include "cli/prepare/device_answer.hpp"
 #include "cli/prepare/expectations.hpp"
+#include "cli/prepare/loop_config.hpp"
 #include "cli/prepare/on_threads.hpp"
+#include "cli/prepare/outputs.hpp"
 #include "report/journal/journal.hpp"
 #include "report/text/sentences.hpp"
 #include "run/limits_case.hpp"
@@ -269,7 +272,7 @@ OrStop<Prepared> prepare_resume(const Program& program, const RunOptions& now) {
     for (const CaseRecord& record : earlier->cases) {
         const auto found = by_id.find(record.id);
         if (found != by_id.end() && !record.content.empty() &&
-            run::make_record(*found->second).content != record.content) {
+            run::planned_case(*found->second).content != record.content) {
             return tl::unexpected(
                 stop_with(report::kExitInvalidFile,
                           "the run cannot go on: '" + record.id +
@@ -284,16 +287,17 @@ OrStop<Prepared> prepare_resume(const Program& program, const RunOptions& now) {
                                             "the run cannot go on: its case '" + record.id +
                                                 "' is no longer in the suite; start a new run"));
         }
-        run::PlannedCase planned;
-        planned.data = *found->second;
-        planned.left_out_doors = record.left_out_doors;
+        run::Task task;
+        task.data = *found->second;
         for (const std::string& word : record.doors) {
             if (const std::optional<cases::Door> door = cases::find_door(word)) {
-                planned.data.doors.push_back(*door);
+                task.data.doors.push_back(*door);
             }
         }
-        planned.alone = cut_off.contains(record.id);
-        p.plan.push_back(std::move(planned));
+        task.planned = run::planned_case(task.data);
+        task.planned.left_out_doors = record.left_out_doors;
+        task.alone = cut_off.contains(record.id);
+        p.plan.push_back(std::move(task));
     }
     if (const std::string changed = what_changed(*earlier); !changed.empty()) {
         return tl::unexpected(stop_with(report::kExitInvalidFile,
@@ -318,16 +322,13 @@ OrStop<Prepared> prepare(const Program& program, const RunOptions& options) {
     header.shards = options.shard.count;
     header.jobs = options.jobs;
     for (cases::Case& c : p.selection.cases) {
-        header.cases.push_back(run::make_record(c));
-        header.cases.back().rerun = rerun_line(program, options, c.id, header.cases.back().doors);
-        run::PlannedCase planned;
-        if (const auto left_out = p.selection.left_out_doors.find(c.id);
-            left_out != p.selection.left_out_doors.end()) {
-            planned.left_out_doors = left_out->second;
-            header.cases.back().left_out_doors = left_out->second;
-        }
-        planned.data = std::move(c);
-        p.plan.push_back(std::move(planned));
+        run::Task task;
+        task.planned = run::planned_case(c);
+        task.planned.rerun = rerun_line(program, options, c.id, {task.planned.doors});
+        task.planned.left_out_doors = std::move(p.selection.left_out_doors[c.id]);
+        task.data = std::move(c);
+        header.cases.emplace_back(task.planned);
+        p.plan.push_back(std::move(task));
     }
     header.sources = sources_of(header.cases);
     p.selection.cases.clear();
@@ -359,6 +360,17 @@ OrStop<report::Journal> open_journal(const fs::path& folder, const Run& header, 
     return std::move(*journal);
 }
 
+OrStop<report::Journal> begin_journal(Prepared& p, bool resumed) {
+    if (p.folder.empty()) {
+        p.folder = new_folder("out", file_name_of(p.header.device.name));
+    }
+    OrStop<report::Journal> journal = open_journal(p.folder, p.header, resumed);
+    if (journal && !resumed) {
+        remove_reports({p.folder, p.options.json, p.options.junit, p.options.html});
+    }
+    return journal;
+}
+
 namespace {
 
 // Whether an expectation file leaves a door out.
@@ -386,17 +398,19 @@ OrStop<std::monostate> apply_expectations(Prepared& p) {
     if (const auto found = expected->find(cases::kLimitsCase); found != expected->end()) {
         p.of_limits = found->second;
     }
-    for (run::PlannedCase& c : p.plan) {
-        if (const auto found = expected->find(c.data.id); found != expected->end()) {
-            c.expected = found->second;
+    const auto skip_words = [&](report::PlannedCase& planned) {
+        std::erase_if(planned.doors, [&](const auto& word) { return is_skipped(p.header, word); });
+    };
+    for (run::Task& task : p.plan) {
+        if (const auto found = expected->find(task.data.id); found != expected->end()) {
+            task.expected = found->second;
         }
-        std::erase_if(c.data.doors, [&](cases::Door door) {
+        std::erase_if(task.data.doors, [&](cases::Door door) {
             return is_skipped(p.header, cases::row_of(door).word);
         });
+        skip_words(task.planned);
     }
-    for (CaseRecord& record : p.header.cases) {
-        std::erase_if(record.doors, [&](const auto& word) { return is_skipped(p.header, word); });
-    }
+    std::ranges::for_each(p.header.cases, skip_words);
     return std::monostate{};
 }
 

@@ -21,7 +21,7 @@ namespace cli {
 struct Prepared {
     RunOptions options;
     Selection selection;
-    std::vector<run::PlannedCase> plan;  // the cases still to be run
+    std::vector<run::Task> plan;  // the cases still to be run
     std::filesystem::path folder;
     report::Run header;
     bool is_resumed = false;
@@ -34,10 +34,13 @@ OrStop<Prepared> prepare_resume(const Program& program, const RunOptions& now);
 // The options by which a run reaches out of its folder (" --json FILE"), which go beside --resume.
 std::string words_to_agree(const RunOptions& options);
 
-// The folder of the reports with its journal, begun with the header or, of a resumed run, gone on
-// with.
+// The folder with its journal, begun with the header or, of a resumed run, gone on with.
 OrStop<report::Journal> open_journal(const std::filesystem::path& folder, const report::Run& header,
                                      bool resumed);
+
+// The same of a prepared run, in a new folder if none was named; of reports of an earlier run in it
+// nothing stays.
+OrStop<report::Journal> begin_journal(Prepared& p, bool resumed);
 
 // Finds the expectation files for the device of the header and what they say of the planned cases.
 OrStop<std::monostate> apply_expectations(Prepared& p);

@@ -8,17 +8,16 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <cstdlib>
 #include <ctime>
 #include <map>
 #include <set>
 #include <string_view>
-#include <tuple>
 
 #include "cases/base/checksum.hpp"
 #include "cases/base/counted.hpp"
 #include "cases/model/device.hpp"
+#include "cli/prepare/command_lines.hpp"
 #include "cli/renderers/renderers.hpp"
 #include "report/journal/journal.hpp"
 #include "run/order.hpp"
@@ -75,38 +74,6 @@ std::string selection_text(std::vector<std::string> ids) {
         hash = cases::stable_hash(id, hash);
     }
     return fmt::format("{}, {}", cases::counted(ids.size(), "case"), cases::hex(hash));
-}
-
-// The level of --fail-at, unless it is the profile anyway.
-std::optional<cases::Profile> own_fail_level(const RunOptions& options) {
-    return options.fail_at == options.profile ? std::nullopt : options.fail_at;
-}
-
-// The options that change what counts as expected, as they would be given.
-std::string settings_of(const RunOptions& options) {
-    std::vector<std::string> words;
-    for (const auto& [is_given, name] : {std::pair(options.require_support, "--require-support"),
-                                         std::pair(options.strict, "--strict"),
-                                         std::pair(options.device.validation, "--validation")}) {
-        if (is_given) {
-            words.emplace_back(name);
-        }
-    }
-    const RunOptions usual;
-    if (const auto level = own_fail_level(options)) {
-        words.push_back(fmt::format("--fail-at {}", cases::to_string(*level)));
-    }
-    if (options.doors != usual.doors) {
-        words.push_back("--doors " + options.doors);
-    }
-    for (const auto& [name, value, other] :
-         {std::tuple("--repeat", options.repeat, usual.repeat),
-          std::tuple("--retries", options.retries, usual.retries)}) {
-        if (value != other) {
-            words.push_back(fmt::format("{} {}", name, value));
-        }
-    }
-    return fmt::format("{}", fmt::join(words, " "));
 }
 
 }  // namespace
@@ -223,191 +190,6 @@ report::Run new_header(const Program& program, const RunOptions& options,
     header.own_hash = selection.own_hash;
     header.settings = settings_of(options);
     return header;
-}
-
-namespace {
-
-std::string join(const std::vector<std::string>& words) {
-    std::string line;
-    for (const std::string& word : words) {
-        line += (line.empty() ? "" : " ") + shell_quote(word);
-    }
-    return line;
-}
-
-void add_given(std::vector<std::string>& words, const char* option, const std::string& value) {
-    if (!value.empty()) {
-        words.insert(words.end(), {option, value});
-    }
-}
-
-void add_judged_device(std::vector<std::string>& words, const JudgedDevice& device) {
-    if (device.subpixel_bits != 8) {
-        words.insert(words.end(), {"--subpixel-bits", std::to_string(device.subpixel_bits)});
-    }
-    add_given(words, "--sample-locations", device.sample_locations);
-    if (device.depth_beside_stencil != JudgedDevice().depth_beside_stencil) {
-        words.insert(words.end(), {"--depth-beside-stencil", device.depth_beside_stencil});
-    }
-}
-
-void add_suite_and_profile(std::vector<std::string>& words, const RunOptions& options) {
-    add_given(words, "--suite", options.suite.suite);
-    if (options.profile != cases::Profile::direct3d) {
-        words.insert(words.end(), {"--profile", std::string(cases::to_string(options.profile))});
-    }
-}
-
-void add_fail_at(std::vector<std::string>& words, const RunOptions& options) {
-    if (const auto level = own_fail_level(options)) {
-        words.insert(words.end(), {"--fail-at", std::string(cases::to_string(*level))});
-    }
-}
-
-void add_expectations(std::vector<std::string>& words, const RunOptions& options) {
-    if (options.no_expect) {
-        words.emplace_back("--no-expect");
-    }
-    for (const std::string& file : options.expect) {
-        words.insert(words.end(), {"--expect", file});
-    }
-}
-
-}  // namespace
-
-std::string selector_of(const RunOptions& options, const std::string& id) {
-    const size_t end = std::min(id.find(':'), id.size());
-    const std::string base = id.substr(0, end);
-    const std::string leaf = id.substr(end);
-    std::vector<std::string> selectors = options.suite.selectors;
-    if (!options.suite.carried.empty()) {
-        selectors.push_back(options.suite.carried);
-    }
-    for (const std::string& selector : selectors) {
-        const fs::path own = selector.substr(0, selector.find(".toml:") + 5);
-        if (selector.find(".toml:") != std::string::npos && own.stem() == base) {
-            return own.string() + leaf;
-        }
-        if (selector.ends_with(".toml") && fs::path(selector).stem() == base) {
-            return selector + leaf;
-        }
-        // A folder of one's own: its file; the suite's folders are not below the working directory
-        // by their ids.
-        const fs::path file = fs::path(selector) / (base + ".toml");
-        std::error_code ignored;
-        if (fs::is_regular_file(file, ignored)) {
-            return file.string() + leaf;
-        }
-    }
-    return id;
-}
-
-namespace {
-
-// The settings that choose or change a driver, to be put before a command: "VK_DRIVER_FILES=a.json
-// ".
-std::string driver_settings() {
-    constexpr std::array<std::string_view, 6> kPrefixes = {
-        "VK_", "EDGECASE_SELF_PREFIX", "LP_", "LVP_", "MESA_", "GALLIUM_"};
-    std::string text;
-    for (const auto& [name, value] : recorded_environment()) {
-        if (std::any_of(
-                kPrefixes.begin(), kPrefixes.end(),
-                [&, &n = name](std::string_view prefix) { return n.starts_with(prefix); })) {
-            text += name + "=" + shell_quote(value) + " ";
-        }
-    }
-    return text;
-}
-
-}  // namespace
-
-std::string rerun_line(const Program& program, const RunOptions& options, const std::string& id,
-                       const std::vector<std::string>& doors) {
-    std::vector<std::string> words = {program.arguments.front(), "run", selector_of(options, id)};
-    add_suite_and_profile(words, options);
-    add_given(words, "--device", options.device.device);
-    add_given(words, "--icd", options.device.icd);
-    if (options.device.validation) {
-        words.emplace_back("--validation");
-    }
-    add_given(words, "--renderer", options.device.renderer);
-    if (!doors.empty()) {
-        words.insert(words.end(), {"--doors", doors_words(options.doors, doors)});
-    }
-    if (options.repeat > 1) {
-        words.insert(words.end(), {"--repeat", std::to_string(options.repeat)});
-    }
-    if (std::abs(options.device.timeout - DeviceOptions().timeout) > 0) {
-        words.insert(words.end(), {"--timeout", fmt::format("{}", options.device.timeout)});
-    }
-    add_fail_at(words, options);
-    if (options.require_support) {
-        words.emplace_back("--require-support");
-    }
-    if (options.strict) {
-        words.emplace_back("--strict");
-    }
-    add_expectations(words, options);
-    return driver_settings() + join(words);
-}
-
-std::string diff_line(const Program& program, const DiffOptions& options, const std::string& id) {
-    RunOptions named = options.run;
-    named.suite.carried.clear();  // what the export carries is known by its id
-    std::vector<std::string> words = {program.arguments.front(), "diff", selector_of(named, id),
-                                      "--captures", options.captures};
-    add_given(words, "--exported", options.exported);
-    add_suite_and_profile(words, options.run);
-    add_judged_device(words, options.judged);
-    add_given(words, "--name", options.name);
-    add_fail_at(words, options.run);
-    if (options.run.require_support) {
-        words.emplace_back("--require-support");
-    }
-    add_expectations(words, options.run);
-    return join(words);
-}
-
-std::string explain_line(const Program& program, const RunOptions& options, const std::string& id,
-                         const JudgedDevice& device) {
-    std::vector<std::string> words = {program.arguments.front(), "explain",
-                                      selector_of(options, id)};
-    add_suite_and_profile(words, options);
-    add_judged_device(words, device);
-    return join(words);
-}
-
-std::string reproducer_line(const Program& program, const RunOptions& options,
-                            const std::string& id, const JudgedDevice& device) {
-    std::vector<std::string> words = {program.arguments.front(), "export", "--reproducer",
-                                      selector_of(options, id)};
-    add_suite_and_profile(words, options);
-    add_judged_device(words, device);
-    words.insert(words.end(), {"-o", "repro.c"});
-    return join(words);
-}
-
-std::vector<std::pair<std::string, std::string>> recorded_environment() {
-    constexpr std::array<std::string_view, 14> kPrefixes = {
-        "VK_",         "EDGECASE_",  "LP_",          "LVP_",         "MESA_",
-        "GALLIUM_",    "LIBGL_",     "ENABLE_",      "DISABLE_",     "NODEVICE_",
-        "LD_LIBRARY_", "LD_PRELOAD", "SWIFTSHADER_", "XDG_DATA_DIRS"};
-    std::vector<std::pair<std::string, std::string>> recorded;
-    for (char** variable = environ; *variable != nullptr; ++variable) {
-        const std::string_view text = *variable;
-        const size_t equals = text.find('=');
-        const bool wanted =
-            std::any_of(kPrefixes.begin(), kPrefixes.end(),
-                        [&](std::string_view prefix) { return text.starts_with(prefix); });
-        if (wanted && equals != std::string_view::npos) {
-            recorded.emplace_back(text.substr(0, equals), text.substr(equals + 1));
-        }
-    }
-    std::error_code ignored;
-    recorded.emplace_back("PWD", fs::current_path(ignored).string());
-    std::sort(recorded.begin(), recorded.end());
-    return recorded;
 }
 
 std::string utc_now(bool compact) {

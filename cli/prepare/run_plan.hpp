@@ -34,27 +34,10 @@ struct Selection {
 // unless the device's limits are selected.
 OrStop<Selection> select_cases(const Program& program, const RunOptions& options);
 
-// How a command line names a selected case: by its id, or by its file, and a leaf of it, if it is
-// none of the suite's.
-std::string selector_of(const RunOptions& options, const std::string& id);
-
 // What is known of a run before its device is: how, where and when it was started, its suite and
 // what was selected.
 report::Run new_header(const Program& program, const RunOptions& options,
                        const Selection& selection);
-
-// The words of a command on one case that repeat how this run was set up, quoted for a shell.
-std::string rerun_line(const Program& program, const RunOptions& options, const std::string& id,
-                       const std::vector<std::string>& doors = {});
-std::string diff_line(const Program& program, const DiffOptions& options, const std::string& id);
-std::string explain_line(const Program& program, const RunOptions& options, const std::string& id,
-                         const JudgedDevice& device);
-// Writes the case as a C program into the working directory.
-std::string reproducer_line(const Program& program, const RunOptions& options,
-                            const std::string& id, const JudgedDevice& device);
-
-// What was set of the variables that choose or change drivers, and PWD.
-std::vector<std::pair<std::string, std::string>> recorded_environment();
 
 // "2026-11-21T05:00:00Z", which SOURCE_DATE_EPOCH (seconds since 1970) sets for reports that are
 // built again; for file names "20261121T050000Z", always the time of the day.

@@ -63,7 +63,7 @@ Verdict compare_instruments(const cases::Case& c, const ref::Expectation& expect
                             const capture::Delivered& planes) {
     const cases::Case plain = with_instruments(c);
     const capture::Capture capture = completed(plain, expectation, planes);
-    return compare(plain, expectation, capture, selection_of(planes));
+    return compare(plain, expectation, capture, Wanted::all, selection_of(planes));
 }
 
 // What other planes tell of the fragments behind the colours, if those are the numbers of hits and

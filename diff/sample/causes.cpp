@@ -33,6 +33,12 @@ const TriangleExplanation* Causes::first_that(const Fits& fits) const {
     return it == reasons_.triangles.end() ? nullptr : &*it;
 }
 
+const TriangleExplanation* Causes::last_that(const Fits& fits) const {
+    const auto& all = reasons_.triangles;
+    const auto it = std::find_if(all.rbegin(), all.rend(), fits);
+    return it == all.rend() ? nullptr : &*it;
+}
+
 const TriangleExplanation* Causes::first_with(Coverage coverage) const {
     return first_that([&](const auto& t) { return t.decision.coverage == coverage; });
 }
@@ -50,6 +56,10 @@ Cause Causes::of(const TriangleExplanation& t) const {
     return {ref::rule_of(t.why(), level_), [this, &t] {
                 return fmt::format("{}: {}", name_of(t), explainer_.sentence(t, sample_));
             }};
+}
+
+std::optional<Cause> Causes::told(const TriangleExplanation* t) const {
+    return t ? std::optional<Cause>(of(*t)) : std::nullopt;
 }
 
 Cause Causes::of(const ref::FixedSet& set) const {
@@ -70,12 +80,12 @@ std::optional<Cause> Causes::of_suppressed(const Fits& fits) const {
     const TriangleExplanation* t = first_that(
         [&](const auto& e) { return is_suppressed(e) && e.why() != ReasonKind::other_layer; });
     t = t ? t : first_that(is_suppressed);
-    return t ? std::optional<Cause>(of(*t)) : std::nullopt;
+    return told(t);
 }
 
 std::optional<Cause> Causes::of_tie() const {
     const TriangleExplanation* const t = first_tie(true);
-    return t ? std::optional<Cause>(of(*t)) : std::nullopt;
+    return told(t);
 }
 
 Cause Causes::of_facing() const {
@@ -103,20 +113,13 @@ std::optional<Cause> Causes::of_stray_writer(
     return of(*first);
 }
 
-Cause Causes::of_bounds_of(const TriangleExplanation& t) const {
-    return {ref::rule_of(ReasonKind::bounds_test, cases::Profile::vulkan),
-            [this, &t] { return fmt::format("{} {}", name_of(t), explainer_.bounds_sentence(t)); }};
-}
-
-Cause Causes::of_stencil_of(const TriangleExplanation& t) const {
-    return {ref::rule_of(ReasonKind::stencil_test, cases::Profile::vulkan), [this, &t] {
-                return fmt::format("{} {}", name_of(t), explainer_.stencil_sentence(t));
-            }};
-}
-
-Cause Causes::of_depth_of(const TriangleExplanation& t) const {
-    return {ref::rule_of(t.depth_reason, cases::Profile::vulkan), [this, &t] {
-                return fmt::format("{} {}", name_of(t), explainer_.depth_sentence(t, sample_));
+Cause Causes::of_test(ReasonKind why, const TriangleExplanation& t) const {
+    return {ref::rule_of(why, cases::Profile::vulkan), [this, why, &t] {
+                return fmt::format("{} {}", name_of(t),
+                                   why == ReasonKind::bounds_test ? explainer_.bounds_sentence(t)
+                                   : why == ReasonKind::stencil_test
+                                       ? explainer_.stencil_sentence(t)
+                                       : explainer_.depth_sentence(t, sample_));
             }};
 }
 
@@ -146,13 +149,10 @@ std::optional<Cause> Causes::of_last_hit(
             t.why() == ReasonKind::no_alpha;
         return is_told ? std::optional<Cause>(of(t)) : std::nullopt;
     }
-    if (fails_bounds(t)) {
-        return of_bounds_of(t);
+    if (fails_bounds(t) || fails_stencil(t)) {
+        return of_test(fails_bounds(t) ? ReasonKind::bounds_test : ReasonKind::stencil_test, t);
     }
-    if (fails_stencil(t)) {
-        return of_stencil_of(t);
-    }
-    return t.depth == ref::DepthOutcome::fails ? std::optional<Cause>(of_depth_of(t))
+    return t.depth == ref::DepthOutcome::fails ? std::optional<Cause>(of_test(t.depth_reason, t))
                                                : std::nullopt;
 }
 
@@ -166,52 +166,35 @@ std::optional<Cause> Causes::of_earlier_hit(uint32_t draw) const {
 }
 
 std::optional<Cause> Causes::of_depth(bool is_missing) const {
-    const auto& triangles = reasons_.triangles;
     const ref::DepthOutcome asked =
         is_missing ? ref::DepthOutcome::passes : ref::DepthOutcome::fails;
-    const auto fits = [&](const TriangleExplanation& t) {
+    const TriangleExplanation* const found = last_that([&](const auto& t) {
         return t.depth == asked && (!is_missing || t.decision.coverage == Coverage::must);
-    };
-    const auto it = std::find_if(triangles.rbegin(), triangles.rend(), fits);
+    });
     // Without a test nothing can have been lost to it.
-    const bool is_tested = std::any_of(triangles.begin(), triangles.end(), [&](const auto& t) {
+    const bool is_tested = first_that([&](const auto& t) {
         return t.depth && case_.draws[t.triangle.draw].depth.compare != cases::CompareOp::always;
     });
-    if (it == triangles.rend() || !is_tested) {
-        return std::nullopt;
-    }
-    return of_depth_of(*it);
+    return found && is_tested ? std::optional<Cause>(of_test(found->depth_reason, *found))
+                              : std::nullopt;
 }
 
 std::optional<Cause> Causes::of_bounds(bool is_missing) const {
-    const auto& triangles = reasons_.triangles;
-    const auto it =
-        std::find_if(triangles.rbegin(), triangles.rend(), [&](const TriangleExplanation& t) {
-            return t.fate && case_.target.has_depth && case_.draws[t.triangle.draw].depth.bounds &&
-                   (is_missing ? t.fate->always_passes() : fails_bounds(t));
-        });
-    if (it == triangles.rend()) {
-        return std::nullopt;
-    }
-    return of_bounds_of(*it);
+    const TriangleExplanation* const found = last_that([&](const auto& t) {
+        return t.fate && case_.target.has_depth && case_.draws[t.triangle.draw].depth.bounds &&
+               (is_missing ? t.fate->always_passes() : fails_bounds(t));
+    });
+    return found ? std::optional<Cause>(of_test(ReasonKind::bounds_test, *found)) : std::nullopt;
 }
 
 std::optional<Cause> Causes::of_stencil(bool is_missing) const {
-    const auto& triangles = reasons_.triangles;
-    const auto is_tested = [&](const TriangleExplanation& t) {
+    const TriangleExplanation* const found = last_that([&](const auto& t) {
         const cases::StencilState& state = case_.draws[t.triangle.draw].stencil;
-        return state.front.compare != cases::CompareOp::always ||
-               state.back.compare != cases::CompareOp::always;
-    };
-    const auto it =
-        std::find_if(triangles.rbegin(), triangles.rend(), [&](const TriangleExplanation& t) {
-            return t.fate && is_tested(t) &&
-                   (is_missing ? t.fate->always_passes() : fails_stencil(t));
-        });
-    if (it == triangles.rend()) {
-        return std::nullopt;
-    }
-    return of_stencil_of(*it);
+        return t.fate && (is_missing ? t.fate->always_passes() : fails_stencil(t)) &&
+               (state.front.compare != cases::CompareOp::always ||
+                state.back.compare != cases::CompareOp::always);
+    });
+    return found ? std::optional<Cause>(of_test(ReasonKind::stencil_test, *found)) : std::nullopt;
 }
 
 namespace {
@@ -231,7 +214,7 @@ std::optional<Cause> Causes::of_lost(uint32_t triangle) const {
     const TriangleExplanation* const t = first_that([&](const auto& e) {
         return e.index == triangle && e.decision.coverage == Coverage::must;
     });
-    return t ? std::optional<Cause>(of(*t)) : std::nullopt;
+    return told(t);
 }
 
 std::optional<Cause> Causes::of_another(uint32_t triangle) const {
@@ -242,7 +225,7 @@ std::optional<Cause> Causes::of_another(uint32_t triangle) const {
                case_.draws[e.triangle.draw].color.attribute < 0 &&
                e.decision.coverage == Coverage::must_not;
     });
-    return t ? std::optional<Cause>(of(*t)) : std::nullopt;
+    return told(t);
 }
 
 Cause Causes::of_extra() const {

@@ -71,13 +71,14 @@ class Causes {
 
     Cause of(const ref::TriangleExplanation& t) const;
     Cause of(const ref::FixedSet& set) const;
-    Cause of_bounds_of(const ref::TriangleExplanation& t) const;
-    Cause of_stencil_of(const ref::TriangleExplanation& t) const;
-    Cause of_depth_of(const ref::TriangleExplanation& t) const;
+    std::optional<Cause> told(const ref::TriangleExplanation* t) const;
+    // Of the depth bounds or the stencil test, else of the depth test.
+    Cause of_test(ref::ReasonKind why, const ref::TriangleExplanation& t) const;
     // A reason of the sample as a whole: `triangle` and `number` are those that its sentence names.
     Cause of(ref::ReasonKind why, const std::string& triangle = "", uint32_t number = 0) const;
     std::optional<Cause> of_suppressed(const Fits& fits) const;
     const ref::TriangleExplanation* first_that(const Fits& fits) const;
+    const ref::TriangleExplanation* last_that(const Fits& fits) const;
     const ref::TriangleExplanation* first_with(ref::Coverage coverage) const;
     const ref::TriangleExplanation* first_tie(bool is_given) const;
 

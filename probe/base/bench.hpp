@@ -39,26 +39,31 @@ struct Bench {
         std::vector<Drawn> drawn = draw(std::move(cases));
         return drawn.empty() ? Drawn{{}, "nothing was drawn"} : std::move(drawn.front());
     }
-    void add(Property property) const { sheet.properties.push_back(std::move(property)); }
-    // The answer is the vote's.
-    void add(Property property, const Vote& vote) const {
-        vote.settle(property);
-        add(std::move(property));
-    }
-    // Says of a property that the device could not draw what it needs.
-    void add_unknown(Property property, const std::string& why) const {
-        property.why = why;
-        add(std::move(property));
-    }
-    // Draws the one case that a property is found by. If that cannot be drawn, the property is
-    // added, and nothing is returned.
+    // Draws the one case that a property is found by; if that cannot be drawn, the property says
+    // why.
     std::optional<capture::Capture> picture_of(cases::Case c, Property& property) const {
         Drawn drawn = draw_one(std::move(c));
         if (!drawn.picture) {
-            add_unknown(std::move(property), drawn.why_not);
+            property.why = drawn.why_not;
         }
         return std::move(drawn.picture);
     }
+};
+
+// A property that is being looked for: as it is at the end, it goes to the datasheet.
+struct Finding : Property {
+    Finding(const Bench& bench, std::string its_id, std::string its_question, std::string how)
+        : sheet(bench.sheet) {
+        id = std::move(its_id);
+        question = std::move(its_question);
+        experiment = std::move(how);
+    }
+    Finding(const Finding&) = delete;
+    Finding& operator=(const Finding&) = delete;
+    using Property::operator=;
+    ~Finding() { sheet.properties.push_back(std::move(static_cast<Property&>(*this))); }
+
+    Datasheet& sheet;
 };
 
 }  // namespace probe

@@ -31,8 +31,6 @@ class Scene {
 
     void set_viewport(float x, float y, float width, float height);
     void add(const Corner& a, const Corner& b, const Corner& c);
-    // A vertex as it is in clip space.
-    void add_clip(const glm::vec4& position) { draw().positions.push_back(position); }
     // An attribute without values yet; add one a vertex.
     cases::Attribute& attribute(const std::string& name, uint32_t components,
                                 cases::Interpolation interpolation = cases::Interpolation::smooth);

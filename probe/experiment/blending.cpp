@@ -43,12 +43,11 @@ double code_of(double v, double largest) {
 }
 
 void measure_unorm(const Bench& bench, ColorFormat format) {
-    Property property;
-    property.id = fmt::format("blending.{}", cases::name_of(format));
-    property.question = fmt::format("In what numbers {} is blended", cases::name_of(format));
-    property.experiment =
+    Finding property(
+        bench, fmt::format("blending.{}", cases::name_of(format)),
+        fmt::format("In what numbers {} is blended", cases::name_of(format)),
         "squares whose colour, multiplied by its alpha, is another code if the two are rounded to "
-        "codes first";
+        "codes first");
     const cases::ColorFormatRow& row = cases::row_of(format);
     const double largest = std::ldexp(1.0, row.bits[0]) - 1;
     const double alphas = std::ldexp(1.0, row.bits[3] == 0 ? row.bits[0] : row.bits[3]) - 1;
@@ -88,7 +87,7 @@ void measure_unorm(const Bench& bench, ColorFormat format) {
             std::round(in_codes({cut(pairs[k].color), cut(pairs[k].alpha)}))};
         vote.add([&](size_t n) { return std::fabs(codes.at(n) - code) < 0.5; });
     });
-    bench.add(std::move(property), vote);
+    vote.settle(property);
 }
 
 }  // namespace

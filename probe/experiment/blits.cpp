@@ -70,7 +70,7 @@ double filtered(const std::vector<cases::TexelCodes>& row, double u, int bits, i
 // A blit with the linear filter from 8-bit codes to 16 bits; texels whose source coordinate lies in
 // [lowest, highest] vote, with room for the filter's own error.
 void measure_linear(
-    const Bench& bench, Property property, const Shape& shape, Vote vote, double room,
+    const Bench& bench, Property& property, const Shape& shape, Vote vote, double room,
     double lowest, double highest,
     const std::function<double(size_t, const std::vector<cases::TexelCodes>&, double u)>& predict,
     const std::function<std::string(size_t)>& label = {}) {
@@ -105,14 +105,11 @@ void measure_linear(
         vote.settle(property, label);
         break;
     }
-    bench.add(std::move(property));
 }
 
 void measure_border(const Bench& bench) {
-    Property property;
-    property.id = "blit.border";
-    property.question = "Where the linear filter of a blit stops";
-    property.experiment = "a region inside the source, enlarged, with texels beyond its border";
+    Finding property(bench, "blit.border", "Where the linear filter of a blit stops",
+                     "a region inside the source, enlarged, with texels beyond its border");
     const Shape shape{64, 16, 20, 256};
     // Whatever its weights are: 1/24 of a texel's difference.
     measure_linear(bench, property, shape,
@@ -124,10 +121,8 @@ void measure_border(const Bench& bench) {
 }
 
 void measure_weights(const Bench& bench) {
-    Property property;
-    property.id = "blit.weights";
-    property.question = "Bits of the linear filter's weights";
-    property.experiment = "four texels enlarged to 4,096: how the numbers between them step";
+    Finding property(bench, "blit.weights", "Bits of the linear filter's weights",
+                     "four texels enlarged to 4,096: how the numbers between them step");
     const Shape shape{64, 30, 34, 4096};
     constexpr std::array<int, 9> kBits{4, 5, 6, 7, 8, 9, 10, 12, 24};
     std::vector<std::string> names;
@@ -156,12 +151,10 @@ std::vector<float> by_steps(const Shape& s) {
 }
 
 void measure_coordinates(const Bench& bench) {
-    Property property;
-    property.id = "blit.coordinates";
-    property.question = "How a blit gets from one source coordinate to the next";
-    property.experiment =
+    Finding property(
+        bench, "blit.coordinates", "How a blit gets from one source coordinate to the next",
         "rows of 1,000 and more texels with the nearest filter, where sums of steps leave the "
-        "texel that the product of the step hits";
+        "texel that the product of the step hits");
     Vote vote({"each by itself", "by adding the step to the last one"});
     for (const uint32_t size : {1000U, 1001U, 1023U, 1501U, 1777U, 2003U}) {
         for (const uint32_t source : {333U, 599U, 701U, 997U}) {
@@ -187,10 +180,7 @@ void measure_coordinates(const Bench& bench) {
             }
         }
     }
-    if (vote.decisive() > 0 || property.why.empty()) {
-        vote.settle(property);
-    }
-    bench.add(std::move(property));
+    vote.settle(property);
 }
 
 }  // namespace

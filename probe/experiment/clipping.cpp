@@ -86,18 +86,15 @@ std::optional<Reach> look_beyond(const Bench& bench, const Grid& grid, int power
 }
 
 void measure_guard_band(const Bench& bench, const Grid& grid) {
-    Property property;
-    property.id = "clipping.guard_band";
-    property.question = "How far beyond the viewport triangles are drawn uncut";
-    property.experiment =
+    Finding property(
+        bench, "clipping.guard_band", "How far beyond the viewport triangles are drawn uncut",
         "edges that begin 2^4 to 2^20 pixels left of the viewport: the column where one crosses a "
-        "row is that of the whole edge, or of one from a corner on the border that has snapped";
+        "row is that of the whole edge, or of one from a corner on the border that has snapped");
     int uncut = 0;  // the largest power, with all smaller ones
     int first_cut = 0;
     for (int power = kFirst; power <= kLast; ++power) {
         const std::optional<Reach> reach = look_beyond(bench, grid, power, property.why);
         if (!reach) {
-            bench.add(std::move(property));
             return;
         }
         if (reach->decisive == 0) {
@@ -126,7 +123,6 @@ void measure_guard_band(const Bench& bench, const Grid& grid) {
     } else {
         property.answer = fmt::format("2^{} to 2^{} pixels", uncut, first_cut);
     }
-    bench.add(std::move(property));
 }
 
 // A triangle from (0, -3) and (0, 3) to (1024, 1) that a plane cuts along y = m + x / 8192: what
@@ -153,12 +149,11 @@ bool is_plain(int64_t at, const Snapping& snap) {
 }
 
 void measure_plane(const Bench& bench, const Grid& grid, bool is_distance) {
-    Property property;
-    property.id = is_distance ? "clipping.distances" : "clipping.depth";
-    property.question = is_distance ? "How a clip distance cuts" : "How the near plane cuts";
-    property.experiment =
+    Finding property(
+        bench, is_distance ? "clipping.distances" : "clipping.depth",
+        is_distance ? "How a clip distance cuts" : "How the near plane cuts",
         "a plane that falls by 1/8 pixel over 1,024 cuts a triangle: the column where the cut "
-        "crosses a row is that of the plane, or of a line between corners that have snapped";
+        "crosses a row is that of the plane, or of a line between corners that have snapped");
     std::vector<Cut> cuts;
     std::vector<cases::Case> cases;
     Dice dice(71);
@@ -201,10 +196,7 @@ void measure_plane(const Bench& bench, const Grid& grid, bool is_distance) {
         exact = {exact.low - 1, exact.high + 1};  // the corners here are rounded, too
         vote.add([&](size_t n) { return n == 0 ? snapped.has(count) : exact.has(count); });
     }
-    if (vote.decisive() > 0 || property.why.empty()) {
-        vote.settle(property);
-    }
-    bench.add(std::move(property));
+    vote.settle(property);
 }
 
 }  // namespace

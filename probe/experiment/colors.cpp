@@ -31,7 +31,7 @@ Scene make_scene(const std::string& id, ColorFormat format, const std::vector<fl
 }
 
 // Calls visit(k, code of red) for each square that was drawn; false: there is no picture, and the
-// property is added.
+// property says why.
 template <class Visit>
 bool for_each_code(const Bench& bench, Scene scene, size_t count, Property& property, Visit visit) {
     const auto picture = bench.picture_of(scene.take(), property);
@@ -65,12 +65,11 @@ std::vector<float> between_codes(double largest) {
 }
 
 void measure_unorm(const Bench& bench, ColorFormat format) {
-    Property property;
-    property.id = fmt::format("color.rounding.{}", cases::name_of(format));
-    property.question = fmt::format("How numbers are rounded to {}", cases::name_of(format));
-    property.experiment =
+    Finding property(
+        bench, fmt::format("color.rounding.{}", cases::name_of(format)),
+        fmt::format("How numbers are rounded to {}", cases::name_of(format)),
         "squares of one number each between two codes; half-way ones where the product with the "
-        "largest code is half-way in binary32";
+        "largest code is half-way in binary32");
     const double largest = std::ldexp(1.0, cases::row_of(format).bits[0]) - 1;
     const std::vector<float> numbers = between_codes(largest);
     std::vector<std::string> answers = {"nearest, ties up", "nearest, ties to even",
@@ -101,7 +100,7 @@ void measure_unorm(const Bench& bench, ColorFormat format) {
                 [&](size_t n) { return std::fabs(codes.at(n) - static_cast<double>(code)) < 0.5; });
         });
     if (is_drawn) {
-        bench.add(std::move(property), vote);
+        vote.settle(property);
     }
 }
 
@@ -113,10 +112,8 @@ double half_number(uint32_t bits) {
 }
 
 void measure_half(const Bench& bench) {
-    Property property;
-    property.id = "color.rounding.rgba16-float";
-    property.question = "How numbers are rounded to halves";
-    property.experiment = "squares of one number each between two halves";
+    Finding property(bench, "color.rounding.rgba16-float", "How numbers are rounded to halves",
+                     "squares of one number each between two halves");
     std::vector<float> numbers;
     std::vector<uint32_t> below;
     Dice dice(89);
@@ -143,15 +140,14 @@ void measure_half(const Bench& bench) {
                           vote.add([&](size_t n) { return codes.at(n) == code; });
                       });
     if (is_drawn) {
-        bench.add(std::move(property), vote);
+        vote.settle(property);
     }
 }
 
 void measure_denormals(const Bench& bench, ColorFormat format, double smallest, int fraction_bits) {
-    Property property;
-    property.id = fmt::format("color.denormals.{}", cases::name_of(format));
-    property.question = fmt::format("What becomes of denormals in {}", cases::name_of(format));
-    property.experiment = "squares of one number each below the smallest normal one";
+    Finding property(bench, fmt::format("color.denormals.{}", cases::name_of(format)),
+                     fmt::format("What becomes of denormals in {}", cases::name_of(format)),
+                     "squares of one number each below the smallest normal one");
     std::vector<float> numbers;
     std::vector<uint32_t> kept;
     for (uint32_t k = 1; k <= 256; ++k) {
@@ -169,7 +165,7 @@ void measure_denormals(const Bench& bench, ColorFormat format, double smallest, 
                           vote.add([&](size_t n) { return code == (n == 0 ? kept[k] : 0U); });
                       });
     if (is_drawn) {
-        bench.add(std::move(property), vote);
+        vote.settle(property);
     }
 }
 
@@ -179,10 +175,8 @@ double encode_srgb(double linear) {
 }
 
 void measure_srgb(const Bench& bench) {
-    Property property;
-    property.id = "color.srgb";
-    property.question = "How far codes of rgba8-srgb are from the curve";
-    property.experiment = "squares of one number each over the whole curve";
+    Finding property(bench, "color.srgb", "How far codes of rgba8-srgb are from the curve",
+                     "squares of one number each over the whole curve");
     std::vector<float> numbers;
     for (uint32_t k = 0; k < kSquares; ++k) {
         const double t = (k + 0.5) / kSquares;
@@ -222,7 +216,6 @@ void measure_srgb(const Bench& bench) {
         property.picture.kind = PictureKind::curve;
         property.picture.axes = {"the number", "error, codes"};
     }
-    bench.add(std::move(property));
 }
 
 }  // namespace

@@ -64,8 +64,8 @@ struct Ladder {
     uint32_t row;     // in the cell
     uint32_t column;  // the pixel at the border
 };
-// How many of the first gaps are answered as the nearest is expected to be. Adds the property
-// itself and returns nothing if that cannot be told.
+// How many of the first gaps are answered as the nearest is expected to be. Returns
+// nothing if that cannot be told: then the property says why.
 template <class Triangle>
 std::optional<size_t> climb(const Bench& bench, Property& property, const Ladder& ladder,
                             const std::vector<double>& all, bool first, const Triangle& add) {
@@ -89,9 +89,8 @@ std::optional<size_t> climb(const Bench& bench, Property& property, const Ladder
         is_drawn = is_drawn && hits_of(*picture, kBorder - kAside, row) > 0;
     }
     if (!is_drawn || !is_monotonic) {
-        bench.add_unknown(std::move(property),
-                          is_drawn ? "nearer and farther pixels are covered in turns"
-                                   : "a triangle is not drawn");
+        property.why =
+            is_drawn ? "nearer and farther pixels are covered in turns" : "a triangle is not drawn";
         return std::nullopt;
     }
     property.agree = all.size();
@@ -100,11 +99,9 @@ std::optional<size_t> climb(const Bench& bench, Property& property, const Ladder
 
 // Each edge lies this far left of a pixel.
 void measure_reach(const Bench& bench) {
-    Property property;
-    property.id = "conservative.reach";
-    property.question = "How far beyond an edge pixels are overestimated";
-    property.experiment =
-        "triangles with an upright edge 0 to 1 pixel left of a pixel, which is covered or not";
+    Finding property(
+        bench, "conservative.reach", "How far beyond an edge pixels are overestimated",
+        "triangles with an upright edge 0 to 1 pixel left of a pixel, which is covered or not");
     const int bits = bench.promises.limits.subpixel_bits;
     const std::vector<double> all = gaps(bits, 64);
     const auto count =
@@ -120,16 +117,13 @@ void measure_reach(const Bench& bench) {
                       : *count == 1         ? "not at all, but where borders meet"
                       : *count < all.size() ? "by " + text_of(all[*count - 1], bits)
                                             : "by a pixel or more";
-    bench.add(std::move(property));
 }
 
 // Each edge lies this far right of a pixel.
 void measure_inner(const Bench& bench) {
-    Property property;
-    property.id = "conservative.inner";
-    property.question = "How far inside an edge underestimated pixels lie";
-    property.experiment =
-        "triangles with an upright edge 0 to 1/4 pixel right of a pixel that they hold";
+    Finding property(
+        bench, "conservative.inner", "How far inside an edge underestimated pixels lie",
+        "triangles with an upright edge 0 to 1/4 pixel right of a pixel that they hold");
     const int bits = bench.promises.limits.subpixel_bits;
     const std::vector<double> all = gaps(bits, 16);
     const auto count = climb(
@@ -144,17 +138,13 @@ void measure_inner(const Bench& bench) {
     property.answer = *count == 0           ? "up to the edge"
                       : *count < all.size() ? text_of(all[*count], bits) + " from it"
                                             : "more than 1/4 pixel from it";
-    bench.add(std::move(property));
 }
 
 // A needle to the right: its edges rise by 1/8. Enlarged by s, its box ends s beyond the tip, and
 // its edges, moved by s along x and y, meet 9 s beyond it.
 void measure_corners(const Bench& bench) {
-    Property property;
-    property.id = "conservative.corners";
-    property.question = "Where enlarged corners end";
-    property.experiment =
-        "a needle that is enlarged by 1/4 pixel, or more if the device adds to it";
+    Finding property(bench, "conservative.corners", "Where enlarged corners end",
+                     "a needle that is enlarged by 1/4 pixel, or more if the device adds to it");
     constexpr double kTip = 32.5;
     constexpr uint32_t kRow = 16;
     Scene scene = make_scene("conservative-corners", 32, Conservative::overestimate);
@@ -174,16 +164,13 @@ void measure_corners(const Bench& bench) {
         property.agree = 0;
         property.why = "the needle's tip is not covered";
     }
-    bench.add(std::move(property));
 }
 
 // The near plane leaves quads; along each of their diagonals lie some pixels.
 void measure_pieces(const Bench& bench) {
-    Property property;
-    property.id = "conservative.pieces";
-    property.question = "How what clipping leaves is overestimated";
-    property.experiment =
-        "triangles of which the near plane cuts off a corner: how often pixels are hit inside";
+    Finding property(
+        bench, "conservative.pieces", "How what clipping leaves is overestimated",
+        "triangles of which the near plane cuts off a corner: how often pixels are hit inside");
     Scene scene = make_scene("conservative-pieces", 64, Conservative::overestimate);
     const double top[] = {1, 17, 33, 49};
     for (const double y : top) {
@@ -208,7 +195,6 @@ void measure_pieces(const Bench& bench) {
     } else {
         property.answer = twice > 0 ? "triangle by triangle" : "as one polygon";
     }
-    bench.add(std::move(property));
 }
 
 }  // namespace

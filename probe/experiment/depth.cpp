@@ -46,10 +46,9 @@ Scene make_scene(const std::string& id, DepthFormat format, const std::vector<fl
 }
 
 void measure_rounding(const Bench& bench, const Format& f) {
-    Property property;
-    property.id = fmt::format("depth.rounding.{}", f.name);
-    property.question = fmt::format("How depth is rounded to {}", f.steps > 0 ? f.name : "D32");
-    property.experiment = "squares of constant depth between two steps of the format";
+    Finding property(bench, fmt::format("depth.rounding.{}", f.name),
+                     fmt::format("How depth is rounded to {}", f.steps > 0 ? f.name : "D32"),
+                     "squares of constant depth between two steps of the format");
     std::vector<float> depths;
     Dice dice(73);
     for (uint32_t k = 0; k < kSquares; ++k) {
@@ -72,11 +71,11 @@ void measure_rounding(const Bench& bench, const Format& f) {
                                           std::ceil(scaled)};
         vote.add([&](size_t n) { return std::fabs(codes.at(n) - code) < 0.5; });
     });
-    bench.add(std::move(property), vote);
+    vote.settle(property);
 }
 
 // The pictures without and with a bias. Nothing if one of them cannot be drawn: then the property
-// is added.
+// says why.
 std::optional<std::array<capture::Capture, 2>> picture_pair(const Bench& bench, cases::Case plain,
                                                             cases::Case biased,
                                                             Property& property) {
@@ -97,11 +96,10 @@ std::string unit_name(const Format& f, int power) {
 }
 
 void measure_unit(const Bench& bench, const Format& f) {
-    Property property;
-    property.id = fmt::format("depth.bias_unit.{}", f.name);
-    property.question = fmt::format("The unit r of depth bias in {}",
-                                    f.steps > 0 ? f.name : "D32, e: the depth's exponent");
-    property.experiment = "squares of constant depth with and without a constant bias";
+    Finding property(bench, fmt::format("depth.bias_unit.{}", f.name),
+                     fmt::format("The unit r of depth bias in {}",
+                                 f.steps > 0 ? f.name : "D32, e: the depth's exponent"),
+                     "squares of constant depth with and without a constant bias");
     const int nominal = f.format == DepthFormat::d16_unorm   ? -16
                         : f.format == DepthFormat::d24_unorm ? -24
                                                              : -23;
@@ -146,17 +144,15 @@ void measure_unit(const Bench& bench, const Format& f) {
             return std::fabs(moved - expected) <= room;
         });
     }
-    bench.add(std::move(property), vote);
+    vote.settle(property);
 }
 
 // One vertex lies far beyond the far plane: its z has another exponent than what clipping leaves,
 // and that another one than what is seen.
 void measure_exponent(const Bench& bench) {
-    Property property;
-    property.id = "depth.bias_exponent";
-    property.question = "Whose exponent the unit of depth bias follows in D32";
-    property.experiment =
-        "triangles that reach beyond the far plane, with and without a constant bias";
+    Finding property(bench, "depth.bias_exponent",
+                     "Whose exponent the unit of depth bias follows in D32",
+                     "triangles that reach beyond the far plane, with and without a constant bias");
     const auto make = [](const std::string& id, bool is_biased) {
         Scene scene(id, 64, 64);
         for (int cell = 0; cell < 16; ++cell) {
@@ -180,7 +176,7 @@ void measure_exponent(const Bench& bench) {
     const std::string unit(bench.sheet.answer("depth.bias_unit.d32"));
     int power = 0;
     if (std::sscanf(unit.c_str(), "2^(e%d)", &power) != 1) {
-        bench.add_unknown(std::move(property), "the unit itself could not be told");
+        property.why = "the unit itself could not be told";
         return;
     }
     const auto candidates = std::to_array<const char*>(
@@ -198,7 +194,7 @@ void measure_exponent(const Bench& bench) {
             return std::fabs(moved / one - 1) < 0.02;
         });
     }
-    bench.add(std::move(property), vote);
+    vote.settle(property);
 }
 
 }  // namespace

@@ -77,10 +77,8 @@ constexpr auto kQuestions = std::to_array<Question>({
 });
 
 void settle_differences(const Bench& bench, const Question& q) {
-    Property property;
-    property.id = q.id;
-    property.question = q.question;
-    property.experiment = "an input that perspective curves: each pair of pixels differs otherwise";
+    Finding property(bench, q.id, q.question,
+                     "an input that perspective curves: each pair of pixels differs otherwise");
     Scene scene(q.id, kSide, kSide);
     scene.target().has_depth = false;
     scene.set_viewport(-128, -128, 256, 256);
@@ -119,15 +117,13 @@ void settle_differences(const Bench& bench, const Question& q) {
             }
         }
     }
-    bench.add(std::move(property), vote);
+    vote.settle(property);
 }
 
 void measure_lod(const Bench& bench) {
-    Property property;
-    property.id = "derivatives.lod";
-    property.question = "Bits of the level of detail below the point";
-    property.experiment =
-        "textureQueryLod of coordinates that grow evenly, against log2 of the texels a pixel";
+    Finding property(
+        bench, "derivatives.lod", "Bits of the level of detail below the point",
+        "textureQueryLod of coordinates that grow evenly, against log2 of the texels a pixel");
     constexpr uint32_t kTexture = 256;
     Scene scene("lod", 64, 64);
     scene.target().has_depth = false;
@@ -170,7 +166,6 @@ void measure_lod(const Bench& bench) {
     }
     if (property.agree == 0) {
         property.why = "no fragment was drawn";
-        bench.add(std::move(property));
         return;
     }
     const double bits = largest > 0 ? -std::log2(largest) : 24;
@@ -180,7 +175,6 @@ void measure_lod(const Bench& bench) {
         {"largest error", largest, "levels"},
         {"mean error", sum / static_cast<double>(property.agree), "levels"},
         {"promised", static_cast<double>(bench.promises.limits.mipmap_bits), "bits"}};
-    bench.add(std::move(property));
 }
 
 }  // namespace

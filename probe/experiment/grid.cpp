@@ -63,23 +63,20 @@ std::vector<Set> positive_sets() {
     return sets;
 }
 
-void settle(const Bench& bench, const Vote& vote, Property property, const std::string& axis,
+void settle(const Bench& bench, const Vote& vote, Property& rounding, const std::string& axis,
             bool has_bits) {
     const std::vector<Snapping> all = all_snappings();
-    Property rounding = property;
     if (has_bits) {
-        property.id = "grid.bits." + axis;
-        property.picture = {};
-        property.question = "Subpixel bits in effect along " + axis;
-        vote.settle(property, [&](size_t k) { return std::to_string(all[k].bits); });
-        property.figures.push_back(
+        Finding bits(bench, "grid.bits." + axis, "Subpixel bits in effect along " + axis,
+                     rounding.experiment);
+        bits.why = rounding.why;
+        vote.settle(bits, [&](size_t k) { return std::to_string(all[k].bits); });
+        bits.figures.push_back(
             {"promised", static_cast<double>(bench.promises.limits.subpixel_bits), "bits"});
-        bench.add(std::move(property));
     }
     vote.settle(rounding, [&](size_t k) {
         return std::string(kRoundingNames.at(static_cast<size_t>(all[k].rounding)));
     });
-    bench.add(std::move(rounding));
 }
 
 std::vector<std::string> names_of(const std::vector<Snapping>& all) {
@@ -93,12 +90,10 @@ std::vector<std::string> names_of(const std::vector<Snapping>& all) {
 
 void measure_positive(const Bench& bench, bool is_x) {
     const std::string axis = is_x ? "x" : "y";
-    Property property;
-    property.id = "grid.rounding." + axis;
-    property.question = "Rounding to the grid along " + axis;
-    property.experiment =
+    Finding property(
+        bench, "grid.rounding." + axis, "Rounding to the grid along " + axis,
         "edges that fall by 1/8 and 1/2 pixel over 1024: the column where one crosses the centres "
-        "of a row tells where its ends were put";
+        "of a row tells where its ends were put");
     const std::vector<Snapping> all = all_snappings();
     Vote vote(names_of(all));
     for (const Set& set : positive_sets()) {
@@ -125,18 +120,16 @@ void measure_positive(const Bench& bench, bool is_x) {
             }
         }
     }
-    settle(bench, vote, std::move(property), axis, true);
+    settle(bench, vote, property, axis, true);
 }
 
 // One end of the edge has a negative coordinate, and the picture is where it has become positive.
 void measure_negative(const Bench& bench, bool is_x) {
     const std::string axis = is_x ? "x" : "y";
-    Property property;
-    property.id = "grid.negative." + axis;
-    property.question = "Rounding of negative coordinates along " + axis;
-    property.experiment =
+    Finding property(
+        bench, "grid.negative." + axis, "Rounding of negative coordinates along " + axis,
         "edges from a vertex left of or above the framebuffer, inside a viewport that reaches "
-        "there: the column where one crosses the centres of the first row";
+        "there: the column where one crosses the centres of the first row");
     std::vector<Edge> edges;
     for (int k = 1; k <= 128; ++k) {
         edges.push_back({-16, -std::ldexp(k, -10), 2032, 3, {-16, 40}, 0});
@@ -161,15 +154,13 @@ void measure_negative(const Bench& bench, bool is_x) {
         const int64_t count = count_row(*drawn[k].picture, 0, is_x);
         vote.add([&](size_t n) { return predicted(edges[k], all[n]).has(count); });
     }
-    settle(bench, vote, std::move(property), axis, false);
+    settle(bench, vote, property, axis, false);
 }
 
 // Both signs together, in the words that programmers use.
 void add_rule(const Bench& bench, const std::string& axis) {
-    Property property;
-    property.id = "grid.rule." + axis;
-    property.question = "The same of both signs along " + axis;
-    property.experiment = "the two answers before this one";
+    Finding property(bench, "grid.rule." + axis, "The same of both signs along " + axis,
+                     "the two answers before this one");
     const Property* positive = bench.sheet.find("grid.rounding." + axis);
     const Property* negative = bench.sheet.find("grid.negative." + axis);
     property.agree = positive->agree + negative->agree;
@@ -187,7 +178,6 @@ void add_rule(const Bench& bench, const std::string& axis) {
     } else {
         property.answer = positive->answer + "; negative ones " + negative->answer;
     }
-    bench.add(std::move(property));
 }
 
 }  // namespace

@@ -55,10 +55,8 @@ constexpr auto kConstants = std::to_array<Constant>({
 });
 
 void measure_constant(const Bench& bench, const Constant& q) {
-    Property property;
-    property.id = q.id;
-    property.question = q.question;
-    property.experiment = "triangles off the grid, each with one number at its three vertices";
+    Finding property(bench, q.id, q.question,
+                     "triangles off the grid, each with one number at its three vertices");
     Scene scene = make_scene(q.id, q.is_projected, 101);
     scene.target().has_depth = false;
     cases::Attribute& a = scene.attribute("constant", 1, q.interpolation);
@@ -86,7 +84,7 @@ void measure_constant(const Bench& bench, const Constant& q) {
         }
     }
     if (all == 0) {
-        bench.add_unknown(std::move(property), "no fragment was drawn");
+        property.why = "no fragment was drawn";
         return;
     }
     property.answer = exact == all ? "stay what they are, bit for bit" : "are rounded";
@@ -94,18 +92,15 @@ void measure_constant(const Bench& bench, const Constant& q) {
     property.figures = {
         {"exact", 100 * static_cast<double>(exact) / static_cast<double>(all), "% of fragments"},
         {"largest error", largest * 0x1p24, "2^-24 of the number"}};
-    bench.add(std::move(property));
 }
 
 // The same small triangle near the framebuffer's origin and far from it: planes whose constant term
 // belongs to the origin lose bits with the distance.
 void measure_anchor(const Bench& bench) {
-    Property property;
-    property.id = "setup.anchor";
-    property.question = "From where planes of noperspective inputs are measured";
-    property.experiment =
+    Finding property(
+        bench, "setup.anchor", "From where planes of noperspective inputs are measured",
         "the same small triangles near the framebuffer's origin and 1,000 pixels from it: where "
-        "errors grow with the distance, planes are measured from the origin";
+        "errors grow with the distance, planes are measured from the origin");
     constexpr uint32_t kWide = 1024;
     const auto error = [&](double left, std::string& why) {
         Scene scene(fmt::format("anchor-{}", left), kWide, 16);
@@ -165,7 +160,6 @@ void measure_anchor(const Bench& bench) {
     } else {
         property.why = "errors grow with the distance, but by less than such planes' do";
     }
-    bench.add(std::move(property));
 }
 
 struct Beside {
@@ -206,16 +200,14 @@ void measure_beside(const Bench& bench) {
     };
     const Drawn base = bench.draw_one(make("beside"));
     for (const Beside& q : kBesides) {
-        Property property;
-        property.id = q.id;
-        property.question = q.question;
-        property.experiment = "the same triangles drawn twice, their inputs compared bit for bit";
+        Finding property(bench, q.id, q.question,
+                         "the same triangles drawn twice, their inputs compared bit for bit");
         cases::Case changed = make(q.id);
         q.change(changed);
         const uint32_t width = changed.target.width;
         const Drawn other = bench.draw_one(std::move(changed));
         if (!base.picture || !other.picture) {
-            bench.add_unknown(std::move(property), base.picture ? other.why_not : base.why_not);
+            property.why = base.picture ? other.why_not : base.why_not;
             continue;
         }
         uint64_t same = 0;
@@ -235,13 +227,12 @@ void measure_beside(const Bench& bench) {
             }
         }
         if (all == 0) {
-            bench.add_unknown(std::move(property), "no fragment was drawn");
+            property.why = "no fragment was drawn";
             continue;
         }
         property.answer = same == all ? "the same" : "other bits";
         property.agree = same == all ? all : all - same;
         property.contradict = same == all ? 0 : same;
-        bench.add(std::move(property));
     }
 }
 

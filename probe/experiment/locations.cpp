@@ -75,13 +75,12 @@ std::vector<Vote> ask(const capture::Capture& picture, const std::vector<Small>&
 }
 
 void measure(const Bench& bench, uint32_t samples) {
-    Property property;
-    property.id = fmt::format("samples.{}", samples);
-    property.question = fmt::format("Where the {} of a pixel {}", cases::counted(samples, "sample"),
-                                    samples == 1 ? "lies" : "lie");
-    property.experiment =
+    Finding property(
+        bench, fmt::format("samples.{}", samples),
+        fmt::format("Where the {} of a pixel {}", cases::counted(samples, "sample"),
+                    samples == 1 ? "lies" : "lie"),
         "256 small triangles on the 1/16 grid: the one place of 256 in a pixel that explains what "
-        "is covered";
+        "is covered");
     const std::vector<Small> all = small_triangles();
     Scene scene(fmt::format("samples-{}", samples), kSide, kSide, samples);
     scene.target().has_depth = false;
@@ -108,7 +107,6 @@ void measure(const Bench& bench, uint32_t samples) {
         property.contradict = std::max(property.contradict, one.contradict);
         if (!one.is_known()) {
             property.why = fmt::format("of sample {}: {}", s, one.why);
-            bench.add(std::move(property));
             return;
         }
         const size_t at = votes[s].best();
@@ -118,7 +116,6 @@ void measure(const Bench& bench, uint32_t samples) {
         property.figures.push_back({fmt::format("sample {} y", s), double(at / 16) / 16, "pixel"});
     }
     property.answer = is_standard ? "the standard locations" : list + " sixteenths";
-    bench.add(std::move(property));
 }
 
 }  // namespace

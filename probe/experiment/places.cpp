@@ -182,13 +182,11 @@ constexpr auto kQuestions = std::to_array<Question>({
 
 void measure_places(const Bench& bench) {
     for (const Question& q : kQuestions) {
-        Property property;
-        property.id = q.id;
-        property.question = fmt::format("{}, 4 samples a pixel", q.question);
-        property.experiment =
+        Finding property(
+            bench, q.id, fmt::format("{}, 4 samples a pixel", q.question),
             q.is_frag_coord
                 ? "FragCoord.xy of triangles that cover pixels in part"
-                : "an input that is the position, in triangles that cover pixels in part";
+                : "an input that is the position, in triangles that cover pixels in part");
         Scene scene = make_scene(q.id);
         add_position(scene, q.auxiliary);
         if (q.is_shaded) {
@@ -199,7 +197,6 @@ void measure_places(const Bench& bench) {
             continue;
         }
         settle(property, *picture, q.is_frag_coord ? picture->frag_coord : picture->attributes[0]);
-        bench.add(std::move(property));
     }
 }
 

@@ -161,18 +161,15 @@ void measure(const Bench& bench, Scene scene, std::span<const Question> question
         errors = errors_of(scene.get(), *drawn.picture, bench.promises.limits);
     }
     for (const Question& q : questions) {
-        Property property;
-        property.id = q.id;
-        property.question = fmt::format("Bits of {} that are right", q.name);
-        property.experiment =
+        Finding property(
+            bench, q.id, fmt::format("Bits of {} that are right", q.name),
             "triangles on the 1/16 grid with w of 1 to 8, against exact numbers; bits are of the "
-            "largest number; the observations are fragments, and agree within two budgets";
+            "largest number; the observations are fragments, and agree within two budgets");
         if (!drawn.picture) {
-            bench.add_unknown(std::move(property), drawn.why_not);
+            property.why = drawn.why_not;
             continue;
         }
         settle(property, errors[to_text(q.quantity())]);
-        bench.add(std::move(property));
     }
 }
 

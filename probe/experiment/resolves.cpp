@@ -50,7 +50,7 @@ cases::Case make_case(const std::string& id, ColorFormat format, const Codes& co
     return out;
 }
 
-void measure(const Bench& bench, Property property, ColorFormat format, const Codes& codes,
+void measure(const Bench& bench, Finding&& property, ColorFormat format, const Codes& codes,
              Vote vote, double room,
              double (*predict)(size_t candidate, const std::array<uint32_t, kSamples>&)) {
     const auto picture = bench.picture_of(make_case(property.id, format, codes), property);
@@ -71,7 +71,7 @@ void measure(const Bench& bench, Property property, ColorFormat format, const Co
             vote.add([&](size_t n) { return std::fabs(predict(n, held) - got) < room; });
         }
     }
-    bench.add(std::move(property), vote);
+    vote.settle(property);
 }
 
 double sum_of(const std::array<uint32_t, kSamples>& codes) {
@@ -94,11 +94,11 @@ void measure_resolves(const Bench& bench) {
         const auto high = static_cast<uint32_t>(dice.whole(180, 255));
         apart.push_back({low, high, low, high});
     }
-    Property rounding;
-    rounding.id = "resolve.rounding";
-    rounding.question = "How averages of four samples are rounded to rgba8-unorm";
-    rounding.experiment = "squares whose samples hold codes that average between two codes";
-    measure(bench, rounding, ColorFormat::rgba8_unorm, codes,
+    measure(bench,
+            Finding(bench, "resolve.rounding",
+                    "How averages of four samples are rounded to rgba8-unorm",
+                    "squares whose samples hold codes that average between two codes"),
+            ColorFormat::rgba8_unorm, codes,
             Vote({"nearest, ties up", "nearest, ties to even", "nearest, ties down", "down"}), 0.5,
             [](size_t n, const auto& held) {
                 const double mean = sum_of(held) / kSamples;
@@ -107,11 +107,10 @@ void measure_resolves(const Bench& bench) {
                        : n == 2 ? std::ceil(mean - 0.5)
                                 : std::floor(mean);
             });
-    Property srgb;
-    srgb.id = "resolve.srgb";
-    srgb.question = "What samples of rgba8-srgb are averaged";
-    srgb.experiment = "squares whose samples hold dark and bright codes";
-    measure(bench, srgb, ColorFormat::rgba8_srgb, apart,
+    measure(bench,
+            Finding(bench, "resolve.srgb", "What samples of rgba8-srgb are averaged",
+                    "squares whose samples hold dark and bright codes"),
+            ColorFormat::rgba8_srgb, apart,
             Vote({"the numbers that the codes stand for", "the codes"}),
             1.01,  // however it is rounded; the two ways differ by several codes
             [](size_t n, const auto& held) {

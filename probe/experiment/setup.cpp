@@ -150,14 +150,12 @@ void measure_quantities(const Bench& bench, const Grid& grid) {
     Sheet sheet = make_sheet(grid);
     const Drawn drawn = bench.draw_one(sheet.scene.get());
     for (const Quantity& q : quantities()) {
-        Property property;
-        property.id = q.id;
-        property.question = fmt::format("From what {} is set up", q.name);
-        property.experiment =
+        Finding property(
+            bench, q.id, fmt::format("From what {} is set up", q.name),
             "triangles whose vertices lie off the grid, where the two positions give values that "
-            "differ by far more than binary32 loses";
+            "differ by far more than binary32 loses");
         if (!drawn.picture) {
-            bench.add_unknown(std::move(property), drawn.why_not);
+            property.why = drawn.why_not;
             continue;
         }
         Vote vote({kUnsnapped, kSnapped});
@@ -167,18 +165,16 @@ void measure_quantities(const Bench& bench, const Grid& grid) {
                 vote, q.got(*drawn.picture, k),
                 {q.of(g, barycentrics(g.at, at)), q.of(g, barycentrics(snapped(g.at, grid), at))});
         });
-        bench.add(std::move(property), vote);
+        vote.settle(property);
     }
 }
 
 // One vertex before the near plane and two beyond it: what is left is one triangle.
 void measure_clipped(const Bench& bench, const Grid& grid) {
-    Property property;
-    property.id = "setup.clipped";
-    property.question = "From what inputs of clipped triangles are set up";
-    property.experiment =
+    Finding property(
+        bench, "setup.clipped", "From what inputs of clipped triangles are set up",
         "triangles of which the near plane leaves one corner, set up from the whole triangle or "
-        "from the snapped corners of what is left";
+        "from the snapped corners of what is left");
     Scene scene("setup-clipped", kSide, kSide);
     Dice dice(43);
     cases::Attribute input;
@@ -231,22 +227,19 @@ void measure_clipped(const Bench& bench, const Grid& grid) {
                          linear(barycentrics(snapped(g.at, grid), at), g.linear),
                          linear(barycentrics(snapped(pieces[t], grid), at), left)});
     });
-    bench.add(std::move(property), vote);
+    vote.settle(property);
 }
 
 // Triangles around one pixel's centre P whose snapped corners are P + (-n, 1), P + (n + 1, -1) and
 // P + (-1, 0) units: their area is 3 square units, and moving the first two by half a unit changes
 // it by n. So the sign before snapping is what we choose.
 void measure_facing(const Bench& bench, const Grid& grid) {
-    Property property;
-    property.id = "setup.facing";
-    property.question = "Whose area decides which face is seen";
-    property.experiment =
-        "slivers that turn over when they are snapped and still cover the centre of a pixel";
+    Finding property(
+        bench, "setup.facing", "Whose area decides which face is seen",
+        "slivers that turn over when they are snapped and still cover the centre of a pixel");
     if (grid.x.bits != grid.y.bits || grid.x.rounding > Rounding::nearest_down ||
         grid.y.rounding > Rounding::nearest_down) {
-        bench.add_unknown(std::move(property),
-                          "the slivers need a grid to which vertices snap by rounding to nearest");
+        property.why = "the slivers need a grid to which vertices snap by rounding to nearest";
         return;
     }
     constexpr int kUnits = 40;
@@ -291,7 +284,7 @@ void measure_facing(const Bench& bench, const Grid& grid) {
             });
         }
     }
-    bench.add(std::move(property), vote);
+    vote.settle(property);
 }
 
 }  // namespace

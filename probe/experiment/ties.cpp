@@ -63,12 +63,10 @@ std::vector<Direction> directions() {
 }  // namespace
 
 void measure_ties(const Bench& bench) {
-    Property property;
-    property.id = "ties.rule";
-    property.question = "Which edges own the samples on them";
-    property.experiment =
+    Finding property(
+        bench, "ties.rule", "Which edges own the samples on them",
         "edges in 32 directions through the centres of pixels, with the triangle on either side "
-        "and wound both ways";
+        "and wound both ways");
     const std::vector<Direction> all = directions();
     const auto rows = static_cast<uint32_t>((2 * all.size() + kAcross - 1) / kAcross);
     Scene scene("ties", kCell * kAcross, 256);
@@ -128,7 +126,7 @@ void measure_ties(const Bench& bench) {
             property.picture.marks.push_back(2 * owned > 2 * kSteps - 1 ? 1U : 0U);
         }
     }
-    bench.add(std::move(property), vote);
+    vote.settle(property);
 }
 
 }  // namespace probe

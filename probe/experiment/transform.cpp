@@ -172,19 +172,14 @@ Vertex find_vertex(Dice& dice, const Snapping& snap, uint32_t row) {
 }  // namespace
 
 void measure_transform(const Bench& bench) {
-    Property divide;
-    divide.id = "setup.divide";
-    divide.question = "How vertices are divided by w";
-    divide.experiment =
+    const std::string how =
         "vertices beside the places where snapping changes side, which one bit more or less puts "
         "on another: where their edges cross a row";
-    Property viewport = divide;
-    viewport.id = "setup.viewport";
-    viewport.question = "How the viewport transform is rounded";
+    Finding viewport(bench, "setup.viewport", "How the viewport transform is rounded", how);
+    Finding divide(bench, "setup.divide", "How vertices are divided by w", how);
     const Grid grid = grid_of(bench.sheet, bench.promises.limits.subpixel_bits);
     if (!grid.is_known) {
-        bench.add_unknown(std::move(divide), "the grid could not be told");
-        bench.add_unknown(std::move(viewport), "the grid could not be told");
+        divide.why = viewport.why = "the grid could not be told";
         return;
     }
     const std::array groups{ways(false), ways(true)};
@@ -210,8 +205,7 @@ void measure_transform(const Bench& bench) {
         }
         const Drawn drawn = bench.draw_one(scene.take());
         if (!drawn.picture) {
-            bench.add_unknown(std::move(divide), drawn.why_not);
-            bench.add_unknown(std::move(viewport), drawn.why_not);
+            divide.why = viewport.why = drawn.why_not;
             return;
         }
         for (uint32_t row = 0; row < kRows; ++row) {
@@ -242,8 +236,6 @@ void measure_transform(const Bench& bench) {
             break;
         }
     }
-    bench.add(std::move(divide));
-    bench.add(std::move(viewport));
 }
 
 }  // namespace probe

@@ -33,12 +33,10 @@ struct Row {
 }  // namespace
 
 void measure_viewport(const Bench& bench) {
-    Property property;
-    property.id = "grid.viewport";
-    property.question = "Where bounds of viewports lie that begin between two pixels";
-    property.experiment =
+    Finding property(
+        bench, "grid.viewport", "Where bounds of viewports lie that begin between two pixels",
         "edges in viewports that begin at fractions of a pixel: where one crosses a row tells how "
-        "far the viewport was moved";
+        "far the viewport was moved");
     const Grid grid = grid_of(bench.sheet, bench.promises.limits.subpixel_bits);
     cases::Case c;
     std::vector<Row> rows;
@@ -82,7 +80,7 @@ void measure_viewport(const Bench& bench) {
                 .has(count);
         });
     }
-    bench.add(std::move(property), vote);
+    vote.settle(property);
 }
 
 }  // namespace probe

@@ -1,14 +1,12 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// From a draw's primitives to the samples that they cover.
 #include "rasterizers/software/draw_command.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "rasterizers/software/assembly.hpp"
+#include "rasterizers/software/area_test.hpp"
 
 namespace software {
 
@@ -112,21 +110,12 @@ DrawCommand::DrawCommand(const cases::Case& c, uint32_t number, const Device& de
                          capture::Capture& out, Attachments& attachments)
     : draw_(effective(c, number, device)),
       number_(number),
-      first_discard_(c.draws[0].discard),
-      first_alpha_to_coverage_(c.draws[0].color.alpha_to_coverage),
-      first_bounds_(c.draws[0].depth.bounds),
-      first_depth_(c.draws[0].frag_depth),
       device_(device),
       out_(out),
       attachments_(attachments),
       rect_(draw_rect(draw_, c.target, device)),
-      samples_(sample_offsets(c.target, device)) {
-    if (device.fault == "bounds-at-draw-start"_fault) {
-        other_depth_ = out.depth;
-    } else if (device.fault == "bounds-of-clear"_fault) {
-        other_depth_.assign(out.depth.size(), c.target.depth_clear);
-    }
-}
+      vertices_(draw_, device),
+      fragments_(draw_, c, number, device, rect_, out, attachments) {}
 
 void DrawCommand::run() {
     const std::vector<Primitive> primitives = assemble_primitives(draw_, device_.fault);
@@ -147,80 +136,54 @@ void DrawCommand::rasterize(const Primitive& primitive) {
     if (!counts_late) {
         attachments_.queries.add(number_, cases::Query::clipping_invocations, 1);
     }
-    if (is_distance_culled(primitive)) {
+    if (vertices_.is_distance_culled(primitive)) {
         ++culled_;
         return;
     }
-    std::array<ClipVertex, 3> triangle;
-    for (size_t k = 0; k < 3; ++k) {
-        const uint32_t v = cached_vertex(primitive.vertex[k]);
-        const uint32_t value_vertex = cached_vertex(primitive.values[k]);
-        triangle[k].position = draw_.positions[v];
-        triangle[k].source = v;
-        triangle[k].distance = distances_of(v, primitive, k);
-        for (size_t a = 0; a < draw_.attributes.size(); ++a) {
-            const bool flat = draw_.attributes[a].interpolation == cases::Interpolation::flat &&
-                              device_.fault != "flat-smooth"_fault &&
-                              device_.fault != "clip-flat-piece"_fault;
-            if (draw_.attributes[a].source == cases::Source::barycentric) {
-                // Turned so that the provoking vertex is the first, or the last.
-                const auto provoking =
-                    static_cast<size_t>(std::find(primitive.vertex.begin(), primitive.vertex.end(),
-                                                  primitive.provoking) -
-                                        primitive.vertex.begin());
-                size_t turn = draw_.provoking == cases::ProvokingVertex::last ? 2 : 3;
-                turn += device_.fault == "barycentric-rotated"_fault ? 1 : 0;
-                const bool keeps_order = device_.first_strip_order && turn == 2 &&
-                                         draw_.topology == cases::Topology::triangle_strip;
-                const size_t number = keeps_order ? k : (k + 3 - provoking + turn) % 3;
-                triangle[k].values[a][static_cast<glm::vec4::length_type>(number)] = 1;
-            }
-            if (draw_.attributes[a].source == cases::Source::vertex) {
-                triangle[k].values[a] =
-                    draw_.attributes[a].values[flat ? primitive.provoking : value_vertex];
-            }
-        }
-    }
-    const ClippedPolygon polygon = clip_triangle(triangle, draw_, device_);
-    tests_depth_ = polygon.tests_depth;
-    attachments_.queries.count_clipped(number_, polygon.vertices.size(), polygon.was_cut);
+    const std::array<ClipVertex, 3> triangle = vertices_.triangle_of(primitive);
+    const ClippedPolygon clipped = clip_triangle(triangle, draw_, device_);
+    attachments_.queries.count_clipped(number_, clipped.vertices.size(), clipped.was_cut);
     std::vector<WindowVertex> window;
-    largest_z_ = 0;
-    for (const ClipVertex& v : polygon.vertices) {
+    for (const ClipVertex& v : clipped.vertices) {
         if (!(v.position.w > 0) && device_.fault != "clip-none"_fault) {
             return;  // inside the volume w = 0 is a single point
         }
-        window.push_back(project(v));
-        largest_z_ = std::max(largest_z_, std::fabs(window.back().z));
+        window.push_back(vertices_.project(v));
     }
     if (window.size() >= 3) {
-        if (device_.fault == "clip-last-piece-lost"_fault && window.size() > 3) {
-            window.pop_back();
-        }
-        rasterize_polygon(primitive, triangle, std::move(window), polygon.was_cut);
+        rasterize_polygon(primitive, triangle, std::move(window), clipped);
     }
 }
 
-// What a degenerate triangle covers if its edges are taken as inclusive.
-void DrawCommand::rasterize_line(const Primitive& primitive, std::vector<WindowVertex>& v) {
-    if (v.size() != 3) {
-        return;
+Facet DrawCommand::facet_of(const Primitive& primitive, const WindowVertex& first,
+                            const std::vector<WindowVertex>& polygon,
+                            const ClippedPolygon& clipped) const {
+    float largest_z = 0;
+    for (const WindowVertex& v : polygon) {
+        largest_z = std::max(largest_z, std::fabs(v.z));
     }
+    const bool skips = device_.fault == "primitive-id-skips-culled"_fault;
+    return {primitive,
+            first,
+            false,
+            largest_z,
+            clipped.tests_depth,
+            skips ? primitive.id - culled_ : primitive.id};
+}
+
+// What a degenerate triangle covers if its edges are taken as inclusive.
+void DrawCommand::rasterize_line(const Facet& facet, const std::vector<WindowVertex>& v) {
     Device inclusive = device_;
     inclusive.fault = "ties-all-inclusive"_fault;
-    const bool front = is_front(0, {});
-    if (is_culled(front)) {
-        return;
-    }
     std::array<WindowVertex, 3> wide{v[0], v[1], v[2]};
     for (size_t k = 0; k < 3; ++k) {  // planes need an area
         wide[k].x += k == 1 ? 1.0F : 0.0F;
         wide[k].y += k == 2 ? 1.0F : 0.0F;
     }
     const TrianglePlanes planes(wide, true, draw_, device_);
-    scan({{v[0], v[1], v[2]}, {}, false}, rect_, samples_, inclusive,
-         [&](int64_t i, int64_t j, uint32_t s) { cover(primitive, planes, v[0], front, i, j, s); });
-    shade_covered(primitive, v[0], front);
+    scan({{v[0], v[1], v[2]}, {}, false}, rect_, fragments_.samples(), inclusive,
+         [&](int64_t i, int64_t j, uint32_t s) { fragments_.cover(facet, planes, i, j, s); });
+    fragments_.shade_covered(facet);
 }
 
 // The planes of the largest piece inside the viewport; nothing if none is left there.
@@ -232,8 +195,9 @@ std::unique_ptr<TrianglePlanes> DrawCommand::planes_in_viewport(
     std::array<WindowVertex, 3> best;
     int64_t best_area = 0;
     for (size_t k = 1; k + 1 < inner.vertices.size(); ++k) {
-        const std::array<WindowVertex, 3> piece{
-            project(inner.vertices[0]), project(inner.vertices[k]), project(inner.vertices[k + 1])};
+        const std::array<WindowVertex, 3> piece{vertices_.project(inner.vertices[0]),
+                                                vertices_.project(inner.vertices[k]),
+                                                vertices_.project(inner.vertices[k + 1])};
         const int64_t area = positive ? twice_area(piece) : -twice_area(piece);
         if (area > best_area) {
             best_area = area;
@@ -246,150 +210,107 @@ std::unique_ptr<TrianglePlanes> DrawCommand::planes_in_viewport(
     return std::make_unique<TrianglePlanes>(best, positive, draw_, device_);
 }
 
+std::unique_ptr<TrianglePlanes> DrawCommand::common_planes(const std::array<ClipVertex, 3>& whole,
+                                                           const ClippedPolygon& clipped,
+                                                           bool positive) {
+    if (!clipped.was_cut) {
+        return nullptr;
+    }
+    std::array<WindowVertex, 3> window;
+    bool is_projectable = true;  // binary32 holds the snapped positions
+    for (size_t k = 0; k < 3; ++k) {
+        window[k] = vertices_.project(whole[k]);
+        is_projectable = is_projectable && whole[k].position.w > 0 &&
+                         std::fabs(window[k].x) < 0x1p15F && std::fabs(window[k].y) < 0x1p15F;
+    }
+    if (is_projectable && !device_.piece_planes) {
+        return std::make_unique<TrianglePlanes>(window, positive, draw_, device_);
+    }
+    // A guard band's cuts are too far away for planes in binary32: those are set up in the
+    // viewport.
+    return device_.clip == ClipMethod::guard_band ? planes_in_viewport(whole, positive) : nullptr;
+}
+
 namespace {
 
-// Of the area of the polygon's unsnapped positions.
-int unsnapped_sign(const std::vector<WindowVertex>& polygon) {
-    double area = 0;
-    for (size_t k = 0; k < polygon.size(); ++k) {
-        const WindowVertex& a = polygon[k];
-        const WindowVertex& b = polygon[(k + 1) % polygon.size()];
-        const auto relative = [&](float v, float origin) {
-            return static_cast<double>(v) - static_cast<double>(origin);
-        };
-        area += relative(a.x, polygon[0].x) * relative(b.y, polygon[0].y) -
-                relative(b.x, polygon[0].x) * relative(a.y, polygon[0].y);
-    }
-    return area > 0 ? 1 : area < 0 ? -1 : 0;
+// Whether a polygon is smaller than a pixel.
+bool is_small(const std::vector<WindowVertex>& polygon, int subpixel_bits) {
+    const auto [x0, x1] = std::ranges::minmax(polygon, {}, &WindowVertex::sx);
+    const auto [y0, y1] = std::ranges::minmax(polygon, {}, &WindowVertex::sy);
+    const int64_t pixel = int64_t{1} << subpixel_bits;
+    return x1.sx - x0.sx < pixel && y1.sy - y0.sy < pixel;
 }
 
 }  // namespace
 
 void DrawCommand::rasterize_polygon(const Primitive& primitive,
                                     const std::array<ClipVertex, 3>& whole,
-                                    std::vector<WindowVertex> polygon, bool was_cut) {
+                                    std::vector<WindowVertex> polygon,
+                                    const ClippedPolygon& clipped) {
+    const WindowVertex first = polygon[0];
+    Facet facet = facet_of(primitive, first, polygon, clipped);
+    if (device_.fault == "clip-last-piece-lost"_fault && polygon.size() > 3) {
+        polygon.pop_back();
+    }
     const int64_t area = twice_area(polygon);
-    if (area == 0 && draw_.conservative != cases::Conservative::none) {
-        cover_degenerate(primitive, polygon);
+    const bool is_conservative = draw_.conservative != cases::Conservative::none;
+    if (area == 0 && is_conservative) {
+        cover_degenerate(primitive, polygon, clipped);
         return;
-    }
-    if (area == 0) {
-        if (device_.fault == "degenerate-drawn"_fault) {
-            rasterize_line(primitive, polygon);
-        }
-        return;
-    }
-    if (device_.fault == "small-culled"_fault) {
-        const auto by_x = [](const WindowVertex& a, const WindowVertex& b) { return a.sx < b.sx; };
-        const auto by_y = [](const WindowVertex& a, const WindowVertex& b) { return a.sy < b.sy; };
-        const auto [x0, x1] = std::minmax_element(polygon.begin(), polygon.end(), by_x);
-        const auto [y0, y1] = std::minmax_element(polygon.begin(), polygon.end(), by_y);
-        const int64_t pixel = int64_t{1} << device_.subpixel_bits;
-        if (x1->sx - x0->sx < pixel && y1->sy - y0->sy < pixel) {
-            return;
-        }
     }
     const int unsnapped = device_.facing_unsnapped ? unsnapped_sign(polygon) : 0;
-    const bool front = is_front(unsnapped != 0 ? unsnapped : area, whole);
-    if (is_culled(front)) {
+    facet.front = vertices_.is_front(unsnapped != 0 && area != 0 ? unsnapped : area, whole);
+    if (area == 0) {
+        if (device_.fault == "degenerate-drawn"_fault && polygon.size() == 3 &&
+            !vertices_.is_culled(facet.front)) {
+            rasterize_line(facet, polygon);
+        }
+        return;
+    }
+    if (device_.fault == "small-culled"_fault && is_small(polygon, device_.subpixel_bits)) {
+        return;
+    }
+    if (vertices_.is_culled(facet.front)) {
         ++culled_;
         return;
     }
     if (device_.fault == "statistics-without-culled"_fault) {
         attachments_.queries.add(number_, cases::Query::clipping_invocations, 1);
     }
-    // Planes of the whole triangle where binary32 holds its snapped positions, else of each piece.
-    const bool projectable = std::all_of(whole.begin(), whole.end(), [&](const ClipVertex& v) {
-        const WindowVertex window = project(v);
-        return v.position.w > 0 && std::fabs(window.x) < 0x1p15F && std::fabs(window.y) < 0x1p15F;
-    });
-    std::unique_ptr<TrianglePlanes> whole_planes;
-    if (was_cut && projectable && !device_.piece_planes) {
-        whole_planes = std::make_unique<TrianglePlanes>(
-            std::array{project(whole[0]), project(whole[1]), project(whole[2])}, area > 0, draw_,
-            device_);
-    }
-    // A guard band's cuts are too far away for planes in binary32: those are set up in the
-    // viewport.
-    if (was_cut && !whole_planes && device_.clip == ClipMethod::guard_band) {
-        whole_planes = planes_in_viewport(whole, area > 0);
-    }
-    const WindowVertex first = polygon[0];
-    if (device_.fault == "planes-of-last"_fault && cached_planes_ &&
-        cached_first_.source != first.source) {
+    const std::unique_ptr<TrianglePlanes> common = common_planes(whole, clipped, area > 0);
+    const bool keeps_planes = device_.fault == "planes-of-last"_fault;
+    if (keeps_planes && cached_source_ != first.source) {
         cached_planes_.reset();
+        cached_source_ = first.source;
     }
+    Pieces pieces(std::move(polygon), common.get(), keeps_planes ? &cached_planes_ : nullptr, draw_,
+                  device_);
+    if (is_conservative) {
+        cover_areas(facet, pieces);
+    } else if (pieces.count() == 1 || device_.fault == "clip-diagonal-double"_fault) {
+        cover_pieces(facet, pieces);
+    } else {
+        cover_by_winding(facet, pieces);
+    }
+}
 
-    const bool reversed = area < 0;
-    if (reversed) {  // keep the first vertex, walk the others backwards
-        std::reverse(polygon.begin() + 1, polygon.end());
+void DrawCommand::cover_pieces(const Facet& facet, Pieces& pieces) {
+    for (size_t k = 0; k < pieces.count(); ++k) {
+        const ScanTriangle t = pieces.triangle(k);
+        if (twice_area(t.v) > 0) {
+            scan(t, rect_, fragments_.samples(), device_, [&](int64_t i, int64_t j, uint32_t s) {
+                fragments_.cover(facet, pieces.planes(k), i, j, s);
+            });
+        }
     }
-    const size_t pieces = polygon.size() - 2;
-    std::vector<std::unique_ptr<TrianglePlanes>> planes(pieces);
-    const auto planes_of = [&](size_t k) -> const TrianglePlanes& {
-        if (whole_planes) {
-            return *whole_planes;
-        }
-        if (device_.fault == "planes-of-last"_fault) {
-            if (!cached_planes_) {
-                cached_planes_ = std::make_unique<TrianglePlanes>(
-                    std::array{polygon[0], polygon[k + 1], polygon[k + 2]}, true, draw_, device_);
-                cached_first_ = first;
-            }
-            return *cached_planes_;
-        }
-        if (!planes[k]) {
-            planes[k] = std::make_unique<TrianglePlanes>(
-                std::array{polygon[0], polygon[k + 1], polygon[k + 2]}, true, draw_, device_);
-        }
-        return *planes[k];
-    };
-    if (draw_.conservative != cases::Conservative::none) {
-        size_t largest = 0;
-        int64_t most = 0;
-        for (size_t k = 0; k < pieces; ++k) {
-            const std::vector<WindowVertex> corners{polygon[0], polygon[k + 1], polygon[k + 2]};
-            const int64_t of_piece = twice_area(corners);
-            if (device_.covers_by_piece && of_piece > 0) {
-                cover_area(primitive, planes_of(k), corners, first, front);
-            }
-            if (of_piece > most) {
-                most = of_piece;
-                largest = k;
-            }
-        }
-        if (!device_.covers_by_piece) {
-            cover_area(primitive, planes_of(largest), polygon, first, front);
-        }
-        return;
-    }
-    const auto piece = [&](size_t k) {
-        ScanTriangle t{{polygon[0], polygon[k + 1], polygon[k + 2]}, {}, reversed};
-        t.inner = {k > 0, false, k + 1 < pieces};
-        return t;
-    };
+    fragments_.shade_covered(facet);
+}
 
-    if (pieces == 1 || device_.fault == "clip-diagonal-double"_fault) {
-        for (size_t k = 0; k < pieces; ++k) {
-            const ScanTriangle t = piece(k);
-            if (twice_area(t.v) > 0) {
-                scan(t, rect_, samples_, device_, [&](int64_t i, int64_t j, uint32_t s) {
-                    cover(primitive, planes_of(k), first, front, i, j, s);
-                });
-            }
-        }
-        shade_covered(primitive, first, front);
-        return;
-    }
-    // Snapping can bend a clipped polygon, so that pieces fold over. The winding number counts each
-    // sample once all the same.
-    PixelRect box{INT64_MAX, INT64_MAX, INT64_MIN, INT64_MIN};
-    for (const WindowVertex& v : polygon) {
-        box = {std::min(box.x0, v.sx >> device_.subpixel_bits),
-               std::min(box.y0, v.sy >> device_.subpixel_bits),
-               std::max(box.x1, (v.sx >> device_.subpixel_bits) + 1),
-               std::max(box.y1, (v.sy >> device_.subpixel_bits) + 1)};
-    }
+// Snapping can bend a clipped polygon, so that pieces fold over. The winding number counts each
+// sample once all the same.
+void DrawCommand::cover_by_winding(const Facet& facet, Pieces& pieces) {
+    const size_t samples = fragments_.samples().size();
+    PixelRect box = box_of(pieces.polygon(), device_.subpixel_bits);
     box = {std::max(box.x0, rect_.x0), std::max(box.y0, rect_.y0), std::min(box.x1, rect_.x1),
            std::min(box.y1, rect_.y1)};
     if (device_.fault == "draws-everything"_fault) {
@@ -401,9 +322,9 @@ void DrawCommand::rasterize_polygon(const Primitive& primitive,
         int8_t winding = 0;
         int8_t piece = -1;
     };
-    std::vector<Cell> cells(width * height * samples_.size());
-    for (size_t k = 0; k < pieces; ++k) {
-        ScanTriangle t = piece(k);
+    std::vector<Cell> cells(width * height * samples);
+    for (size_t k = 0; k < pieces.count(); ++k) {
+        ScanTriangle t = pieces.triangle(k);
         const int64_t piece_area = twice_area(t.v);
         if (piece_area == 0) {
             continue;
@@ -413,29 +334,114 @@ void DrawCommand::rasterize_polygon(const Primitive& primitive,
             std::swap(t.inner[0], t.inner[2]);
         }
         const int sign = piece_area > 0 ? 1 : -1;
-        scan(t, box, samples_, device_, [&](int64_t i, int64_t j, uint32_t s) {
-            const size_t at =
-                (static_cast<size_t>(j - box.y0) * width + static_cast<size_t>(i - box.x0)) *
-                    samples_.size() +
-                s;
-            cells[at].winding = static_cast<int8_t>(cells[at].winding + sign);
-            if (sign > 0 && cells[at].piece < 0) {
-                cells[at].piece = static_cast<int8_t>(k);
+        scan(t, box, fragments_.samples(), device_, [&](int64_t i, int64_t j, uint32_t s) {
+            Cell& cell =
+                cells[(static_cast<size_t>(j - box.y0) * width + static_cast<size_t>(i - box.x0)) *
+                          samples +
+                      s];
+            cell.winding = static_cast<int8_t>(cell.winding + sign);
+            if (sign > 0 && cell.piece < 0) {
+                cell.piece = static_cast<int8_t>(k);
             }
         });
     }
-    size_t at = 0;
+    const Cell* cell = cells.data();
     for (int64_t j = box.y0; j < box.y1; ++j) {
         for (int64_t i = box.x0; i < box.x1; ++i) {
-            for (uint32_t s = 0; s < samples_.size(); ++s, ++at) {
-                if (cells[at].winding > 0) {
-                    cover(primitive, planes_of(static_cast<size_t>(cells[at].piece)), first, front,
-                          i, j, s);
+            for (uint32_t s = 0; s < samples; ++s, ++cell) {
+                if (cell->winding > 0) {
+                    fragments_.cover(facet, pieces.planes(static_cast<size_t>(cell->piece)), i, j,
+                                     s);
                 }
             }
         }
     }
-    shade_covered(primitive, first, front);
+    fragments_.shade_covered(facet);
+}
+
+void DrawCommand::cover_areas(const Facet& facet, Pieces& pieces) {
+    size_t largest = 0;
+    int64_t most = 0;
+    for (size_t k = 0; k < pieces.count(); ++k) {
+        const std::array<WindowVertex, 3> corners = pieces.corners(k);
+        const int64_t area = twice_area(corners);
+        if (device_.covers_by_piece && area > 0) {
+            cover_area(facet, pieces.planes(k), {corners.begin(), corners.end()});
+        }
+        if (area > most) {
+            most = area;
+            largest = k;
+        }
+    }
+    if (!device_.covers_by_piece) {
+        cover_area(facet, pieces.planes(largest), pieces.polygon());
+    }
+}
+
+void DrawCommand::cover_area(const Facet& facet, const TrianglePlanes& planes,
+                             const std::vector<WindowVertex>& polygon) {
+    const std::vector<SampleOffset>& samples = fragments_.samples();
+    const uint32_t id = facet.primitive.id;
+    const AreaTest test(polygon, draw_, device_);
+    const int64_t pixel = int64_t{1} << device_.subpixel_bits;
+    PixelRect rect = rect_;
+    if (device_.fault == "conservative-beyond-scissor"_fault) {
+        rect = {std::max<int64_t>(rect.x0 - 1, 0), std::max<int64_t>(rect.y0 - 1, 0),
+                std::min<int64_t>(rect.x1 + 1, out_.target.width),
+                std::min<int64_t>(rect.y1 + 1, out_.target.height)};
+    }
+    rect = test.within(rect);
+    for (int64_t j = rect.y0; j < rect.y1; ++j) {
+        for (int64_t i = rect.x0; i < rect.x1; ++i) {
+            const double x = static_cast<double>(i) + 0.5;
+            const double y = static_cast<double>(j) + 0.5;
+            if (!test.covers_pixel(i, j, samples) || !fragments_.is_seen(facet, planes, x, y)) {
+                continue;
+            }
+            if (device_.fault == "conservative-shared-once"_fault &&
+                owners_.try_emplace({i, j}, id).first->second != id) {
+                continue;
+            }
+            uint32_t covered = 0;
+            for (uint32_t s = 0; s < samples.size(); ++s) {
+                if (test.covers_sample(i * pixel + samples[s].x, j * pixel + samples[s].y)) {
+                    covered |= 1U << s;
+                }
+            }
+            if (device_.fault != "conservative-mask-partial"_fault || covered == 0) {
+                covered = (1U << samples.size()) - 1;
+            }
+            fragments_.shade_pixel(facet, planes, i, j, covered);
+        }
+    }
+}
+
+// "The fragment input values for these degenerate triangles take their attribute and depth values
+// from the provoking vertex."
+void DrawCommand::cover_degenerate(const Primitive& primitive,
+                                   const std::vector<WindowVertex>& polygon,
+                                   const ClippedPolygon& clipped) {
+    const bool is_kept =
+        device_.rasterizes_degenerates != (device_.fault == "degenerates-otherwise"_fault);
+    const bool front = device_.fault == "degenerates-front"_fault;
+    if (draw_.conservative != cases::Conservative::overestimate || !is_kept ||
+        vertices_.is_culled(front)) {
+        ++culled_;
+        return;
+    }
+    const auto provoking = std::find_if(polygon.begin(), polygon.end(), [&](const WindowVertex& v) {
+        return v.source == primitive.provoking;
+    });
+    const WindowVertex& v = provoking == polygon.end() ? polygon.front() : *provoking;
+    std::array<WindowVertex, 3> level{v, v, v};
+    level[1].x += 1.0F;  // planes need an area
+    level[2].y += 1.0F;
+    level[1].sx += int64_t{1} << device_.subpixel_bits;
+    level[2].sy += int64_t{1} << device_.subpixel_bits;
+    const TrianglePlanes planes(level, true, draw_, device_);
+    Facet facet = facet_of(primitive, v, polygon, clipped);
+    facet.front = front;
+    cover_area(facet, planes, polygon);
 }
 
 }  // namespace software

@@ -16,13 +16,14 @@
 
 namespace software {
 
-// What the case's attachments hold after drawing.
+// What the case's attachments hold after drawing; with a fault that the device has no code for,
+// after drawing the case as a device with the fault takes it.
 capture::Capture captured(const cases::Case& c, const Device& device);
 // Its verdict, draws or blit.
 diff::Verdict compare(const cases::Case& c, const ref::Expectation& expectation,
                       const capture::Capture& capture);
-// False where a fault's code path is not run at all: no colour, stencil, resolve, distance,
-// samples.
+// False where a fault has nothing to change, or its code path is not run at all: no colour,
+// stencil, resolve, distance, samples.
 bool can_matter(Fault fault, const cases::Case& c);
 // True if two renderings of a case have the same bits in every plane: they have the same verdict.
 bool same_bits(const capture::Capture& a, const capture::Capture& b);

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
+#include <cmath>
 
 #include "cases/base/number_text.hpp"
 #include "ref/color/blend_order.hpp"
@@ -43,47 +43,31 @@ Interval sum(const Component& component, const Interval& a, const Interval& b) {
 // Table "Blend Factors". `k`: the component, 3 alpha.
 Interval factor_of(BlendFactor factor, size_t k, const Color& source, const Color& second,
                    const Color& destination, const Color& constants) {
-    switch (factor) {
-        case BlendFactor::zero:
-            return point(0);
-        case BlendFactor::one:
-            return point(1);
-        case BlendFactor::src_color:
-            return source[k];
-        case BlendFactor::one_minus_src_color:
-            return complement(source[k]);
-        case BlendFactor::dst_color:
-            return destination[k];
-        case BlendFactor::one_minus_dst_color:
-            return complement(destination[k]);
-        case BlendFactor::src_alpha:
-            return source[3];
-        case BlendFactor::one_minus_src_alpha:
-            return complement(source[3]);
-        case BlendFactor::dst_alpha:
-            return destination[3];
-        case BlendFactor::one_minus_dst_alpha:
-            return complement(destination[3]);
-        case BlendFactor::constant_color:
-            return constants[k];
-        case BlendFactor::one_minus_constant_color:
-            return complement(constants[k]);
-        case BlendFactor::constant_alpha:
-            return constants[3];
-        case BlendFactor::one_minus_constant_alpha:
-            return complement(constants[3]);
-        case BlendFactor::src1_color:
-            return second[k];
-        case BlendFactor::one_minus_src1_color:
-            return complement(second[k]);
-        case BlendFactor::src1_alpha:
-            return second[3];
-        case BlendFactor::one_minus_src1_alpha:
-            return complement(second[3]);
-        case BlendFactor::src_alpha_saturate:
-            break;
+    using enum BlendFactor;
+    struct Pair {
+        BlendFactor itself, complement;
+        const Interval& value;
+    };
+    const std::array<Pair, 8> pairs = {{{src_color, one_minus_src_color, source[k]},
+                                        {dst_color, one_minus_dst_color, destination[k]},
+                                        {src_alpha, one_minus_src_alpha, source[3]},
+                                        {dst_alpha, one_minus_dst_alpha, destination[3]},
+                                        {constant_color, one_minus_constant_color, constants[k]},
+                                        {constant_alpha, one_minus_constant_alpha, constants[3]},
+                                        {src1_color, one_minus_src1_color, second[k]},
+                                        {src1_alpha, one_minus_src1_alpha, second[3]}}};
+    for (const Pair& pair : pairs) {
+        if (factor == pair.itself) {
+            return pair.value;
+        }
+        if (factor == pair.complement) {
+            return complement(pair.value);
+        }
     }
-    return k == 3 ? point(1) : smaller(source[3], complement(destination[3]));
+    if (factor == src_alpha_saturate) {
+        return k == 3 ? point(1) : smaller(source[3], complement(destination[3]));
+    }
+    return point(factor == one ? 1 : 0);
 }
 
 // What a device may read of a component of the target; what it may hold is codes.
@@ -97,6 +81,56 @@ Interval read(const Component& component, const Interval& before) {
 
 bool is_exactly(const Interval& v, int number) {
     return v.low == number && v.high == number;
+}
+
+// What the blend unit computes with.
+struct BlendInputs {
+    Color s, second, d, constants;  // source, second source, target, constants
+    KnownFactors known;
+
+    // Component k of the result; `before`: what the target may hold of it.
+    Interval blended(const Component& component, const cases::Blend& blend, uint32_t k,
+                     const Interval& before) const;
+};
+
+Interval BlendInputs::blended(const Component& component, const cases::Blend& blend, uint32_t k,
+                              const Interval& before) const {
+    const cases::BlendEquation& equation = k == 3 ? blend.alpha : blend.color;
+    // What goes through unchanged stays the code it is, however it is decoded.
+    const Interval& stored = component.kind() == ComponentKind::srgb ? before : d[k];
+    Interval result;
+    const bool is_extreme = equation.op == BlendOp::min || equation.op == BlendOp::max;
+    if (is_extreme && Component::is_anything(s[k])) {
+        result = Component::anything();  // NaN is neither
+    } else if (is_extreme) {             // factors are ignored
+        const auto extreme = equation.op == BlendOp::min ? smaller : larger;
+        result = extreme(s[k], stored);
+        // What is decoded otherwise may be the larger one of two that are near.
+        if (s[k].low <= d[k].high && d[k].low <= s[k].high) {
+            result = hull(result, extreme(s[k], d[k]));
+        }
+    } else {
+        const auto factor = [&](BlendFactor of) {
+            return held(component, factor_of(of, k, s, second, d, constants));
+        };
+        const Interval f = factor(equation.source), g = factor(equation.destination);
+        const Interval a = term(component, s[k], f);
+        const bool is_read = component.kind() == ComponentKind::srgb && is_exactly(g, 1);
+        const Interval b = !is_read ? term(component, d[k], g) : is_exactly(a, 0) ? stored : d[k];
+        result = sum(component, equation.op == BlendOp::reverse_subtract ? negated(a) : a,
+                     equation.op == BlendOp::subtract ? negated(b) : b);
+        const bool is_finite = !Component::is_anything(result) &&
+                               !component.may_be_infinite(s[k]) &&
+                               !component.may_be_infinite(d[k]) && !component.may_be_infinite(f) &&
+                               !component.may_be_infinite(g);
+        if (!component.is_fixed_point() && is_finite) {
+            const auto other = reordered(component, equation, k, known, s[k], d[k], f, g);
+            result = !other                           ? result
+                     : Component::is_anything(*other) ? *other
+                                                      : hull(result, *other);
+        }
+    }
+    return result;
 }
 
 }  // namespace
@@ -139,10 +173,13 @@ Color Unit::write(const cases::ColorOutput& output, const Color& written,
     }
     // Alpha of the source takes part even where the target has none; then it is not rounded.
     const Component first(cases::component_of(format, 0));
-    Color s = source;
-    Color second, constants, d;
-    const KnownFactors known{replaces_alpha(output, format),
-                             !Component(cases::component_of(format, 3)).exists()};
+    BlendInputs inputs{
+        source,
+        {},
+        {},
+        {},
+        {replaces_alpha(output, format), !Component(cases::component_of(format, 3)).exists()}};
+    auto& [s, second, d, constants, known] = inputs;
     for (uint32_t k = 0; k < 4; ++k) {
         second[k] = point(static_cast<double>(output.blend->second[static_cast<int>(k)]));
         constants[k] = point(static_cast<double>(output.blend->constants[static_cast<int>(k)]));
@@ -163,43 +200,7 @@ Color Unit::write(const cases::ColorOutput& output, const Color& written,
         if (!component.exists() || (output.write_mask >> k & 1U) == 0) {
             continue;
         }
-        const cases::BlendEquation& equation = k == 3 ? output.blend->alpha : output.blend->color;
-        // What goes through unchanged stays the code it is, however it is decoded.
-        const Interval& stored = component.kind() == ComponentKind::srgb ? before[k] : d[k];
-        Interval result;
-        const bool is_extreme = equation.op == BlendOp::min || equation.op == BlendOp::max;
-        if (is_extreme && Component::is_anything(s[k])) {
-            result = Component::anything();  // NaN is neither
-        } else if (is_extreme) {             // factors are ignored
-            const auto extreme = equation.op == BlendOp::min ? smaller : larger;
-            result = extreme(s[k], stored);
-            // What is decoded otherwise may be the larger one of two that are near.
-            if (s[k].low <= d[k].high && d[k].low <= s[k].high) {
-                result = hull(result, extreme(s[k], d[k]));
-            }
-        } else {
-            const auto factor = [&](BlendFactor of) {
-                return held(component, factor_of(of, k, s, second, d, constants));
-            };
-            const Interval f = factor(equation.source), g = factor(equation.destination);
-            const Interval a = term(component, s[k], f);
-            const bool is_read = component.kind() == ComponentKind::srgb && is_exactly(g, 1);
-            const Interval b = !is_read           ? term(component, d[k], g)
-                               : is_exactly(a, 0) ? stored
-                                                  : d[k];
-            result = sum(component, equation.op == BlendOp::reverse_subtract ? negated(a) : a,
-                         equation.op == BlendOp::subtract ? negated(b) : b);
-            const bool is_finite = !Component::is_anything(result) &&
-                                   !component.may_be_infinite(s[k]) &&
-                                   !component.may_be_infinite(d[k]) &&
-                                   !component.may_be_infinite(f) && !component.may_be_infinite(g);
-            if (!component.is_fixed_point() && is_finite) {
-                const auto other = reordered(component, equation, k, known, s[k], d[k], f, g);
-                result = !other                           ? result
-                         : Component::is_anything(*other) ? *other
-                                                          : hull(result, *other);
-            }
-        }
+        const Interval result = inputs.blended(component, *output.blend, k, before[k]);
         out[k] = Component::is_anything(before[k]) || Component::is_anything(result)
                      ? Component::anything()
                      : held(component, component.stored(result, profile, true));
@@ -238,6 +239,23 @@ std::string Unit::text_of(const Color& color) const {
         }
     }
     return out;
+}
+
+bool Unit::may_overflow(const Color& color) const {
+    constexpr int kLargest = 65504;  // of binary16
+    return std::ranges::any_of(std::array{0U, 1U, 2U, 3U}, [&](uint32_t k) {
+        const mpq_class low = abs(color[k].low), high = abs(color[k].high);
+        return Component(cases::component_of(format, k)).exists() &&
+               !Component::is_anything(color[k]) && sgn(color[k].low) * sgn(color[k].high) > 0 &&
+               std::max(low, high) > kLargest && std::min(low, high) >= kLargest / 2;
+    });
+}
+
+bool Unit::has_overflown(const std::array<uint32_t, 4>& codes) const {
+    return std::ranges::any_of(std::array{0U, 1U, 2U, 3U}, [&](uint32_t k) {
+        const cases::ComponentFormat c = cases::component_of(format, k);
+        return c.bits != 0 && is_floating(c.kind) && !std::isfinite(Component(c).number(codes[k]));
+    });
 }
 
 std::string Unit::text_of(const std::array<uint32_t, 4>& codes) const {

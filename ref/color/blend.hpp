@@ -45,6 +45,9 @@ struct Unit {
     // "r 127 to 128, g 0, b 0, a 255"
     std::string text_of(const Color& color) const;
     std::string text_of(const std::array<uint32_t, 4>& codes) const;
+    // ColorVerdict::may_overflow of such a colour, and whether a component is no finite number.
+    bool may_overflow(const Color& color) const;
+    bool has_overflown(const std::array<uint32_t, 4>& codes) const;
 };
 
 }  // namespace ref::color

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ref/color/color.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -9,10 +11,12 @@
 #include <glm/vector_relational.hpp>
 #include <utility>
 
+#include "cases/fault/neighbour.hpp"
 #include "cases/model/rule_ids.hpp"
 #include "cases/model/sample.hpp"
+#include "ref/color/color_steps.hpp"
+#include "ref/color/component_filter.hpp"
 #include "ref/color/logic.hpp"
-#include "ref/color/neighbour.hpp"
 
 namespace ref {
 
@@ -101,9 +105,7 @@ const color::Source& ColorReference::source_of(uint32_t triangle, cases::SampleI
     const auto [found, is_new] = (takes_outer_ ? outer_sources_ : sources_).try_emplace(triangle);
     if (is_new) {
         const auto which = static_cast<size_t>(attribute);
-        const std::array<ValueRange, 4> ranges = takes_outer_
-                                                     ? values_.outer_ranges(triangle, id, which)
-                                                     : values_.ranges(triangle, id, which);
+        const std::array<ValueRange, 4> ranges = values_.ranges(triangle, id, which, takes_outer_);
         for (size_t k = 0; k < 4; ++k) {
             // Of what nothing is promised: where the value is divided by zero, it is no number.
             found->second.low[k] = ranges[k].is_promised ? ranges[k].low : -HUGE_VAL;
@@ -184,8 +186,8 @@ std::optional<bool> ColorReference::may_write(uint32_t triangle, cases::SampleId
             continue;
         }
         const std::optional<bool> may =
-            component.may_store(is_one && k == 3 ? 1 : source.low[k],
-                                is_one && k == 3 ? 1 : source.high[k], codes[k], unit_.profile);
+            color::may_store(component, is_one && k == 3 ? 1 : source.low[k],
+                             is_one && k == 3 ? 1 : source.high[k], codes[k], unit_.profile);
         if (may && !*may) {
             return false;
         }
@@ -244,7 +246,7 @@ ColorReference::~ColorReference() = default;
 
 bool ColorReference::is_of_neighbour(const Sequence& sequence, cases::SampleId id,
                                      const std::array<uint32_t, 4>& codes) {
-    using color::Taken;
+    using cases::Taken;
     // Asked without the value that was written, as below, it may be right: then nothing is mixed
     // up.
     if (leaves(sequence, id, nullptr, codes)) {
@@ -254,7 +256,7 @@ bool ColorReference::is_of_neighbour(const Sequence& sequence, cases::SampleId i
     for (uint32_t k = 0; k < count; ++k) {
         for (const Taken taken : {Taken::state, Taken::color, Taken::clear, Taken::all}) {
             cases::Case other = case_;
-            if (k != case_.target.judged_color && color::take_from(other, k, taken)) {
+            if (k != case_.target.judged_color && cases::take_from(other, k, taken)) {
                 mistakes_.push_back(std::make_unique<Mistake>(std::move(other), expectation_));
             }
         }
@@ -301,6 +303,48 @@ bool ColorReference::is_as_before(const Accepted& accepted, size_t index,
            std::equal(hits.begin(), hits.end(), accepted.hits.begin(), accepted.hits.end());
 }
 
+void ColorReference::tell_coverage(const Sequence& most, cases::SampleId id,
+                                   const std::array<uint32_t, 4>& codes, ColorVerdict& verdict) {
+    using Kind = ColorVerdict::Kind;
+    // What leaves anything, as infinity that is blended, tells nothing.
+    const auto tells = [&](const Sequence& sequence) {
+        return leaves(sequence, id, nullptr, codes) &&
+               std::ranges::none_of(color_of(sequence, id, nullptr),
+                                    &color::Component::is_anything);
+    };
+    // Whether one fragment less, or one of them twice, tells.
+    const auto tells_of_one = [&](Kind kind) {
+        for (size_t k = 0; k < most.size(); ++k) {
+            Sequence other = most;
+            const auto at = other.begin() + static_cast<std::ptrdiff_t>(k);
+            if (kind == Kind::missing) {
+                other.erase(at);
+            } else {
+                other.insert(at, most[k]);
+            }
+            if (tells(other)) {
+                verdict.kind = kind;
+                verdict.hits = static_cast<uint32_t>(other.size());
+                verdict.triangle = most[k];
+                return true;
+            }
+        }
+        return false;
+    };
+    const bool is_turned = most.size() > 1 && tells({most.rbegin(), most.rend()});
+    if (tells_of_one(Kind::missing)) {
+        return;
+    }
+    if (!most.empty() && tells({})) {
+        verdict.kind = Kind::missing;
+    } else if (is_turned) {
+        verdict.kind = Kind::order;
+    } else if (!tells_of_one(Kind::twice) && most.empty()) {
+        verdict.kind = Kind::extra;
+        verdict.hits = 1;
+    }
+}
+
 ColorVerdict ColorReference::judge(size_t index, cases::SampleId id,
                                    const std::array<uint32_t, 4>& codes,
                                    const std::optional<ColorWitness>& witness) {
@@ -330,7 +374,9 @@ ColorVerdict ColorReference::judge(size_t index, cases::SampleId id,
     }
     const glm::vec4* last = witness ? witness->written : nullptr;
     for (size_t k = 0; k < std::min<size_t>(sets.size(), 3); ++k) {
-        verdict.expected += (k == 0 ? "" : "; or ") + unit_.text_of(color_of(sets[k], id, last));
+        const color::Color color = color_of(sets[k], id, last);
+        verdict.expected += (k == 0 ? "" : "; or ") + unit_.text_of(color);
+        verdict.may_overflow = verdict.may_overflow || unit_.may_overflow(color);
     }
     verdict.expected += sets.size() > 3 ? "; or others" : "";
     verdict.kind = ColorVerdict::Kind::value;
@@ -339,12 +385,6 @@ ColorVerdict ColorReference::judge(size_t index, cases::SampleId id,
     verdict.rule = is_of_neighbour(most, id, codes)
                        ? cases::rule::color_location
                        : rule_of(most, unit_.allows(color_of(most, id, last, false), codes));
-    // What leaves anything, as infinity that is blended, tells nothing.
-    const auto tells = [&](const Sequence& sequence) {
-        return leaves(sequence, id, nullptr, codes) &&
-               std::ranges::none_of(color_of(sequence, id, nullptr),
-                                    &color::Component::is_anything);
-    };
     if (witness) {
         // Who wrote last is known: only those before it may have come in another order.
         Sequence turned = most;
@@ -354,40 +394,7 @@ ColorVerdict ColorReference::judge(size_t index, cases::SampleId id,
                            : ColorVerdict::Kind::value;
         return verdict;
     }
-    const bool is_turned = most.size() > 1 && tells({most.rbegin(), most.rend()});
-    // Without instruments the colour tells what is wrong with the coverage, if anything does.
-    for (size_t k = 0; k < most.size(); ++k) {
-        Sequence less = most;
-        less.erase(less.begin() + static_cast<std::ptrdiff_t>(k));
-        if (tells(less)) {
-            verdict.kind = ColorVerdict::Kind::missing;
-            verdict.hits = static_cast<uint32_t>(less.size());
-            verdict.triangle = most[k];
-            return verdict;
-        }
-    }
-    if (!most.empty() && tells({})) {
-        verdict.kind = ColorVerdict::Kind::missing;
-        return verdict;
-    }
-    if (is_turned) {
-        verdict.kind = ColorVerdict::Kind::order;
-        return verdict;
-    }
-    for (size_t k = 0; k < most.size(); ++k) {
-        Sequence more = most;
-        more.insert(more.begin() + static_cast<std::ptrdiff_t>(k), most[k]);
-        if (tells(more)) {
-            verdict.kind = ColorVerdict::Kind::twice;
-            verdict.hits = static_cast<uint32_t>(more.size());
-            verdict.triangle = most[k];
-            return verdict;
-        }
-    }
-    if (most.empty()) {
-        verdict.kind = ColorVerdict::Kind::extra;
-        verdict.hits = 1;
-    }
+    tell_coverage(most, id, codes, verdict);
     return verdict;
 }
 
@@ -456,6 +463,20 @@ bool ColorReference::explains_depth(size_t index, cases::SampleId id, float dept
     return sets.empty() || std::any_of(sets.begin(), sets.end(), [&](const Sequence& sequence) {
                return sequence.empty() ? is_clear : is_left_by(sequence.back());
            });
+}
+
+std::vector<ColorStep> ColorReference::steps(size_t index, cases::SampleId id) {
+    std::vector<ColorStep> out = {
+        {std::nullopt, fmt::format("the target is cleared to {}", unit_.text_of(cleared_))}};
+    color::Color before = cleared_;
+    for (const uint32_t triangle : drawn(index)) {
+        const cases::ColorOutput& output = output_of(triangle);
+        const color::Source& source = source_of(triangle, id);
+        const color::Color left = unit_.write(output, color::color_of(source), before);
+        out.push_back({triangle, color::step_text(unit_, output, source, before, left)});
+        before = left;
+    }
+    return out;
 }
 
 }  // namespace ref

@@ -44,7 +44,10 @@ struct ColorVerdict {
     Kind kind = Kind::ok;
     std::string rule;      // of value: "blend.equation", "store.unorm", ...
     std::string expected;  // the colours that are allowed
-    uint32_t hits = 0;     // of missing, extra, twice: how many fragments the colour tells of
+    // Some of these lie beyond the largest number of binary16, which a format of 16-bit floats may
+    // then store as no number, and reach down to its upper half.
+    bool may_overflow = false;
+    uint32_t hits = 0;  // of missing, extra, twice: how many fragments the colour tells of
     // Of missing and twice: the triangle of which a fragment is missing or is there once more.
     std::optional<uint32_t> triangle;
 };
@@ -81,7 +84,7 @@ class ColorReference {
     bool may_have_left(size_t index, uint32_t hits, uint32_t writer) const;
     // The triangles of the first allowed set of fragments, in drawing order; none if there is none.
     std::vector<uint32_t> drawn(size_t index) const;
-    // How the colour of that set comes about (color_steps.cpp).
+    // How the colour of that set comes about.
     std::vector<ColorStep> steps(size_t index, cases::SampleId id);
     // Codes that the fragments of these triangles leave, whether or not they are allowed there.
     std::array<uint32_t, 4> codes_after(std::span<const uint32_t> triangles, cases::SampleId id);
@@ -127,6 +130,10 @@ class ColorReference {
     // rationals tell.
     std::optional<bool> may_write(uint32_t triangle, cases::SampleId id, const glm::vec4* written,
                                   const std::array<uint32_t, 4>& codes);
+    // Without instruments the colour tells what is wrong with the coverage, if anything does;
+    // `most`: the allowed set with the most fragments.
+    void tell_coverage(const Sequence& most, cases::SampleId id,
+                       const std::array<uint32_t, 4>& codes, ColorVerdict& verdict);
     // Which rule is broken by a wrong colour; `is_as_unmasked`: it is right but for a write mask.
     std::string rule_of(const Sequence& sequence, bool is_as_unmasked) const;
     bool is_constant_depth(uint32_t triangle, float depth) const;

@@ -1,60 +1,25 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// The words of a colour: what each fragment writes and what is left of it.
+#include "ref/color/color_steps.hpp"
+
 #include <fmt/format.h>
 
+#include <array>
 #include <string_view>
 
 #include "cases/base/number_text.hpp"
 #include "cases/model/words.hpp"
-#include "ref/color/color.hpp"
 #include "ref/color/logic.hpp"
 
-namespace ref {
+namespace ref::color {
 
 namespace {
 
-using cases::LogicOp;
-
-// The operation on a source code {s} and a stored code {d}, in the signs of C.
-std::string_view formula_of(LogicOp op) {
-    switch (op) {
-        case LogicOp::clear:
-            return "0";
-        case LogicOp::and_both:
-            return "{s} & {d}";
-        case LogicOp::and_reverse:
-            return "{s} & ~{d}";
-        case LogicOp::copy:
-            return "{s}";
-        case LogicOp::and_inverted:
-            return "~{s} & {d}";
-        case LogicOp::no_op:
-            return "{d}";
-        case LogicOp::exclusive_or:
-            return "{s} ^ {d}";
-        case LogicOp::or_both:
-            return "{s} | {d}";
-        case LogicOp::nor:
-            return "~({s} | {d})";
-        case LogicOp::equivalent:
-            return "~({s} ^ {d})";
-        case LogicOp::invert:
-            return "~{d}";
-        case LogicOp::or_reverse:
-            return "{s} | ~{d}";
-        case LogicOp::copy_inverted:
-            return "~{s}";
-        case LogicOp::or_inverted:
-            return "~{s} | {d}";
-        case LogicOp::nand:
-            return "~({s} & {d})";
-        case LogicOp::set:
-            break;
-    }
-    return "all bits";
-}
+// Each operation on a source code {s} and a stored code {d}, in the signs of C.
+constexpr std::array<std::string_view, 16> kFormulas = {
+    "0",         "{s} & {d}",  "{s} & ~{d}",   "{s}",          "~{s} & {d}", "{d}",
+    "{s} ^ {d}", "{s} | {d}",  "~({s} | {d})", "~({s} ^ {d})", "~{d}",       "{s} | ~{d}",
+    "~{s}",      "~{s} | {d}", "~({s} & {d})", "all bits"};
 
 std::string number_text(double low, double high) {
     return low < high ? fmt::format("{} to {}", cases::number_text(low), cases::number_text(high))
@@ -97,7 +62,7 @@ std::string blend_text(const cases::Blend& blend) {
 }
 
 // What the shader writes, of the components that the format has: "r 0.25, g 1".
-std::string source_text(cases::ColorFormat format, const color::Source& source) {
+std::string source_text(cases::ColorFormat format, const Source& source) {
     std::string text;
     for (uint32_t k = 0; k < 4; ++k) {
         if (cases::component_of(format, k).bits != 0) {
@@ -111,12 +76,11 @@ std::string source_text(cases::ColorFormat format, const color::Source& source) 
 }
 
 // What the operation makes of each component: "r 204 & ~51 = 204".
-std::string operation_text(const color::Unit& unit, const cases::ColorOutput& output,
-                           const color::Color& source, const color::Color& before,
-                           const color::Color& left) {
+std::string operation_text(const Unit& unit, const cases::ColorOutput& output, const Color& source,
+                           const Color& before, const Color& left) {
     std::string text;
     for (uint32_t k = 0; k < 4; ++k) {
-        const color::Component component(cases::component_of(unit.format, k));
+        const Component component(cases::component_of(unit.format, k));
         if (!component.exists() || (uint32_t{output.write_mask} >> k & 1U) == 0) {
             continue;
         }
@@ -127,7 +91,7 @@ std::string operation_text(const color::Unit& unit, const cases::ColorOutput& ou
         };
         text +=
             fmt::format("{}{} {} = {}", text.empty() ? "" : ", ", "rgba"[k],
-                        fmt::format(fmt::runtime(formula_of(*output.logic)),
+                        fmt::format(fmt::runtime(kFormulas.at(static_cast<size_t>(*output.logic))),
                                     fmt::arg("s", in_brackets(s)), fmt::arg("d", in_brackets(d))),
                         component.text_of(left[k]));
     }
@@ -146,40 +110,29 @@ std::string mask_text(uint32_t mask) {
 
 }  // namespace
 
-std::vector<ColorStep> ColorReference::steps(size_t index, cases::SampleId id) {
-    std::vector<ColorStep> out = {
-        {std::nullopt, fmt::format("the target is cleared to {}", unit_.text_of(cleared_))}};
-    color::Color before = cleared_;
-    for (const uint32_t triangle : drawn(index)) {
-        const cases::ColorOutput& output = output_of(triangle);
-        const color::Source& source = source_of(triangle, id);
-        const color::Color exact = color::color_of(source);
-        const color::Color left = unit_.write(output, exact, before);
-        const bool has_logic = output.logic && color::takes_logic(unit_.format);
-        std::string text = fmt::format("writes {}", source_text(unit_.format, source));
-        if (color::replaces_alpha(output, unit_.format)) {
-            text += ", whose alpha becomes 1";
-        }
-        if (output.write_mask != 0xf) {
-            text +=
-                fmt::format(", of which the mask lets through {}", mask_text(output.write_mask));
-        }
-        if (has_logic) {
-            text += fmt::format(", and does the logical operation {}: {}",
-                                cases::word_of(*output.logic),
-                                operation_text(unit_, output, exact, before, left));
-        } else if (output.logic) {
-            text += ", to a format that has no logical operations";
-        } else if (output.blend) {
-            text += fmt::format(", and {}", blend_text(*output.blend));
-        }
-        if (!has_logic || output.write_mask != 0xf) {  // else that has been said
-            text += fmt::format("; that leaves {}", unit_.text_of(left));
-        }
-        out.push_back({triangle, std::move(text)});
-        before = left;
+std::string step_text(const Unit& unit, const cases::ColorOutput& output, const Source& source,
+                      const Color& before, const Color& left) {
+    const bool has_logic = output.logic && takes_logic(unit.format);
+    std::string text = fmt::format("writes {}", source_text(unit.format, source));
+    if (replaces_alpha(output, unit.format)) {
+        text += ", whose alpha becomes 1";
     }
-    return out;
+    if (output.write_mask != 0xf) {
+        text += fmt::format(", of which the mask lets through {}", mask_text(output.write_mask));
+    }
+    if (has_logic) {
+        text +=
+            fmt::format(", and does the logical operation {}: {}", cases::word_of(*output.logic),
+                        operation_text(unit, output, color_of(source), before, left));
+    } else if (output.logic) {
+        text += ", to a format that has no logical operations";
+    } else if (output.blend) {
+        text += fmt::format(", and {}", blend_text(*output.blend));
+    }
+    if (!has_logic || output.write_mask != 0xf) {  // else that has been said
+        text += fmt::format("; that leaves {}", unit.text_of(left));
+    }
+    return text;
 }
 
-}  // namespace ref
+}  // namespace ref::color

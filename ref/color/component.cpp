@@ -33,12 +33,6 @@ mpz_class ceil_of(const mpq_class& x, const mpz_class& times) {
     return out;
 }
 
-mpq_class quotient(const mpz_class& a, const mpz_class& b) {
-    mpq_class out(a, b);
-    out.canonicalize();
-    return out;
-}
-
 // A binary floating-point format: `fraction` stored bits, exponents from `least` (of the smallest
 // normal number) to `most`.
 struct Floating {
@@ -169,7 +163,7 @@ bool Component::is_fixed_point() const {
 mpq_class Component::neighbour(const mpq_class& x, bool upwards) const {
     switch (format_.kind) {
         case ComponentKind::unorm:
-            return quotient(upwards ? ceil_of(x, units()) : floor_of(x, units()), units());
+            return fraction(upwards ? ceil_of(x, units()) : floor_of(x, units()), units());
         case ComponentKind::srgb: {
             // A value within kSrgbError of a code's is that code.
             const auto& values = srgb_values();
@@ -199,18 +193,36 @@ Interval Component::stored(const Interval& v, cases::Profile profile, bool is_bl
     if (format_.kind == ComponentKind::unorm && profile == cases::Profile::direct3d &&
         !is_blended) {
         const mpq_class slack(3, 5);  // of a unit on the integer side
-        const mpq_class low = quotient(ceil_of(in.low * units() - slack), units());
-        const mpq_class high = quotient(floor_of(in.high * units() + slack), units());
+        const mpq_class low = fraction(ceil_of(in.low * units() - slack), units());
+        const mpq_class high = fraction(floor_of(in.high * units() + slack), units());
         return clamped({low, high});
     }
     return either(in);
+}
+
+double Component::number(uint32_t code) const {
+    switch (format_.kind) {
+        case ComponentKind::unorm:
+            return code / (std::ldexp(1.0, static_cast<int>(format_.bits)) - 1);
+        case ComponentKind::half:
+            return static_cast<double>(glm::unpackHalf1x16(static_cast<uint16_t>(code)));
+        case ComponentKind::binary32:
+            return static_cast<double>(std::bit_cast<float>(code));
+        case ComponentKind::uint:
+            return code;
+        case ComponentKind::srgb:
+            break;
+    }
+    mpq_class value;  // its table
+    value_of(code, value);
+    return value.get_d();
 }
 
 bool Component::value_of(uint32_t code, mpq_class& value) const {
     bool is_number = true;
     switch (format_.kind) {
         case ComponentKind::unorm:
-            value = quotient(code, units());
+            value = fraction(code, units());
             break;
         case ComponentKind::srgb:
             is_number = code < 256;
@@ -292,7 +304,7 @@ uint32_t Component::code_of(const mpq_class& value) const {
 }
 
 mpq_class Component::step() const {
-    return is_fixed_point() ? quotient(1, units()) : mpq_class(0);
+    return is_fixed_point() ? fraction(1, units()) : mpq_class(0);
 }
 
 std::string Component::text_of(const Interval& v) const {

@@ -58,11 +58,6 @@ class Component {
     // What may be stored of a value. `is_blended`: it comes out of the blend unit, which rounds by
     // itself.
     Interval stored(const Interval& v, cases::Profile profile, bool is_blended) const;
-    // Whether the code may be stored of a value of [low, high] that the shader wrote: by binary64
-    // alone, nothing where only rationals tell (component_filter.cpp). Infinite ends: any code may
-    // be.
-    std::optional<bool> may_store(double low, double high, uint32_t code,
-                                  cases::Profile profile) const;
     // Whether a code means a value of an interval that stored() returned. An infinity does if its
     // end lies beyond the largest finite number.
     bool allows(uint32_t code, const Interval& stored) const;
@@ -74,7 +69,7 @@ class Component {
     // The value that a stored code means; nothing if the code is no number (NaN, infinity).
     // sRGB: rounded to binary64, see kSrgbError.
     bool value_of(uint32_t code, mpq_class& value) const;
-    // The same in binary64 (component_filter.cpp): exact for integers and floating point, NaN and
+    // The same in binary64: exact for integers and floating point, NaN and
     // infinity as they are; UNORM rounded once; sRGB the number that value_of() has.
     double number(uint32_t code) const;
     // What a device may read where the code (of a number) is stored: its value. An sRGB code may be

@@ -1,18 +1,12 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// What may be stored of a value, answered in binary64. Nothing is approximate here. The numbers of
-// a floating-point format are binary64 numbers, and so are their neighbours: comparisons with them
-// are exact. For a fixed-point format one product is rounded and compared with a whole number that
-// binary64 holds; rounding keeps the order, so that a rounded product on one side of the whole
-// number lies there before it is rounded, too. Only equality does not tell.
+#include "ref/color/component_filter.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <glm/gtc/packing.hpp>
 #include <limits>
-
-#include "ref/color/component.hpp"
 
 namespace ref::color {
 
@@ -46,30 +40,12 @@ bool is_stored(double low, double high, double below, double above) {
 
 }  // namespace
 
-double Component::number(uint32_t code) const {
-    switch (format_.kind) {
-        case ComponentKind::unorm:
-            return code / (std::ldexp(1.0, static_cast<int>(format_.bits)) - 1);
-        case ComponentKind::half:
-            return half_of(code);
-        case ComponentKind::binary32:
-            return static_cast<double>(std::bit_cast<float>(code));
-        case ComponentKind::uint:
-            return code;
-        case ComponentKind::srgb:
-            break;
-    }
-    mpq_class value;  // its table
-    value_of(code, value);
-    return value.get_d();
-}
-
-std::optional<bool> Component::may_store(double low, double high, uint32_t code,
-                                         cases::Profile profile) const {
+std::optional<bool> may_store(const Component& component, double low, double high, uint32_t code,
+                              cases::Profile profile) {
     if (std::isinf(low)) {
         return true;
     }
-    switch (format_.kind) {
+    switch (component.kind()) {
         case ComponentKind::unorm: {
             // The code c may be stored if floor(units low) <= c <= ceil(units high), that is
             // units low < c + 1 and units high > c - 1; with a slack of 3/5 of a unit if
@@ -77,7 +53,7 @@ std::optional<bool> Component::may_store(double low, double high, uint32_t code,
             const bool has_slack = profile == cases::Profile::direct3d;
             const double times = has_slack ? 5 : 1;
             const double slack = has_slack ? 3 : 1;
-            const double scale = times * (std::ldexp(1.0, static_cast<int>(format_.bits)) - 1);
+            const double scale = times * (std::ldexp(1.0, static_cast<int>(component.bits())) - 1);
             const double least = std::clamp(low, 0.0, 1.0) * scale;
             const double most = std::clamp(high, 0.0, 1.0) * scale;
             const double above = times * code + slack;

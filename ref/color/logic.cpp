@@ -16,44 +16,14 @@ bool takes_logic(cases::ColorFormat format) {
 
 uint32_t operated(LogicOp op, uint32_t source, uint32_t before, uint32_t bits) {
     const uint32_t all = bits == 32 ? UINT32_MAX : (1U << bits) - 1;
-    const auto result = [&]() -> uint32_t {
-        switch (op) {
-            case LogicOp::clear:
-                return 0;
-            case LogicOp::and_both:
-                return source & before;
-            case LogicOp::and_reverse:
-                return source & ~before;
-            case LogicOp::copy:
-                return source;
-            case LogicOp::and_inverted:
-                return ~source & before;
-            case LogicOp::no_op:
-                return before;
-            case LogicOp::exclusive_or:
-                return source ^ before;
-            case LogicOp::or_both:
-                return source | before;
-            case LogicOp::nor:
-                return ~(source | before);
-            case LogicOp::equivalent:
-                return ~(source ^ before);
-            case LogicOp::invert:
-                return ~before;
-            case LogicOp::or_reverse:
-                return source | ~before;
-            case LogicOp::copy_inverted:
-                return ~source;
-            case LogicOp::or_inverted:
-                return ~source | before;
-            case LogicOp::nand:
-                return ~(source & before);
-            case LogicOp::set:
-                break;
-        }
-        return UINT32_MAX;
-    };
-    return result() & all;
+    uint32_t out = 0;
+    // Vulkan numbers an operation by its truth table: bit k says what it makes of the k-th pair.
+    for (uint32_t k = 0; k < 4; ++k) {
+        const uint32_t pair =
+            ((k & 2U) != 0 ? ~source : source) & ((k & 1U) != 0 ? ~before : before);
+        out |= (static_cast<uint32_t>(op) >> k & 1U) != 0 ? pair : 0;
+    }
+    return out & all;
 }
 
 Interval operated(LogicOp op, const Component& component, const Interval& source,

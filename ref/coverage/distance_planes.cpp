@@ -61,19 +61,7 @@ void spread_by(Spread& out, const mpq_class& x, const mpq_class& y, const Box& b
 // The least |twice the area| of triangles with one vertex in each box, square pixels; 0 if the sign
 // is not the same for all.
 mpq_class least_area(const std::array<std::optional<Box>, 3>& boxes) {
-    Int128 low = 0;
-    Int128 high = 0;
-    bool is_first = true;
-    for (const FixedPoint& a : BoxCorners(*boxes[0])) {
-        for (const FixedPoint& b : BoxCorners(*boxes[1])) {
-            for (const FixedPoint& c : BoxCorners(*boxes[2])) {
-                const Int128 area = edge_function(a, b, c);
-                low = is_first ? area : std::min(low, area);
-                high = is_first ? area : std::max(high, area);
-                is_first = false;
-            }
-        }
-    }
+    const auto [low, high] = area_range(*boxes[0], *boxes[1], *boxes[2]);
     if (low <= 0 && high >= 0) {
         return 0;
     }

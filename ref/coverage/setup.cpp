@@ -18,6 +18,12 @@ namespace ref {
 
 namespace {
 
+// Decides how an outline's samples are tested, and notes the signs that its area may have.
+void settle(const OutlineSource& s, const TriangleSetup& t, Outline& o, AreaSigns& signs) {
+    choose_mode(o, t.grid_step, s.profile);
+    signs |= signs_of(o, t.grid_step, t.area.keeps_degenerates);
+}
+
 // The outline cut by the planes of the view volume, the clip distances tested at each sample. False
 // as of cut_outline.
 bool tested_outline(const OutlineSource& s, std::span<const ClipPlane> planes, Outline& out,
@@ -55,8 +61,7 @@ void add_depth_tested(const OutlineSource& s, TriangleSetup& t, AreaSigns& signs
             continue;
         }
         o.cuts = std::move(*cuts);
-        choose_mode(o, t.grid_step, s.profile);
-        signs |= signs_of(o, t.grid_step, t.area.keeps_degenerates);
+        settle(s, t, o, signs);
         t.tested.push_back(std::move(o));
     }
 }
@@ -113,8 +118,7 @@ bool add_tested(const OutlineSource& s, TriangleSetup& t, AreaSigns& signs) {
         if (o.cuts.empty() && !is_cut) {
             continue;  // the same as the outline that is cut by the distances
         }
-        choose_mode(o, t.grid_step, s.profile);
-        signs |= signs_of(o, t.grid_step, t.area.keeps_degenerates);
+        settle(s, t, o, signs);
         (is_view ? t.tested_clipped : t.tested_unclipped) = static_cast<int8_t>(t.tested.size());
         t.tested.push_back(std::move(o));
     }
@@ -237,8 +241,7 @@ void set_up_outlines(const OutlineSource& s, bool is_told, TriangleSetup& t) {
     t.is_clipped = !is_inside(s.input, s.volume.all());
     t.has_outline = outline_by(s, s.volume.without_borders(), t.unclipped);
     if (t.has_outline) {
-        choose_mode(t.unclipped, t.grid_step, profile);
-        signs |= signs_of(t.unclipped, t.grid_step, t.area.keeps_degenerates);
+        settle(s, t, t.unclipped, signs);
     }
     // A vertex beyond the range takes what is cut from its edges with it.
     const bool is_in_range = std::all_of(clip.begin(), clip.end(), [&](const glm::vec4& v) {
@@ -261,8 +264,7 @@ void set_up_outlines(const OutlineSource& s, bool is_told, TriangleSetup& t) {
             is_defined = false;  // nothing says what the zone around the viewport shows
         }
         if (is_defined) {
-            choose_mode(*t.clipped, t.grid_step, profile);
-            signs |= signs_of(*t.clipped, t.grid_step, t.area.keeps_degenerates);
+            settle(s, t, *t.clipped, signs);
         }
     }
     if (is_defined && s.volume.has_user_planes()) {

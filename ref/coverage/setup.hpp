@@ -23,6 +23,8 @@
 #include "cases/model/triangle.hpp"
 #include "ref/coverage/coverage.hpp"
 #include "ref/coverage/pixel_area.hpp"
+#include "ref/coverage/vertex_boxes.hpp"
+#include "ref/coverage/window.hpp"
 #include "ref/number/edge_function.hpp"
 #include "ref/number/fixed_point.hpp"
 #include "ref/position/clip.hpp"
@@ -129,30 +131,6 @@ class OutlineList {
     size_t count_ = 0;
 };
 
-// The window of a draw (docs/design.md, "Words").
-struct Window {
-    int64_t pixel_x0 = 0, pixel_x1 = 0;  // framebuffer and scissor; half-open
-    int64_t pixel_y0 = 0, pixel_y1 = 0;
-    // The viewport: nothing is drawn outside `zone`; nothing has to be drawn outside `core`. They
-    // differ along a fractional viewport only, by the pixel on either side that rules.md leaves
-    // open there.
-    FixedRange zone_x, zone_y, core_x, core_y;
-    bool is_viewport_ignored = false;    // undefined positions: only scissor and framebuffer hold
-    uint32_t sample_mask = 0xffffffffU;  // bit s: sample s passes the sample masks
-    cases::AlphaCoverage alpha = cases::AlphaCoverage::all;  // what alpha to coverage leaves
-
-    bool may_write(uint32_t sample) const {
-        return ((sample_mask >> sample) & 1U) != 0 && alpha != cases::AlphaCoverage::none;
-    }
-    // Whether alpha to coverage may take away what is covered.
-    bool is_open() const { return alpha == cases::AlphaCoverage::any; }
-    bool is_in_scissor(const FixedPoint& p) const;
-    bool is_in_zone(const FixedPoint& p) const;
-    bool may_touch(const FixedPoint& p) const { return is_in_scissor(p) && is_in_zone(p); }
-    bool is_in_core(const FixedPoint& p) const;
-    bool must_touch(const FixedPoint& p) const { return !is_open() && is_in_core(p); }
-};
-
 struct TriangleSetup {
     enum class Kind : uint8_t {
         nothing,   // culled or outside
@@ -203,31 +181,6 @@ inline Reason reason_of_plane(ClipPlane plane) {
                : Reason{ReasonKind::clip_plane, static_cast<uint8_t>(plane)};
 }
 
-// The boxes of a draw's vertices, computed when first asked for.
-class VertexBoxes {
-  public:
-    VertexBoxes(const cases::Case& c, const Limits& limits, cases::Profile profile);
-    const std::optional<Box>& of(uint32_t draw, uint32_t vertex);
-    // The box of a vertex in the view volume; null if the vertex is not in it, has no box or is not
-    // representable.
-    const Box* inside_view(uint32_t draw, uint32_t vertex);
-
-  private:
-    enum class View : uint8_t { unknown, inside, outside };
-    struct Entry {
-        bool is_known = false;
-        View view = View::unknown;  // and representable
-        std::optional<Box> box;
-    };
-    const cases::Case& case_;
-    Limits limits_;
-    cases::Profile profile_;
-    std::vector<std::vector<Entry>> entries_;
-};
-
-// The window of a draw.
-Window window_of(const cases::Case& c, const cases::Draw& draw, cases::Profile profile);
-
 // `is_told`: also why nothing is drawn or anything may be. A triangle beyond a plane of the view
 // volume then has the outline that it would have without planes.
 TriangleSetup set_up(const cases::Case& c, const cases::Triangle& triangle, const Limits& limits,
@@ -251,15 +204,11 @@ void for_each_candidate(const Outline& o, int64_t step, const Body& body) {
         body(std::span<const FixedPoint>(polygon));
         return;
     }
-    const std::array points{grid_points(o.boxes[0], step), grid_points(o.boxes[1], step),
-                            grid_points(o.boxes[2], step)};
-    for (const FixedPoint& a : points[0]) {
-        for (const FixedPoint& b : points[1]) {
-            for (const FixedPoint& c : points[2]) {
-                body(std::span<const FixedPoint>(std::array{a, b, c}));
-            }
-        }
-    }
+    for_each_choice(grid_points(o.boxes[0], step), grid_points(o.boxes[1], step),
+                    grid_points(o.boxes[2], step),
+                    [&](const auto& a, const auto& b, const auto& c) {
+                        body(std::span<const FixedPoint>(std::array{a, b, c}));
+                    });
 }
 
 }  // namespace ref

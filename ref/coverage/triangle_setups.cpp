@@ -19,7 +19,8 @@ bool has_sample(int64_t low, int64_t high, int64_t offset) {
 }  // namespace
 
 TriangleSetups::TriangleSetups(const cases::Case& c, const std::vector<cases::Triangle>& triangles,
-                               const Limits& limits, cases::Profile profile, bool is_told)
+                               const Limits& limits, cases::Profile profile, bool is_told,
+                               bool has_alpha)
     : case_(c),
       triangles_(triangles),
       limits_(limits),
@@ -28,7 +29,8 @@ TriangleSetups::TriangleSetups(const cases::Case& c, const std::vector<cases::Tr
       boxes_(c, limits, profile),
       slot_(triangles.size(), kUnknown) {
     for (const cases::Draw& d : c.draws) {
-        windows_.push_back(window_of(c, d, profile));
+        Window& window = windows_.emplace_back(window_of(c, d, profile));
+        window.alpha = has_alpha ? window.alpha : cases::AlphaCoverage::all;
     }
     for (uint32_t s = 0; s < c.target.samples; ++s) {
         samples_.push_back(sample_position(0, 0, s, c.target));

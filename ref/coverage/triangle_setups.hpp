@@ -20,8 +20,10 @@ namespace ref {
 class TriangleSetups {
   public:
     // Keeps references to the case and its assembled triangles. `is_told`: as of set_up.
+    // `has_alpha`: what alpha to coverage takes away is taken away, too.
     TriangleSetups(const cases::Case& c, const std::vector<cases::Triangle>& triangles,
-                   const Limits& limits, cases::Profile profile, bool is_told = false);
+                   const Limits& limits, cases::Profile profile, bool is_told = false,
+                   bool has_alpha = true);
 
     // The set-up of triangle t, made when first asked for; valid as long as this object, or until
     // it is forgotten.

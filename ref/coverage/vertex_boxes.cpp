@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ref/coverage/setup.hpp"
+#include "ref/coverage/vertex_boxes.hpp"
+
+#include "ref/position/clip.hpp"
 
 namespace ref {
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// The window of a draw (docs/design.md, "Words").
+#include "ref/coverage/window.hpp"
+
 #include <algorithm>
 
-#include "ref/coverage/setup.hpp"
+#include "ref/number/edge_function.hpp"
 #include "ref/number/rational.hpp"
 #include "ref/position/position_detail.hpp"
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <optional>
-#include <unordered_map>
+#include <tuple>
 
 #include "cases/base/float_bits.hpp"
 #include "cases/model/sample.hpp"
@@ -64,8 +64,7 @@ struct DepthTest::Impl {
     };
     struct Loaded {
         value::Primitive primitive;
-        Known<Ball> balls;
-        Known<mpq_class> rationals;
+        std::tuple<Known<Ball>, Known<mpq_class>> known;
     };
 
     const cases::Case& c;
@@ -76,8 +75,7 @@ struct DepthTest::Impl {
     value::Quantity depth;
     std::vector<std::unique_ptr<Loaded>> loaded;
     double steps;
-    DepthRange<Ball> clear_ball;
-    DepthRange<mpq_class> clear_exact;
+    std::tuple<DepthRange<Ball>, DepthRange<mpq_class>> clear;
     FixedPoint at;       // the sample whose spans are kept
     uint64_t stamp = 1;  // counts samples
 
@@ -94,10 +92,22 @@ struct DepthTest::Impl {
         depth.at_sample = true;
         depth.plane = value::kPlaneDepth;
         depth.id = {};
-        const mpq_class value(static_cast<double>(c.target.depth_clear));
-        clear_exact = *with_neighbours<mpq_class>({value, value}, steps);
-        clear_ball = {false, value::from_exact<Ball>(clear_exact.low),
-                      value::from_exact<Ball>(clear_exact.high)};
+        clear = {range_at<Ball>(c.target.depth_clear), range_at<mpq_class>(c.target.depth_clear)};
+    }
+
+    // What may stand for a number.
+    template <class T>
+    DepthRange<T> range_at(float number) const {
+        const mpq_class value(static_cast<double>(number));
+        const auto exact = *with_neighbours<mpq_class>({value, value}, steps);
+        return {false, value::from_exact<T>(exact.low), value::from_exact<T>(exact.high)};
+    }
+
+    // By Balls, and by rationals where these do not tell.
+    template <class Ask>
+    auto by_balls_first(const Ask& ask) {
+        auto answer = exact_only ? decltype(ask(Ball()))() : ask(Ball());
+        return answer ? answer : ask(mpq_class());
     }
 
     Loaded& load(uint32_t t) {
@@ -110,20 +120,7 @@ struct DepthTest::Impl {
 
     template <class T>
     Known<T>& known(uint32_t t) {
-        if constexpr (std::is_same_v<T, Ball>) {
-            return load(t).balls;
-        } else {
-            return load(t).rationals;
-        }
-    }
-
-    template <class T>
-    const DepthRange<T>& clear() const {
-        if constexpr (std::is_same_v<T, Ball>) {
-            return clear_ball;
-        } else {
-            return clear_exact;
-        }
+        return std::get<Known<T>>(load(t).known);
     }
 
     // Where the depth of a fragment at p is evaluated: in p, or, if it is gl_FragCoord.z, somewhere
@@ -145,10 +142,7 @@ struct DepthTest::Impl {
         if (const auto z =
                 cases::written_depth(draw_of(t), static_cast<uint32_t>(p.x >> kFixedBits),
                                      static_cast<uint32_t>(p.y >> kFixedBits))) {
-            const mpq_class exact(static_cast<double>(*z));
-            const auto range = *with_neighbours<mpq_class>({exact, exact}, steps);
-            return DepthRange<T>{false, value::from_exact<T>(range.low),
-                                 value::from_exact<T>(range.high)};
+            return range_at<T>(*z);
         }
         if (!primitive.is_finite) {
             return DepthRange<T>{true, {}, {}};
@@ -177,7 +171,7 @@ struct DepthTest::Impl {
     template <class T>
     std::optional<DepthRange<T>> span_of(int t, const FixedPoint& p) {
         if (t == kClear) {
-            return clear<T>();
+            return std::get<DepthRange<T>>(clear);
         }
         if (!(p == at)) {
             at = p;
@@ -253,75 +247,56 @@ struct DepthTest::Impl {
     // Whether nothing is cut off at the ends of the viewport's range or undefined there: the bias
     // sets two depths apart only as long as they are not clamped.
     bool is_inside(uint32_t t, const FixedPoint& p) {
-        if (!exact_only) {
-            const Answer answer = is_inside<Ball>(t, p);
-            if (answer != Answer::unknown) {
-                return answer == Answer::yes;
-            }
-        }
-        return is_inside<mpq_class>(t, p) == Answer::yes;
-    }
-    template <class T>
-    Answer is_inside(uint32_t t, const FixedPoint& p) {
-        const auto span = span_of<T>(static_cast<int>(t), p);
-        if (!span) {
-            return Answer::unknown;
-        }
-        if (span->is_free) {
-            return Answer::no;
-        }
         const cases::Viewport& v = draw_of(t).viewport;
         const auto low = static_cast<double>(std::min(v.min_depth, v.max_depth));
         const auto high = static_cast<double>(std::max(v.min_depth, v.max_depth));
-        return both(is_positive(T(span->low - T(low))), is_positive(T(T(high) - span->high)));
+        const auto by = [&]<class T>(T) -> std::optional<bool> {
+            const auto span = span_of<T>(static_cast<int>(t), p);
+            const Answer answer = !span           ? Answer::unknown
+                                  : span->is_free ? Answer::no
+                                                  : both(is_positive(T(span->low - T(low))),
+                                                         is_positive(T(T(high) - span->high)));
+            return answer == Answer::unknown ? std::nullopt : std::optional(answer == Answer::yes);
+        };
+        return by_balls_first(by).value_or(false);
     }
 
     // Whether a triangle has a depth there at all.
     bool has_depth(uint32_t t, const FixedPoint& p) {
-        if (!exact_only) {
-            const auto span = span_of<Ball>(static_cast<int>(t), p);
-            if (span) {
-                return !span->is_free;
-            }
-        }
-        const auto span = span_of<mpq_class>(static_cast<int>(t), p);
-        return span && !span->is_free;
+        const auto by = [&]<class T>(T) -> std::optional<bool> {
+            const auto span = span_of<T>(static_cast<int>(t), p);
+            return span ? std::optional(!span->is_free) : std::nullopt;
+        };
+        return by_balls_first(by).value_or(false);
     }
 
-    template <class T>
-    Outcome is_within(const cases::DepthBounds& bounds, int stored, const FixedPoint& p) {
-        const auto range_of = [&](float bound) {
-            const mpq_class value(static_cast<double>(bound));
-            const auto exact = *with_neighbours<mpq_class>({value, value}, steps);
-            return DepthRange<T>{false, value::from_exact<T>(exact.low),
-                                 value::from_exact<T>(exact.high)};
-        };
-        const auto span = span_of<T>(stored, p);
-        if (!span) {
-            return std::nullopt;
+    // Of what is stored.
+    DepthOutcome bounds(int stored, uint32_t fragment, const FixedPoint& p) {
+        const std::optional<cases::DepthBounds>& asked = draw_of(fragment).depth.bounds;
+        if (!asked) {
+            return DepthOutcome::passes;
         }
-        return value::within(*span, range_of(bounds.min), range_of(bounds.max));
+        const auto by = [&]<class T>(T) {
+            const auto span = span_of<T>(stored, p);
+            return span ? value::within(*span, range_at<T>(asked->min), range_at<T>(asked->max))
+                        : Outcome();
+        };
+        return by_balls_first(by).value_or(DepthOutcome::open);
     }
-    DepthOutcome bounds(int stored, uint32_t fragment, const FixedPoint& p);
 
     DepthOutcome outcome(int stored, uint32_t fragment, const FixedPoint& p, ReasonKind& reason) {
         const CompareOp op = draw_of(fragment).depth.compare;
         if (op == CompareOp::always || op == CompareOp::never) {
             return op == CompareOp::always ? DepthOutcome::passes : DepthOutcome::fails;
         }
-        Outcome known;
-        if (!exact_only) {
-            const auto a = span_of<Ball>(static_cast<int>(fragment), p);
-            const auto b = span_of<Ball>(stored, p);
-            known = a && b ? compare(op, *a, *b) : Outcome();
-        }
-        if (!known) {
-            const auto a = span_of<mpq_class>(static_cast<int>(fragment), p);
-            const auto b = span_of<mpq_class>(stored, p);
-            known = a && b ? compare(op, *a, *b) : Outcome(DepthOutcome::open);
-        }
-        if (*known != DepthOutcome::open || stored == kClear) {
-            return *known;
+        const auto by = [&]<class T>(T) {
+            const auto a = span_of<T>(static_cast<int>(fragment), p);
+            const auto b = span_of<T>(stored, p);
+            return a && b ? compare(op, *a, *b) : Outcome();
+        };
+        const DepthOutcome known = by_balls_first(by).value_or(DepthOutcome::open);
+        if (known != DepthOutcome::open || stored == kClear) {
+            return known;
         }
         const auto first = static_cast<uint32_t>(stored);
         const Relation r = relation(first, fragment);
@@ -338,23 +313,21 @@ struct DepthTest::Impl {
         }
         return DepthOutcome::open;
     }
-};
 
-// Of what is stored.
-DepthOutcome DepthTest::Impl::bounds(int stored, uint32_t fragment, const FixedPoint& p) {
-    const std::optional<cases::DepthBounds>& asked = draw_of(fragment).depth.bounds;
-    if (!asked) {
-        return DepthOutcome::passes;
-    }
-    Outcome known;
-    if (!exact_only) {
-        known = is_within<Ball>(*asked, stored, p);
-    }
-    if (!known) {
-        known = is_within<mpq_class>(*asked, stored, p);
-    }
-    return known.value_or(DepthOutcome::open);
-}
+    // The last of the candidates before m that is the same triangle, passed and wrote its depth,
+    // and so covers the sample as well: what was stored before that is gone. Not so where a value
+    // may have taken it away, or alpha to coverage.
+    int last_same(std::span<const DepthCandidate> candidates, size_t m,
+                  std::span<const DepthOutcome> outcomes);
+    // Of candidate m against all that may be stored.
+    DepthOutcome outcome_of(std::span<const DepthCandidate> candidates, size_t m,
+                            std::span<const int> stored, int since, const FixedPoint& p,
+                            ReasonKind& reason);
+    // One of a set has written once all of them had their turn and none can have failed: the first
+    // of candidate m's set then, else kClear.
+    int first_of_complete(std::span<const DepthCandidate> candidates, size_t m,
+                          std::span<const DepthOutcome> outcomes) const;
+};
 
 DepthTest::DepthTest(const cases::Case& c, const std::vector<cases::Triangle>& triangles,
                      const Limits& limits, cases::Profile profile, bool exact_only)
@@ -373,6 +346,71 @@ bool DepthTest::is_needed(const cases::Case& c) {
            });
 }
 
+namespace {
+
+bool is_of_set(std::span<const DepthCandidate> candidates, int k, int one_of) {
+    return k != kClear && one_of >= 0 && candidates[static_cast<size_t>(k)].one_of == one_of;
+}
+
+}  // namespace
+
+int DepthTest::Impl::last_same(std::span<const DepthCandidate> candidates, size_t m,
+                               std::span<const DepthOutcome> outcomes) {
+    int since = kClear;
+    for (size_t k = 0; k < m; ++k) {
+        const uint32_t before = candidates[k].triangle;
+        if (!may_vanish(before) && !candidates[k].is_absent &&
+            outcomes[k] == DepthOutcome::passes && draw_of(before).depth.write &&
+            relation(before, candidates[m].triangle).is_same) {
+            since = static_cast<int>(k);
+        }
+    }
+    return since;
+}
+
+DepthOutcome DepthTest::Impl::outcome_of(std::span<const DepthCandidate> candidates, size_t m,
+                                         std::span<const int> stored, int since,
+                                         const FixedPoint& p, ReasonKind& reason) {
+    const DepthCandidate& now = candidates[m];
+    bool passes = false, fails = false;
+    for (const int k : stored) {
+        // Of a set of which one covers the sample, that one is here.
+        const bool is_excluded =
+            is_of_set(candidates, k, now.one_of) ||
+            (since != kClear && k != since &&
+             is_of_set(candidates, k, candidates[static_cast<size_t>(since)].one_of));
+        if (k < since || is_excluded) {
+            continue;
+        }
+        const int t =
+            k == kClear ? kClear : static_cast<int>(candidates[static_cast<size_t>(k)].triangle);
+        const DepthOutcome o = outcome(t, now.triangle, p, reason);
+        passes = passes || o != DepthOutcome::fails;
+        fails = fails || o != DepthOutcome::passes;
+    }
+    if (passes == fails) {
+        reason = ReasonKind::depth_ranges;  // one relation does not settle it
+        return DepthOutcome::open;
+    }
+    return passes ? DepthOutcome::passes : DepthOutcome::fails;
+}
+
+int DepthTest::Impl::first_of_complete(std::span<const DepthCandidate> candidates, size_t m,
+                                       std::span<const DepthOutcome> outcomes) const {
+    int first = kClear;
+    for (size_t k = 0; k < candidates.size(); ++k) {
+        if (candidates[k].one_of != candidates[m].one_of) {
+            continue;
+        }
+        if (k > m || outcomes[k] != DepthOutcome::passes ||
+            !draw_of(candidates[k].triangle).depth.write) {
+            return kClear;
+        }
+        first = first == kClear ? static_cast<int>(k) : first;
+    }
+    return first;
+}
+
 DepthResolution DepthTest::resolve(const FixedPoint& p,
                                    std::span<const DepthCandidate> candidates) {
     DepthResolution out;
@@ -384,45 +422,9 @@ DepthResolution DepthTest::resolve(const FixedPoint& p,
         if (now.is_absent) {
             continue;
         }
-        // A triangle that was drawn before, passed and wrote its depth covers the sample as well:
-        // what was stored before that is gone. Not so where a value may have taken it away, or
-        // alpha to coverage.
-        int since = kClear;
-        for (size_t k = 0; k < m; ++k) {
-            if (!impl_->may_vanish(candidates[k].triangle) && !candidates[k].is_absent &&
-                out.outcomes[k] == DepthOutcome::passes &&
-                impl_->draw_of(candidates[k].triangle).depth.write &&
-                impl_->relation(candidates[k].triangle, now.triangle).is_same) {
-                since = static_cast<int>(k);
-            }
-        }
-        bool passes = false, fails = false;
-        for (const int k : stored) {
-            // Of a set of which one covers the sample, that one is here.
-            const auto excludes = [&](int one_of) {
-                return k != kClear && one_of >= 0 &&
-                       candidates[static_cast<size_t>(k)].one_of == one_of;
-            };
-            const bool is_excluded =
-                excludes(now.one_of) || (since != kClear && k != since &&
-                                         excludes(candidates[static_cast<size_t>(since)].one_of));
-            if (k < since || is_excluded) {
-                continue;
-            }
-            const int t = k == kClear
-                              ? kClear
-                              : static_cast<int>(candidates[static_cast<size_t>(k)].triangle);
-            const DepthOutcome o = impl_->outcome(t, now.triangle, p, out.reasons.back());
-            passes = passes || o != DepthOutcome::fails;
-            fails = fails || o != DepthOutcome::passes;
-        }
+        const int since = impl_->last_same(candidates, m, out.outcomes);
         DepthOutcome& outcome = out.outcomes.back();
-        outcome = passes && !fails   ? DepthOutcome::passes
-                  : fails && !passes ? DepthOutcome::fails
-                                     : DepthOutcome::open;
-        if (outcome == DepthOutcome::open) {
-            out.reasons.back() = ReasonKind::depth_ranges;  // one relation does not settle it
-        }
+        outcome = impl_->outcome_of(candidates, m, stored, since, p, out.reasons.back());
         if (outcome == DepthOutcome::fails || !impl_->draw_of(now.triangle).depth.write) {
             continue;
         }
@@ -430,21 +432,8 @@ DepthResolution DepthTest::resolve(const FixedPoint& p,
             stored.clear();
         }
         stored.push_back(static_cast<int>(m));
-        if (now.one_of < 0 || !now.is_one_sure) {
-            continue;
-        }
-        // One of the set has written once all of them had their turn and none can have failed.
-        int first = kClear;
-        bool is_complete = true;
-        for (size_t k = 0; k < candidates.size(); ++k) {
-            if (candidates[k].one_of != now.one_of) {
-                continue;
-            }
-            first = first == kClear ? static_cast<int>(k) : first;
-            is_complete = is_complete && k <= m && out.outcomes[k] == DepthOutcome::passes &&
-                          impl_->draw_of(candidates[k].triangle).depth.write;
-        }
-        if (is_complete) {
+        if (now.one_of >= 0 && now.is_one_sure) {
+            const int first = impl_->first_of_complete(candidates, m, out.outcomes);
             std::erase_if(stored, [&](int k) { return k < first; });
         }
     }

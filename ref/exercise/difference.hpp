@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Where a case shows that a device is wrong about something: where what that device draws, the case
-// with one of the changes of changes.hpp, is not what the case must show.
+// as it takes it (cases/fault/change.hpp), is not what the case must show.
 #pragma once
 
 #include <cstdint>

@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "cases/fault/change.hpp"
 #include "cases/model/rule.hpp"
 #include "ref/blit/blit.hpp"
 #include "ref/exercise/exercise_table.hpp"
@@ -92,7 +93,7 @@ size_t step_of(const Way& way, size_t samples, bool is_counting) {
 void look_for_differences(Original& original, Claim& claim) {
     for (const Way& way : claim.row().ways) {
         cases::Case other = original.of();
-        if (way.change == nullptr || claim.is_done() || !way.change(other)) {
+        if (claim.is_done() || !cases::take_with(way.fault, other)) {
             continue;
         }
         Difference difference(original, std::move(other), way.differ, claim.row().rule);

@@ -7,6 +7,7 @@
 #include <array>
 #include <string_view>
 
+#include "cases/fault/row.hpp"
 #include "cases/model/case.hpp"
 #include "cases/model/profile.hpp"
 #include "ref/exercise/difference.hpp"
@@ -14,14 +15,14 @@
 
 namespace ref {
 
-// One way to exercise a rule: by a test at the samples of a profile; by what a device that is wrong
-// about the rule would make of the case (changes.hpp); or, of a blit, in texels inside or outside
-// its region.
+// One way to exercise a rule: by a test at the samples of a profile; by what a device with a
+// fault that breaks the rule takes the case for (cases/fault/change.hpp); or, of a blit, in texels
+// inside or outside its region.
 struct Way {
     cases::Profile profile = cases::Profile::direct3d;
     ExerciseTest test = nullptr;
-    bool (*change)(cases::Case& c) = nullptr;
-    Differ differ = Differ::hits;  // by what the change shows
+    cases::Fault fault = cases::kNoFault;
+    Differ differ = Differ::hits;  // by what the fault shows
     enum class Texels : uint8_t { none, inside, outside } texels = Texels::none;
 };
 

@@ -7,6 +7,7 @@
 #include "ref/coverage/triangle_setups.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/expectation/narrowing.hpp"
+#include "ref/stencil/exact.hpp"
 
 namespace ref::exact {
 

@@ -68,17 +68,8 @@ void refuse(Decision& d, ReasonKind why) {
 }  // namespace
 
 std::string_view to_string(EdgeKind kind) {
-    switch (kind) {
-        case EdgeKind::top:
-            return "top";
-        case EdgeKind::left:
-            return "left";
-        case EdgeKind::bottom:
-            return "bottom";
-        case EdgeKind::right:
-            return "right";
-    }
-    return "";
+    constexpr std::array<std::string_view, 4> kNames = {"top", "left", "bottom", "right"};
+    return kNames.at(static_cast<size_t>(kind));
 }
 
 std::string to_text(const mpq_class& value) {
@@ -112,13 +103,11 @@ bool has_reason(const Decision& decision, ReasonKind kind) {
 }  // namespace
 
 bool is_suppressed(const Decision& decision) {
-    return decision.coverage == Coverage::must_not && !has_reason(decision, ReasonKind::outside) &&
-           !has_reason(decision, ReasonKind::outside_hull) &&
-           !has_reason(decision, ReasonKind::no_area) &&
-           !has_reason(decision, ReasonKind::beyond_size) &&
-           !has_reason(decision, ReasonKind::unfilled_pixel) &&
-           !has_reason(decision, ReasonKind::degenerate_culled) &&
-           !has_reason(decision, ReasonKind::top_left_out);
+    using enum ReasonKind;
+    return decision.coverage == Coverage::must_not &&
+           std::ranges::none_of(std::array{outside, outside_hull, no_area, beyond_size,
+                                           unfilled_pixel, degenerate_culled, top_left_out},
+                                [&](ReasonKind of_area) { return has_reason(decision, of_area); });
 }
 
 bool TriangleExplanation::has(ReasonKind kind) const {
@@ -247,22 +236,25 @@ std::string Explainer::sentence(const FixedSet& set) {
     return sentence_of(set, scene_.triangles);
 }
 
-SampleExplanation Explainer::explain(cases::SampleId sample, Detail detail) {
-    SampleExplanation out;
-    out.position = sample_position(sample.x, sample.y, sample.sample, scene_.c.target);
-    const FixedPoint& p = out.position;
-    out.of_all = ReasonKind::other_layer;
+std::optional<ReasonKind> Explainer::reason_of_all(cases::SampleId sample,
+                                                   const FixedPoint& p) const {
+    ReasonKind out = ReasonKind::other_layer;
     for (const cases::Draw& draw : scene_.c.draws) {
         const Window window = window_of(scene_.c, draw, scene_.profile);
+        if (draw.layer == sample.layer && window.may_touch(p)) {
+            return std::nullopt;
+        }
         const ReasonKind why = draw.layer != sample.layer ? ReasonKind::other_layer
                                : !window.is_in_scissor(p) ? ReasonKind::scissor
                                                           : ReasonKind::viewport;
-        if (draw.layer == sample.layer && window.may_touch(p)) {
-            out.of_all.reset();
-            break;
-        }
-        out.of_all = std::max(*out.of_all, why);
+        out = std::max(out, why);
     }
+    return out;
+}
+
+Explainer::HitsAt Explainer::hits_at(cases::SampleId sample, Detail detail,
+                                     SampleExplanation& out) {
+    const FixedPoint& p = out.position;
     std::set<uint32_t> at_sample;
     const uint32_t row = sample.layer * scene_.c.target.height + sample.y;
     for (const fast::Span& s : scene_.spans) {
@@ -270,9 +262,7 @@ SampleExplanation Explainer::explain(cases::SampleId sample, Detail detail) {
             at_sample.insert(s.triangle);
         }
     }
-    std::vector<Hit> hits;
-    std::vector<size_t> explained;  // the explanation of each hit, or none of those told
-    constexpr size_t kUntold = ~size_t{0};
+    HitsAt found;
     for (uint32_t t = 0; t < scene_.triangles.size(); ++t) {
         const bool is_told =
             is_near(scene_.c.draws[scene_.triangles[t].draw], scene_.triangles[t], p);
@@ -281,13 +271,13 @@ SampleExplanation Explainer::explain(cases::SampleId sample, Detail detail) {
         }
         Decision decision = decide(t, p, sample);
         if (decision.coverage != Coverage::must_not) {
-            hits.push_back({t, decision.coverage});
-            explained.push_back(is_told ? out.triangles.size() : kUntold);
-            hits.insert(hits.end(), decision.further, {t, Coverage::either});
-            explained.insert(explained.end(), decision.further, kUntold);
+            found.hits.push_back({t, decision.coverage});
+            found.explained.push_back(is_told ? out.triangles.size() : kUntold);
+            found.hits.insert(found.hits.end(), decision.further, {t, Coverage::either});
+            found.explained.insert(found.explained.end(), decision.further, kUntold);
         }
         if (is_told) {
-            TriangleExplanation e;
+            TriangleExplanation& e = out.triangles.emplace_back();
             e.index = t;
             e.triangle = scene_.triangles[t];
             e.decision = std::move(decision);
@@ -295,14 +285,42 @@ SampleExplanation Explainer::explain(cases::SampleId sample, Detail detail) {
                 add_details(e, p);
                 e.sentence = sentence_of(e.decision.reasons.front(), e, scene_.c, sample);
             }
-            out.triangles.push_back(std::move(e));
         }
     }
+    return found;
+}
+
+void Explainer::add_fate(TriangleExplanation& t, const stencil::Fate& fate, cases::SampleId sample,
+                         Detail detail) {
+    t.fate = fate;
+    const bool is_all = detail == Detail::all;
+    const cases::Draw& draw = scene_.c.draws[t.triangle.draw];
+    if (fate.is_discarded && !fate.passes) {
+        refuse(t.decision, ReasonKind::discarded_late);
+    } else if (fate.is_discarded && cases::discards_by_value(draw)) {
+        leave_open(t.decision, ReasonKind::near_zero);
+    }
+    if (fate.is_discarded) {
+        t.sentence = is_all ? sentence(t, sample) : std::string();
+    }
+    if (is_all && scene_.c.target.has_depth && draw.depth.bounds) {
+        t.bounds_text = bounds_sentence(t);
+    }
+    if (is_all && stencil::is_needed(scene_.c) && fate.is_tested()) {
+        t.stencil_text = stencil_sentence(t);
+    }
+}
+
+SampleExplanation Explainer::explain(cases::SampleId sample, Detail detail) {
+    SampleExplanation out;
+    out.position = sample_position(sample.x, sample.y, sample.sample, scene_.c.target);
+    out.of_all = reason_of_all(sample, out.position);
+    const auto [hits, explained] = hits_at(sample, detail, out);
     std::vector<uint32_t> writers, depth_writers;
     std::vector<stencil::Outcome> stencils;
     JudgeReasons reasons;
     const SampleExpectation judged = scene_.narrowing.judge(
-        p, sample.sample, hits, {writers, depth_writers, stencils}, &reasons);
+        out.position, sample.sample, hits, {writers, depth_writers, stencils}, &reasons);
     out.hits = judged.hits;
     for (FixedSet& set : reasons.sets) {
         std::string words = detail == Detail::all ? sentence(set) : std::string();
@@ -312,39 +330,19 @@ SampleExplanation Explainer::explain(cases::SampleId sample, Detail detail) {
         out.stencils = stencil::values_of(stencils, judged.is_stencil_free,
                                           scene_.c.target.stencil_clear, std::nullopt);
     }
-    for (size_t m = 0; m < reasons.fates.size(); ++m) {
-        if (explained[m] != kUntold) {
-            TriangleExplanation& t = out.triangles[explained[m]];
-            t.fate = reasons.fates[m];
-            const cases::Draw& draw = scene_.c.draws[t.triangle.draw];
-            const bool may_be_either = t.fate->is_discarded && t.fate->passes;
-            if (t.fate->is_discarded && !t.fate->passes) {
-                refuse(t.decision, ReasonKind::discarded_late);
-            } else if (may_be_either && cases::discards_by_value(draw)) {
-                leave_open(t.decision, ReasonKind::near_zero);
-            }
-            if (t.fate->is_discarded) {
-                t.sentence = detail == Detail::all ? sentence(t, sample) : std::string();
-            }
-            if (detail == Detail::all && scene_.c.target.has_depth &&
-                scene_.c.draws[t.triangle.draw].depth.bounds) {
-                t.bounds_text = bounds_sentence(t);
-            }
-            if (stencil::is_needed(scene_.c) && t.fate->is_tested()) {
-                t.stencil_text = detail == Detail::all ? stencil_sentence(t) : std::string();
-            }
-        }
-    }
-    for (size_t m = 0; m < reasons.depth.outcomes.size(); ++m) {
-        const bool is_reached = m >= reasons.fates.size() || reasons.fates[m].gets_to_depth();
-        if (explained[m] == kUntold || !is_reached) {
+    for (size_t m = 0; m < hits.size(); ++m) {
+        if (explained[m] == kUntold) {
             continue;
         }
         TriangleExplanation& t = out.triangles[explained[m]];
-        t.depth = reasons.depth.outcomes[m];
-        t.depth_reason = reasons.depth.reasons[m];
-        if (detail == Detail::all) {
-            t.depth_text = depth_sentence(t, sample);
+        if (m < reasons.fates.size()) {
+            add_fate(t, reasons.fates[m], sample, detail);
+        }
+        const bool is_reached = m >= reasons.fates.size() || reasons.fates[m].gets_to_depth();
+        if (m < reasons.depth.outcomes.size() && is_reached) {
+            t.depth = reasons.depth.outcomes[m];
+            t.depth_reason = reasons.depth.reasons[m];
+            t.depth_text = detail == Detail::all ? depth_sentence(t, sample) : std::string();
         }
     }
     return out;

@@ -117,7 +117,20 @@ class Explainer {
     bool is_taken_away_by_face(uint32_t t);
 
   private:
+    static constexpr size_t kUntold = ~size_t{0};
+    // The hits of a sample, and of each the number of its explanation, or kUntold.
+    struct HitsAt {
+        std::vector<Hit> hits;
+        std::vector<size_t> explained;
+    };
+
+    std::optional<ReasonKind> reason_of_all(cases::SampleId sample, const FixedPoint& p) const;
+    // Adds the triangles that are told to `out`.
+    HitsAt hits_at(cases::SampleId sample, Detail detail, SampleExplanation& out);
     void add_details(TriangleExplanation& e, const FixedPoint& p);
+    // What depth bounds, stencil and late discards make of a triangle's fragment.
+    void add_fate(TriangleExplanation& t, const stencil::Fate& fate, cases::SampleId sample,
+                  Detail detail);
 
     Scene scene_;
     std::optional<OnDemand> on_demand_;

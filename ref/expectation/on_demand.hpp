@@ -15,7 +15,7 @@ namespace ref {
 
 class OnDemand {
   public:
-    explicit OnDemand(Scene& scene);  // keeps the reference
+    explicit OnDemand(Scene& scene) : with_(expect_on_demand(scene)) {}  // keeps the reference
 
     // An expectation that says of sample `index` what expect(scene) says; of samples that were
     // never asked for it may say that nothing hits them. Always the same object, which grows.

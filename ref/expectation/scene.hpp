@@ -4,6 +4,7 @@
 // The triangles of a case at one profile: what all of its samples are judged from.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -42,5 +43,8 @@ struct Scene {
 
 // The expectation of a scene's case; an onlooker sees each sample as it is judged.
 Expectation expect(Scene& scene, Onlooker* onlooker = nullptr);
+
+// What OnDemand asks.
+std::function<const Expectation&(size_t)> expect_on_demand(Scene& scene);
 
 }  // namespace ref

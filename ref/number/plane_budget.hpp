@@ -111,6 +111,48 @@ struct Basis {
     std::vector<Plane<T>> planes;
 };
 
+// The plane of `in`, given the functions beta_i. `factor`: as below.
+template <class T>
+Plane<T> plane_of(const Triple<Form<T>>& betas, const Vertices<T>& v, const PlaneInput<T>& in,
+                  int factor) {
+    Plane<T> plane;
+    T largest{};
+    for (size_t i = 0; i < 3; ++i) {
+        const Form<T>& beta = betas[i];
+        plane.form.x = plane.form.x + beta.x * in.h[i];
+        plane.form.y = plane.form.y + beta.y * in.h[i];
+        plane.form.c = plane.form.c + beta.c * in.h[i];
+        plane.bx[0] = plane.bx[0] + magnitude(T(beta.x * in.h[i]));
+        plane.by[0] = plane.by[0] + magnitude(T(beta.y * in.h[i]));
+    }
+    for (size_t j = 0; j < 3; ++j) {
+        if (!v.finite[j]) {
+            continue;
+        }
+        const T g = in.h[j] / v.w[j];
+        largest = larger(largest, T(magnitude(g)));
+        for (size_t i = 0; i < 3; ++i) {
+            if (i != j) {
+                const T d = magnitude(T(in.h[i] - g * v.w[i]));
+                plane.bx[1 + j] = plane.bx[1 + j] + magnitude(betas[i].x) * d;
+                plane.by[1 + j] = plane.by[1 + j] + magnitude(betas[i].y) * d;
+            }
+        }
+    }
+    T moved{};  // max_i |grad g . (ex_i, ey_i)|
+    for (size_t i = 0; i < 3; ++i) {
+        moved =
+            larger(moved, T(magnitude(plane.form.x) * v.ex[i] + magnitude(plane.form.y) * v.ey[i]));
+    }
+    for (size_t k = 0; k < plane.bx.size(); ++k) {
+        plane.bx[k] = plane.bx[k] + T(kUnderflow / (2 * kUnitRoundoff));
+        plane.by[k] = plane.by[k] + T(kUnderflow / (2 * kUnitRoundoff));
+    }
+    plane.constant = T(kUnitRoundoff) * largest + T(kUnderflow) +
+                     (moved + in.rounding) / T(static_cast<double>(factor));
+    return plane;
+}
+
 // Planes through the vertices. orientation is 0 (no planes) if the triangle has no area, and 2
 // (no planes) if T cannot tell. `factor` is K: proven input errors enter the budget as 1/K of
 // themselves, so that K budgets hold them once.
@@ -145,42 +187,7 @@ Basis<T> make_basis(const Vertices<T>& v, const std::vector<PlaneInput<T>>& inpu
     }
     basis.planes.reserve(inputs.size());
     for (const PlaneInput<T>& in : inputs) {
-        Plane<T> plane;
-        T largest{};
-        for (size_t i = 0; i < 3; ++i) {
-            const Form<T>& beta = betas[i];
-            plane.form.x = plane.form.x + beta.x * in.h[i];
-            plane.form.y = plane.form.y + beta.y * in.h[i];
-            plane.form.c = plane.form.c + beta.c * in.h[i];
-            plane.bx[0] = plane.bx[0] + magnitude(T(beta.x * in.h[i]));
-            plane.by[0] = plane.by[0] + magnitude(T(beta.y * in.h[i]));
-        }
-        for (size_t j = 0; j < 3; ++j) {
-            if (!v.finite[j]) {
-                continue;
-            }
-            const T g = in.h[j] / v.w[j];
-            largest = larger(largest, T(magnitude(g)));
-            for (size_t i = 0; i < 3; ++i) {
-                if (i != j) {
-                    const T d = magnitude(T(in.h[i] - g * v.w[i]));
-                    plane.bx[1 + j] = plane.bx[1 + j] + magnitude(betas[i].x) * d;
-                    plane.by[1 + j] = plane.by[1 + j] + magnitude(betas[i].y) * d;
-                }
-            }
-        }
-        T moved{};  // max_i |grad g . (ex_i, ey_i)|
-        for (size_t i = 0; i < 3; ++i) {
-            moved = larger(
-                moved, T(magnitude(plane.form.x) * v.ex[i] + magnitude(plane.form.y) * v.ey[i]));
-        }
-        for (size_t k = 0; k < plane.bx.size(); ++k) {
-            plane.bx[k] = plane.bx[k] + T(kUnderflow / (2 * kUnitRoundoff));
-            plane.by[k] = plane.by[k] + T(kUnderflow / (2 * kUnitRoundoff));
-        }
-        plane.constant = T(kUnitRoundoff) * largest + T(kUnderflow) +
-                         (moved + in.rounding) / T(static_cast<double>(factor));
-        basis.planes.push_back(plane);
+        basis.planes.push_back(plane_of(betas, v, in, factor));
     }
     return basis;
 }

@@ -37,4 +37,11 @@ inline mpz_class ceil_of(const mpq_class& x) {
     return out;
 }
 
+// a / b, in lowest terms.
+inline mpq_class fraction(const mpz_class& a, const mpz_class& b) {
+    mpq_class out(a, b);
+    out.canonicalize();
+    return out;
+}
+
 }  // namespace ref

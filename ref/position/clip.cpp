@@ -367,11 +367,6 @@ ClippedVertex Clipper::finished(const Work& p, const cases::Viewport& viewport) 
     v.original = p.original;
     v.edge = p.edge;
     const mpz_class whole = whole_of(p.weight);
-    const auto fraction = [](const mpz_class& a, const mpz_class& b) {
-        mpq_class out(a, b);
-        out.canonicalize();
-        return out;
-    };
     const mpq_class unit = power_of_two(triangle_.exponent);
     std::array<mpz_class, kCoordinates> n;
     for (size_t i = 0; i < 3; ++i) {

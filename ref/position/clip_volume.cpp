@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
+#include "ref/position/clip_volume.hpp"
+
 #include <algorithm>
 #include <cmath>
-
-#include "ref/position/clip.hpp"
 
 namespace ref {
 

@@ -271,4 +271,17 @@ std::optional<FixedPoint> exact_snap_nearest(const glm::vec4& clip, const cases:
     return FixedPoint{snap(ideal.x), snap(ideal.y)};
 }
 
+AreaRange area_range(const Box& a, const Box& b, const Box& c) {
+    AreaRange out;
+    bool is_first = true;
+    for_each_choice(BoxCorners(a), BoxCorners(b), BoxCorners(c),
+                    [&](const auto& p, const auto& q, const auto& r) {
+                        const Int128 area = edge_function(p, q, r);
+                        out.low = is_first ? area : std::min(out.low, area);
+                        out.high = is_first ? area : std::max(out.high, area);
+                        is_first = false;
+                    });
+    return out;
+}
+
 }  // namespace ref

@@ -14,6 +14,7 @@
 
 #include "cases/model/case.hpp"
 #include "cases/model/profile.hpp"
+#include "ref/number/edge_function.hpp"
 #include "ref/number/fixed_point.hpp"
 #include "ref/position/limits.hpp"
 
@@ -88,6 +89,26 @@ class BoxCorners {
     std::array<FixedPoint, 4> points_;
     size_t count_ = 0;
 };
+
+// Calls body(a, b, c) for every choice of a point of each list.
+template <class Points, class Body>
+void for_each_choice(const Points& a_points, const Points& b_points, const Points& c_points,
+                     const Body& body) {
+    for (const FixedPoint& a : a_points) {
+        for (const FixedPoint& b : b_points) {
+            for (const FixedPoint& c : c_points) {
+                body(a, b, c);
+            }
+        }
+    }
+}
+
+// The least and the largest twice the area, signed, of the triangles with one vertex in each box:
+// the area is affine in each position, so that its extremes lie at corners.
+struct AreaRange {
+    Int128 low = 0, high = 0;
+};
+AreaRange area_range(const Box& a, const Box& b, const Box& c);
 
 // The box of positions that a device may use for a vertex under a profile (docs/design.md,
 // "Positions"; docs/rules.md, snap.nearest):

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The oracle of the stencil test, in the most obvious way.
+#include "ref/stencil/exact.hpp"
+
 #include <algorithm>
 #include <array>
-
-#include "ref/stencil/outcome.hpp"
 
 namespace ref::stencil::exact {
 

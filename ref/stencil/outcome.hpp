@@ -112,13 +112,7 @@ uint32_t updated(cases::StencilOp op, const cases::StencilFace& face, uint32_t s
 // Follows all courses side by side; those that cannot be told apart by what comes after are one.
 Resolution resolve(const Question& question);
 
-namespace exact {
-// The oracle: each course by itself, from the first fragment to the last, with the test and the
-// operations bit by bit.
-Resolution resolve(const Question& question);
-}  // namespace exact
-
-// Answers a question: resolve or exact::resolve.
+// Answers a question: resolve or exact::resolve (exact.hpp).
 using Resolve = Resolution (*)(const Question&);
 
 }  // namespace ref::stencil

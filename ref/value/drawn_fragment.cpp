@@ -8,6 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "ref/value/accept/failing.hpp"
+
 namespace ref::value {
 
 using cases::Profile;

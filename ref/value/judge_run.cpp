@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "cases/base/float_bits.hpp"
 #include "ref/value/fragment/shading_rate.hpp"

@@ -3,7 +3,7 @@
 #include "ref/value/places.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <iterator>
 
 #include "ref/number/fixed_point.hpp"
 
@@ -114,13 +114,46 @@ std::vector<Spot> block_centroids(const Fragment& f, const Spot& centre) {
     return spots;
 }
 
-// The same as evaluations(), of a fragment of several pixels, which has no sample shading.
+// Anywhere in the fragment's pixels, at least `inset` from their borders: a linear function, and a
+// quotient of two where the denominator stays positive, is largest at a corner. Centroid inputs lie
+// in the primitive, too; with one sample a pixel both sentences of the text hold of them, and the
+// centre may lie outside of it. At profile practice one place has to explain all inputs of a
+// fragment that are decorated alike, as every known device has it.
+template <class T>
+Evaluation<T> anywhere_in(const Fragment& f, Profile profile, double inset,
+                          const std::vector<Point<T>>& frag_coord) {
+    const cases::PixelBlock b = cases::fragment_block(*f.draw, f.id.x, f.id.y);
+    const auto inside = [&]<class U>(double by, U) {
+        return rectangle<U>(b.x + by, b.y + by, b.x + b.width - by, b.y + b.height - by);
+    };
+    const Spot own = spot_of(f, f.id.sample);
+    const bool is_single = f.target->samples == 1;
+    Evaluation<T> out{inside(inset, T{}), frag_coord, point_of<T>(own), {}, {}};
+    if (is_single) {
+        out.centroid = inside(0, T{});
+    }
+    for (size_t k = 0; !is_single && k < f.region.size(); ++k) {
+        out.centroid.push_back({from_exact<T>(f.region[k].x), from_exact<T>(f.region[k].y)});
+    }
+    if (out.centroid.empty()) {
+        out.centroid = {out.sample};
+    }
+    if (profile == Profile::practice) {
+        out.one_point = {inside(inset, mpq_class()),
+                         is_single ? inside(0, mpq_class())
+                         : f.region.empty()
+                             ? std::vector<Point<mpq_class>>{point_of<mpq_class>(own)}
+                             : f.region};
+    }
+    return out;
+}
+
+// As evaluations(), of a fragment of several pixels, which has no sample shading.
 template <class T>
 std::vector<Evaluation<T>> block_evaluations(const Fragment& f, Profile profile) {
     const cases::PixelBlock& b = f.block;
     const Spot centre{b.x + b.width / 2.0, b.y + b.height / 2.0};
     const Spot own = spot_of(f, f.id.sample);
-    const Point<T> sample = point_of<T>(own);
     std::vector<Spot> centroid;
     if (has_centroid(*f.draw)) {
         centroid = block_centroids(f, centre);
@@ -130,45 +163,36 @@ std::vector<Evaluation<T>> block_evaluations(const Fragment& f, Profile profile)
     }
     std::vector<Evaluation<T>> all;
     for (const Spot& c : centroid) {
-        all.push_back({{point_of<T>(centre)}, {point_of<T>(centre)}, sample, {point_of<T>(c)}, {}});
+        all.push_back(
+            {{point_of<T>(centre)}, {point_of<T>(centre)}, point_of<T>(own), {point_of<T>(c)}, {}});
     }
     if (profile == Profile::direct3d) {
         return all;
     }
-    // Anywhere in the block; with one sample a pixel between the samples, of which the centre is
-    // one of the places. Of FragCoord.z and w no text says a place: at vulkan anywhere.
-    const bool is_single = f.target->samples == 1;
-    const double inset = is_single ? 0.5 : 0;
-    Evaluation<T> anywhere;
-    anywhere.attributes =
-        rectangle<T>(b.x + inset, b.y + inset, b.x + b.width - inset, b.y + b.height - inset);
+    // With one sample a pixel between the samples, of which the centre is one of the places. Of
+    // FragCoord.z and w no text says a place: at vulkan anywhere.
+    const double inset = f.target->samples == 1 ? 0.5 : 0;
+    std::vector<Point<T>> frag_coord;
     if (profile == Profile::vulkan) {
-        anywhere.frag_coord = rectangle<T>(b.x, b.y, b.x + b.width, b.y + b.height);
+        frag_coord = rectangle<T>(b.x, b.y, b.x + b.width, b.y + b.height);
     }
-    anywhere.sample = sample;
-    if (is_single) {  // both sentences hold of it, and the centre may lie outside of the primitive
-        anywhere.centroid = rectangle<T>(b.x, b.y, b.x + b.width, b.y + b.height);
-    } else {
-        for (const Point<mpq_class>& p : f.region) {
-            anywhere.centroid.push_back({from_exact<T>(p.x), from_exact<T>(p.y)});
-        }
-    }
-    if (anywhere.centroid.empty()) {
-        anywhere.centroid = {sample};
-    }
-    if (profile == Profile::practice) {
-        const auto exact = [&](double by) {
-            return rectangle<mpq_class>(b.x + by, b.y + by, b.x + b.width - by,
-                                        b.y + b.height - by);
-        };
-        anywhere.one_point = {exact(inset),
-                              is_single ? exact(0)
-                              : f.region.empty()
-                                  ? std::vector<Point<mpq_class>>{point_of<mpq_class>(own)}
-                                  : f.region};
-    }
-    all.push_back(std::move(anywhere));
+    all.push_back(anywhere_in<T>(f, profile, inset, frag_coord));
     return all;
+}
+
+// FragCoord.z and w: "not fully specified" under sample shading (Vulkan-Docs issue 1544); those of
+// the centre or of a sample that the invocation may stand for. Direct3D interpolates them at a
+// place, so nothing between is right there; the looser profiles have the hull.
+template <class T>
+std::vector<Point<T>> coord_places(const Fragment& f, const Spot& centre, ShadingRate rate) {
+    std::vector<Spot> spots = {centre};
+    add(spots, spot_of(f, f.id.sample));
+    for (uint32_t s = 0; rate == ShadingRate::some && s < f.target->samples; ++s) {
+        add(spots, spot_of(f, s));
+    }
+    std::vector<Point<T>> out;
+    std::ranges::transform(spots, std::back_inserter(out), point_of<T>);
+    return out;
 }
 
 }  // namespace
@@ -203,34 +227,21 @@ std::vector<Evaluation<T>> evaluations(const Fragment& f, Profile profile) {
             centroid = {own};
         }
     }
-    // FragCoord.z and w: "not fully specified" under sample shading (Vulkan-Docs issue 1544); those
-    // of the centre or of a sample that the invocation may stand for. Direct3D interpolates them at
-    // a place, so nothing between is right there; the looser profiles have the hull.
-    std::vector<Spot> coords = {centre};
-    add(coords, own);
-    if (rate == ShadingRate::some) {
-        for (uint32_t s = 0; s < f.target->samples; ++s) {
-            add(coords, spot_of(f, s));
-        }
-    }
-    std::vector<Point<T>> frag_coord;
-    for (const Spot& spot : coords) {
-        frag_coord.push_back(point_of<T>(spot));
-    }
-    std::vector<std::vector<Point<T>>> coord_places = {frag_coord};
+    std::vector<Point<T>> frag_coord = coord_places<T>(f, centre, rate);
+    std::vector<std::vector<Point<T>>> alternatives = {frag_coord};
     if (profile == Profile::direct3d) {
         if (rate == ShadingRate::sample) {
             std::swap(frag_coord.front(), frag_coord.back());
         }
-        coord_places.clear();
+        alternatives.clear();
         for (const Point<T>& place : frag_coord) {
-            coord_places.push_back({place});
+            alternatives.push_back({place});
         }
     }
     std::vector<Evaluation<T>> all;
     for (const Spot& u : undecorated) {
         for (const Spot& c : centroid) {
-            for (const std::vector<Point<T>>& z : coord_places) {
+            for (const std::vector<Point<T>>& z : alternatives) {
                 all.push_back({{point_of<T>(u)}, z, sample, {point_of<T>(c)}, {}});
             }
         }
@@ -243,34 +254,9 @@ std::vector<Evaluation<T>> evaluations(const Fragment& f, Profile profile) {
         all.push_back({both, {}, sample, both, {}});
         return all;
     }
-    // Anywhere: a linear function, and a quotient of two where the denominator stays positive, is
-    // largest at a corner. At profile practice one place has to explain all inputs of a fragment
-    // that are decorated alike, as every known device has it.
-    const double x = f.id.x;
-    const double y = f.id.y;
-    Evaluation<T> anywhere;
-    anywhere.attributes = {{T(x), T(y)}, {T(x + 1), T(y)}, {T(x + 1), T(y + 1)}, {T(x), T(y + 1)}};
-    if (profile == Profile::practice) {  // Vulkan's text says nothing of FragCoord.z's place at all
-        anywhere.frag_coord = frag_coord;
-    }
-    anywhere.sample = sample;
-    for (const Point<mpq_class>& p : f.region) {
-        anywhere.centroid.push_back({from_exact<T>(p.x), from_exact<T>(p.y)});
-    }
-    if (anywhere.centroid.empty()) {
-        anywhere.centroid = {sample};
-    }
-    if (profile == Profile::practice) {
-        const mpq_class low_x(x);
-        const mpq_class low_y(y);
-        const mpq_class high_x(x + 1);
-        const mpq_class high_y(y + 1);
-        anywhere.one_point = {
-            {{low_x, low_y}, {high_x, low_y}, {high_x, high_y}, {low_x, high_y}},
-            f.region.empty() ? std::vector<Point<mpq_class>>{{mpq_class(own.x), mpq_class(own.y)}}
-                             : f.region};
-    }
-    all.push_back(std::move(anywhere));
+    // Vulkan's text says nothing of FragCoord.z's place at all.
+    all.push_back(anywhere_in<T>(
+        f, profile, 0, profile == Profile::practice ? frag_coord : std::vector<Point<T>>()));
     return all;
 }
 

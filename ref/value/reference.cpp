@@ -26,18 +26,6 @@ struct ValueReference::Impl {
     }
 };
 
-namespace {
-
-std::array<QuantityId, 4> components_of(size_t attribute) {
-    std::array<QuantityId, 4> ids;
-    for (size_t k = 0; k < ids.size(); ++k) {
-        ids[k] = QuantityId::of_attribute(attribute, k);
-    }
-    return ids;
-}
-
-}  // namespace
-
 ValueReference::ValueReference(const cases::Case& c, const Limits& limits, cases::Profile profile)
     : impl_(std::make_unique<Impl>(value::SetUps(c, limits, profile))) {
     judge_only({});
@@ -89,13 +77,12 @@ ValueRange ValueReference::range(uint32_t t, cases::SampleId sample, const Quant
 }
 
 std::array<ValueRange, 4> ValueReference::ranges(uint32_t t, cases::SampleId sample,
-                                                 size_t attribute) {
-    return value::ranges_of(impl_->set_ups, t, sample, components_of(attribute), false);
-}
-
-std::array<ValueRange, 4> ValueReference::outer_ranges(uint32_t t, cases::SampleId sample,
-                                                       size_t attribute) {
-    return value::ranges_of(impl_->set_ups, t, sample, components_of(attribute), true);
+                                                 size_t attribute, bool may_be_outer) {
+    std::array<QuantityId, 4> ids;
+    for (size_t k = 0; k < ids.size(); ++k) {
+        ids[k] = QuantityId::of_attribute(attribute, k);
+    }
+    return value::ranges_of(impl_->set_ups, t, sample, ids, may_be_outer);
 }
 
 Sign ValueReference::sign(uint32_t t, cases::SampleId sample, bool exact_only) {

@@ -155,10 +155,10 @@ class ValueReference {
 
     // What a quantity may be; a point if it is flat. Components beyond the attribute's are 0.
     ValueRange range(uint32_t t, cases::SampleId sample, const QuantityId& id);
-    // The same of all components of an attribute, in less time than one after another.
-    std::array<ValueRange, 4> ranges(uint32_t t, cases::SampleId sample, size_t attribute);
-    // Ranges that hold those, in much less time where a triangle has many set-ups.
-    std::array<ValueRange, 4> outer_ranges(uint32_t t, cases::SampleId sample, size_t attribute);
+    // The ranges of all components of an attribute, in less time than one after another.
+    // `may_be_outer`: ranges that hold those, in much less time where a triangle has many set-ups.
+    std::array<ValueRange, 4> ranges(uint32_t t, cases::SampleId sample, size_t attribute,
+                                     bool may_be_outer = false);
     // The sign of what a draw's shader discards by (cases::Discard::negative). `exact_only`: for
     // the oracle, by rationals alone.
     Sign sign(uint32_t t, cases::SampleId sample, bool exact_only = false);

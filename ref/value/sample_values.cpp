@@ -85,7 +85,11 @@ std::vector<Pair> frag_coords(const Fragment& f, Profile profile) {
     return profile == Profile::vulkan ? all_samples : std::vector<Pair>{own};
 }
 
-std::vector<Pair> sample_positions(const Fragment& f, Profile profile) {
+// Where FragCoord.xy or gl_SamplePosition may be; the likeliest first at direct3d.
+std::vector<Pair> pairs_of(const Fragment& f, Kind kind, Profile profile) {
+    if (kind == Kind::pixel_centre) {
+        return frag_coords(f, profile);
+    }
     if (profile != Profile::vulkan) {
         return {location(f, f.id.sample)};
     }
@@ -169,62 +173,45 @@ std::string others(std::span<const Pair> pairs, uint32_t c, float nominal) {
 }  // namespace
 
 StoredDepth::StoredDepth(const cases::Draw& draw, cases::DepthFormat format, float written)
-    : format_(format), z_(written) {
+    : format_(format), steps_(cases::depth_steps(format)) {
     const auto [low, high] = std::minmax(draw.viewport.min_depth, draw.viewport.max_depth);
     is_free_ = !draw.depth.clamp && (written < low || written > high);
     z_ = draw.depth.clamp ? std::clamp(written, low, high) : written;
-}
-
-float StoredDepth::low_code() const {
-    // Exact: 24 bits times at most 24.
-    const double code = std::floor(static_cast<double>(z_) * cases::depth_steps(format_));
-    return cases::depth_of_code(static_cast<uint32_t>(std::max(code, 0.0)), format_);
-}
-
-float StoredDepth::high_code() const {
-    const double steps = cases::depth_steps(format_);
-    const double code = std::ceil(static_cast<double>(z_) * steps);
-    return cases::depth_of_code(static_cast<uint32_t>(std::min(code, steps)), format_);
+    low_ = high_ = z_;
+    if (steps_ > 0) {
+        exact_ = static_cast<double>(z_) * steps_;  // 24 bits times at most 24
+        const auto depth_of = [&](double code) {
+            return cases::depth_of_code(static_cast<uint32_t>(std::clamp(code, 0.0, steps_)),
+                                        format_);
+        };
+        low_ = depth_of(std::floor(exact_));
+        high_ = depth_of(std::ceil(exact_));
+    }
 }
 
 bool StoredDepth::may_be(float stored, Profile profile) const {
-    const double steps = cases::depth_steps(format_);
-    if (is_free_ || steps <= 0) {
+    if (is_free_ || steps_ <= 0) {
         return is_free_ || (stored <= z_ && stored >= z_);  // a zero of either sign
     }
-    const double exact = static_cast<double>(z_) * steps;
     // Of 24 bits binary32 has the product with 2^24 - 1 to a quarter or half of a step only.
     const bool is_any = profile != Profile::direct3d || format_ == cases::DepthFormat::d24_unorm;
-    const auto is_near = [&](double code) { return is_any || std::fabs(code - exact) <= 0.6; };
-    return (same_bits(stored, low_code()) && is_near(std::floor(exact))) ||
-           (same_bits(stored, high_code()) && is_near(std::ceil(exact)));
+    const auto is_near = [&](double code) { return is_any || std::fabs(code - exact_) <= 0.6; };
+    return (same_bits(stored, low_) && is_near(std::floor(exact_))) ||
+           (same_bits(stored, high_) && is_near(std::ceil(exact_)));
 }
 
 float StoredDepth::nominal() const {
-    const double steps = cases::depth_steps(format_);
-    if (steps <= 0) {
-        return z_;
-    }
-    const double exact = static_cast<double>(z_) * steps;
-    return exact - std::floor(exact) < 0.5 ? low_code() : high_code();
+    return exact_ - std::floor(exact_) < 0.5 ? low_ : high_;
 }
 
 std::string StoredDepth::text() const {
-    if (is_free_) {
-        return "any depth";
-    }
-    if (cases::depth_steps(format_) <= 0) {
-        return fmt::format("{} exactly", z_);
-    }
-    return same_bits(low_code(), high_code()) ? fmt::format("{} exactly", low_code())
-                                              : fmt::format("{} or {}", low_code(), high_code());
+    return is_free_                 ? "any depth"
+           : same_bits(low_, high_) ? fmt::format("{} exactly", low_)
+                                    : fmt::format("{} or {}", low_, high_);
 }
 
 std::array<double, 2> StoredDepth::range() const {
-    if (cases::depth_steps(format_) <= 0) {
-        return {static_cast<double>(z_), static_cast<double>(z_)};
-    }
-    return {static_cast<double>(low_code()), static_cast<double>(high_code())};
+    return {static_cast<double>(low_), static_cast<double>(high_)};
 }
 
 namespace {
@@ -249,11 +236,11 @@ bool may_be(const Fragment& f, const Quantity& q, const FragmentValues& device, 
                 const Pair centre = centre_of(f);  // the only one; no list for every fragment
                 return is_in({&centre, 1}, at, q.id.component);
             }
-            return is_in(frag_coords(f, profile), at, q.id.component);
+            return is_in(pairs_of(f, q.kind, profile), at, q.id.component);
         }
         case Kind::sample_position: {
             const glm::vec4& v = device.attributes[q.id.attribute];
-            return is_in(sample_positions(f, profile), {v.x, v.y}, q.id.component);
+            return is_in(pairs_of(f, q.kind, profile), {v.x, v.y}, q.id.component);
         }
         case Kind::sample_id:
             return profile == Profile::vulkan
@@ -265,56 +252,43 @@ bool may_be(const Fragment& f, const Quantity& q, const FragmentValues& device, 
             return whole(got) == int64_t{cases::shading_rate_bits(*f.draw)};
         case Kind::written_depth:
             return stored_of(f).may_be(got, profile);
-        case Kind::linear:
-        case Kind::perspective:
-        case Kind::flat:
-        case Kind::probe:
-            break;
+        default:
+            return true;
     }
-    return true;
 }
 
 float nominal_number(const Fragment& f, const Quantity& q) {
-    const auto component = [&](const Pair& p) { return q.id.component == 0 ? p.x : p.y; };
-    const ShadingRate rate = shading_rate(*f.draw, f.target->samples);
+    const bool is_by_sample = shading_rate(*f.draw, f.target->samples) == ShadingRate::sample;
     switch (q.kind) {
         case Kind::pixel_centre:
-            return component(rate == ShadingRate::sample
-                                 ? in_framebuffer(f, location(f, f.id.sample))
-                                 : frag_coords(f, Profile::direct3d).front());
-        case Kind::sample_position:
-            return component(location(f, f.id.sample));
+        case Kind::sample_position: {
+            const Pair p = is_by_sample && q.kind == Kind::pixel_centre
+                               ? in_framebuffer(f, location(f, f.id.sample))
+                               : pairs_of(f, q.kind, Profile::direct3d).front();
+            return q.id.component == 0 ? p.x : p.y;
+        }
         case Kind::written_depth:
             return stored_of(f).nominal();
         case Kind::sample_id:
             return static_cast<float>(f.id.sample);
         case Kind::sample_mask:
-            return static_cast<float>(rate == ShadingRate::sample
+            return static_cast<float>(is_by_sample
                                           ? 1U << f.id.sample
                                           : f.coverage.may & 0xffffU &
                                                 in_all_pixels(f, f.draw->multisample.sample_mask));
         case Kind::shading_rate:
             return static_cast<float>(cases::shading_rate_bits(*f.draw));
-        case Kind::linear:
-        case Kind::perspective:
-        case Kind::flat:
-        case Kind::probe:
-            break;
+        default:
+            return 0;
     }
-    return 0;
 }
 
 std::string also_allowed(const Fragment& f, const Quantity& q, Profile profile) {
-    const float number = nominal_number(f, q);
     const ShadingRate rate = shading_rate(*f.draw, f.target->samples);
     switch (q.kind) {
         case Kind::pixel_centre:
-            return others(frag_coords(f, profile), q.id.component, number);
         case Kind::sample_position:
-            return others(sample_positions(f, profile), q.id.component, number);
-        case Kind::written_depth:
-        case Kind::shading_rate:
-            return {};
+            return others(pairs_of(f, q.kind, profile), q.id.component, nominal_number(f, q));
         case Kind::sample_id:
             return profile == Profile::vulkan && f.target->samples > 1
                        ? "or that of another sample of the pixel"
@@ -329,13 +303,9 @@ std::string also_allowed(const Fragment& f, const Quantity& q, Profile profile) 
             }
             return fmt::format("or others of {:#b} with sample {}", may, f.id.sample);
         }
-        case Kind::linear:
-        case Kind::perspective:
-        case Kind::flat:
-        case Kind::probe:
-            break;
+        default:
+            return {};
     }
-    return {};
 }
 
 std::string allowed_text(const Fragment& f, const Quantity& q, Profile profile) {

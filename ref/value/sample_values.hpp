@@ -33,11 +33,12 @@ class StoredDepth {
     std::array<double, 2> range() const;
 
   private:
-    float low_code() const;
-    float high_code() const;
     cases::DepthFormat format_;
-    float z_;
+    double steps_;
     bool is_free_;
+    float z_;
+    double exact_ = 0;            // in steps
+    float low_ = z_, high_ = z_;  // the neighbours in fixed point
 };
 
 bool is_sample_kind(Kind kind);

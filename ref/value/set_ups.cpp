@@ -157,12 +157,7 @@ Fragment SetUps::covered_fragment(uint32_t t, cases::SampleId id, Profile at, bo
 }
 
 const std::vector<Evaluation<Ball>>& SetUps::kept_places(uint32_t t, cases::SampleId id) {
-    if (places_.empty() || places_triangle_ != t || !(places_id_ == id)) {
-        places_ = places<Ball>(t, id, profile_);
-        places_triangle_ = t;
-        places_id_ = id;
-    }
-    return places_;
+    return places_.get({t, id}, [&] { return places<Ball>(t, id, profile_); });
 }
 
 ProbePlace SetUps::probe_place(uint32_t t, cases::SampleId id, Profile at) const {

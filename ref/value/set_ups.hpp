@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "ref/value/accept/filter.hpp"
@@ -22,40 +23,32 @@
 
 namespace ref::value {
 
-// Sets of candidates are large (up to 64 bases) and needed for few triangles: the last ones are
-// kept.
-template <class T>
-class CandidateCache {
+// Keeps the answers that were asked for last.
+template <class Key, class Answer>
+class Recent {
   public:
-    explicit CandidateCache(size_t capacity) : capacity_(capacity) {}
+    explicit Recent(size_t capacity) : capacity_(capacity) {}
 
     template <class Make>
-    const CandidateSet<T>& get(uint32_t t, cases::Profile profile, Make make) {
-        for (const Entry& e : entries_) {
-            if (e.triangle == t && e.profile == profile) {
-                return e.set;
+    const Answer& get(const Key& key, Make make) {
+        for (const auto& [known, answer] : entries_) {
+            if (known == key) {
+                return answer;
             }
         }
         if (entries_.size() == capacity_) {
             entries_.pop_front();
         }
-        entries_.push_back({t, profile, make()});
-        return entries_.back().set;
+        return entries_.emplace_back(key, make()).second;
     }
 
-    void forget(uint32_t t, cases::Profile profile) {
-        std::erase_if(entries_,
-                      [&](const Entry& e) { return e.triangle == t && e.profile == profile; });
+    void forget(const Key& key) {
+        std::erase_if(entries_, [&](const auto& entry) { return entry.first == key; });
     }
 
   private:
-    struct Entry {
-        uint32_t triangle;
-        cases::Profile profile;
-        CandidateSet<T> set;
-    };
     size_t capacity_;
-    std::deque<Entry> entries_;
+    std::deque<std::pair<Key, Answer>> entries_;
 };
 
 // The two nominal bases, for the first stage.
@@ -106,7 +99,7 @@ class SetUps {
 
     template <class T>
     const CandidateSet<T>& candidates(uint32_t t, cases::Profile at) {
-        return std::get<CandidateCache<T>>(candidates_).get(t, at, [&] {
+        return std::get<Sets<T>>(candidates_).get({t, at}, [&] {
             return make_candidates<T>(primitive(t), quantities_of(t), limits_, at);
         });
     }
@@ -118,26 +111,20 @@ class SetUps {
         if (answer || candidates<Ball>(t, at).exact) {
             return answer;
         }
-        auto& cache = std::get<CandidateCache<Ball>>(candidates_);
-        cache.forget(t, at);
-        return ask(cache.get(t, at, [&] { return rounded(candidates<mpq_class>(t, at)); }));
+        auto& sets = std::get<Sets<Ball>>(candidates_);
+        sets.forget({t, at});
+        return ask(sets.get({t, at}, [&] { return rounded(candidates<mpq_class>(t, at)); }));
     }
     // Bounds on all that a profile admits for the triangle.
     const SetBounds& bounds(uint32_t t, cases::Profile at);
     // The unsnapped basis; that of the last triangle is kept.
     template <class T>
     const Basis<T>& unsnapped_basis(uint32_t t) {
-        if (told_triangle_ != t) {
-            told_bases_ = {};
-            told_triangle_ = t;
-        }
-        auto& basis = std::get<std::optional<Basis<T>>>(told_bases_);
-        if (!basis) {
+        return std::get<Recent<uint32_t, Basis<T>>>(told_bases_).get(t, [&] {
             const Primitive& of = primitive(t);
-            basis = make_basis(ideal_vertices<T>(of), plane_inputs<T>(of, quantities_of(t)),
-                               kBudgetFactor);
-        }
-        return *basis;
+            return make_basis(ideal_vertices<T>(of), plane_inputs<T>(of, quantities_of(t)),
+                              kBudgetFactor);
+        });
     }
 
   private:
@@ -157,14 +144,13 @@ class SetUps {
     std::vector<std::vector<Quantity>> quantities_;
     std::vector<std::unique_ptr<Loaded>> loaded_;  // by triangle
     std::deque<uint32_t> order_;                   // of the loaded ones, oldest first
-    std::tuple<CandidateCache<Ball>, CandidateCache<mpq_class>> candidates_{
-        CandidateCache<Ball>(128), CandidateCache<mpq_class>(32)};
+    // Sets are large (up to 64 bases) and needed for few triangles.
+    template <class T>
+    using Sets = Recent<std::pair<uint32_t, cases::Profile>, CandidateSet<T>>;
+    std::tuple<Sets<Ball>, Sets<mpq_class>> candidates_{128, 32};
     std::array<std::unique_ptr<FragmentCoverage>, std::size(cases::kProfiles)> coverage_;
-    uint32_t told_triangle_ = 0;
-    std::tuple<std::optional<Basis<Ball>>, std::optional<Basis<mpq_class>>> told_bases_;
-    uint32_t places_triangle_ = 0;
-    cases::SampleId places_id_;
-    std::vector<Evaluation<Ball>> places_;
+    std::tuple<Recent<uint32_t, Basis<Ball>>, Recent<uint32_t, Basis<mpq_class>>> told_bases_{1, 1};
+    Recent<std::pair<uint32_t, cases::SampleId>, std::vector<Evaluation<Ball>>> places_{1};
 };
 
 }  // namespace ref::value

@@ -9,6 +9,7 @@
 #include "report/compare/comparison.hpp"
 #include "report/journal/json_codec.hpp"
 #include "report/journal/picture_codec.hpp"
+#include "report/page/page_data.hpp"
 #include "report/page/page_parts.hpp"
 #include "report/text/causes.hpp"
 #include "report/text/sentences.hpp"
@@ -120,26 +121,10 @@ Json causes_json(const Comparison& comparison, Json& rules) {
             ++number;
         }
         for (const Cause& cause : causes(failing)) {
-            const CaseRecord& smallest = smallest_case(cause);
-            const auto number_of = [&](const CaseRecord& record) {
+            list.push_back(cause_json(cause, [&](const CaseRecord& record) {
                 return numbers.at(static_cast<size_t>(&record - failing.cases.data()));
-            };
-            Json members = Json::array({number_of(smallest)});
-            for (const CaseRecord* record : cause.cases) {
-                if (record != &smallest) {
-                    members.push_back(number_of(*record));
-                }
-            }
-            list.push_back(Json{{"change", to_string(change)},
-                                {"status", to_string(cause.status)},
-                                {"family", cases::printable(cause.family)},
-                                {"rule", cases::printable(cause.rule)},
-                                {"kind", cases::printable(cause.kind)},
-                                {"level", cause.level ? cases::to_string(*cause.level) : ""},
-                                {"cases", std::move(members)}});
-            if (!cause.door.empty()) {
-                list.back()["door"] = cases::printable(cause.door);
-            }
+            }));
+            list.back()["change"] = to_string(change);
             if (const cases::Rule* rule = cases::find_rule(cause.rule)) {
                 rules[cause.rule] = Json{{"title", rule->title}, {"anchor", rule->anchor}};
             }

@@ -87,18 +87,18 @@ std::string picture(const ComparedCase& c, const std::vector<std::string>& lette
 std::string heading(Change change, size_t count) {
     // In the order of Change.
     constexpr std::array<const char*, kChanges> kHeadings = {
-        "regressions: {} {} got worse",
-        "vanished: {} {} of the first run not in a later one, or unsupported or skipped there",
-        "fixes: {} {} got better",
-        "fail in all, in different ways: {} {}",
-        "fail in all, bit for bit alike: {} {}",
-        "the reference allows both, other samples are hit: {} {}",
-        "pass with the same hits and other values within the budgets: {} {}",
-        "judged in some of the runs only: {} {}",
-        "judged in none of the runs, so not compared: {} {}",
-        "the same bit for bit: {} {}"};
-    return fmt::format(fmt::runtime(kHeadings.at(static_cast<size_t>(change))), count,
-                       count == 1 ? "case" : "cases");
+        "regressions: {} got worse",
+        "vanished: {} of the first run not in a later one, or unsupported or skipped there",
+        "fixes: {} got better",
+        "fail in all, in different ways: {}",
+        "fail in all, bit for bit alike: {}",
+        "the reference allows both, other samples are hit: {}",
+        "pass with the same hits and other values within the budgets: {}",
+        "judged in some of the runs only: {}",
+        "judged in none of the runs, so not compared: {}",
+        "the same bit for bit: {}"};
+    return fmt::format(fmt::runtime(kHeadings.at(static_cast<size_t>(change))),
+                       cases::counted(count, "case"));
 }
 
 std::string comparison_headline(const Comparison& comparison) {

@@ -66,11 +66,6 @@ std::string cell(std::string_view bytes) {
 
 // A command in an indented block, where Markdown changes nothing.
 std::string command_block(const CaseRecord& record) {
-    const auto one_line = [](const std::string& bytes) {
-        std::string text = cases::printable(bytes);
-        std::replace(text.begin(), text.end(), '\n', ' ');
-        return text;
-    };
     std::string text = "    " + one_line(record.rerun) + "\n";
     if (!record.commands.explain.empty()) {
         text += "    " + one_line(record.commands.explain) + "\n";

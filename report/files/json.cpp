@@ -43,9 +43,6 @@ Json finding_json(diff::Finding f) {
     for (const char* key : {"x", "y", "layer", "of_case"}) {
         json.erase(key);
     }
-    if (f.door.empty()) {
-        json.erase("door");
-    }
     return json;
 }
 
@@ -63,9 +60,6 @@ Json groups_json(const CaseRecord& r) {
     for (diff::FindingGroup group : r.outcome.groups) {
         cases::make_printable(group);
         json.push_back(encode(group));
-        if (group.door.empty()) {
-            json.back().erase("door");
-        }
     }
     return json;
 }

@@ -242,45 +242,4 @@ void decode(const Json& json, const char* key, SampleValue& to) {
     }
 }
 
-Json encode(const SampleEvidence& e) {
-    Json json{{"at", Json::array({e.x, e.y, e.sample})},
-              {"writer", encode(e.writer)},
-              {"allowed", encode(e.allowed)},
-              {"hits", encode(e.hits)},
-              {"values", encode(e.values)}};
-    if (!e.courses.empty()) {
-        json["courses"] = encode(e.courses);
-    }
-    if (!e.colors.empty()) {
-        json["colors"] = encode(e.colors);
-    }
-    if (!e.stencil.empty()) {
-        json["stencil"] = encode(e.stencil);
-        json["device_stencil"] = encode(e.device_stencil);
-    }
-    return json;
-}
-
-void decode(const Json& json, const char* /*key*/, SampleEvidence& to) {
-    std::array<uint32_t, 3> at{};
-    read(json, "at", at);
-    to.x = at[0];
-    to.y = at[1];
-    to.sample = at[2];
-    read(json, "writer", to.writer);
-    read(json, "allowed", to.allowed);
-    read(json, "hits", to.hits);
-    read(json, "values", to.values);
-    if (json.contains("courses")) {
-        read(json, "courses", to.courses);
-    }
-    if (json.contains("colors")) {
-        read(json, "colors", to.colors);
-    }
-    if (json.contains("stencil")) {
-        read(json, "stencil", to.stencil);
-        read(json, "device_stencil", to.device_stencil);
-    }
-}
-
 }  // namespace report

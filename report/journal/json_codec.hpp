@@ -32,10 +32,8 @@ nlohmann::ordered_json encode_totals(const Run& run);
 // Compact, as a list where there are thousands; otherwise like the templates below.
 nlohmann::ordered_json encode(const Shape& triangle);
 nlohmann::ordered_json encode(const SampleValue& value);
-nlohmann::ordered_json encode(const SampleEvidence& evidence);
 void decode(const nlohmann::ordered_json& json, const char* key, Shape& to);
 void decode(const nlohmann::ordered_json& json, const char* key, SampleValue& to);
-void decode(const nlohmann::ordered_json& json, const char* key, SampleEvidence& to);
 
 namespace detail {
 
@@ -60,6 +58,8 @@ template <class T>
 bool is_empty(const T& value) {
     if constexpr (cases::is_optional<T> || std::is_same_v<T, bool>) {
         return !value;
+    } else if constexpr (requires { value.empty(); }) {
+        return value.empty();
     } else if constexpr (cases::HasFields<T> && std::equality_comparable<T>) {
         return value == T{};
     } else {

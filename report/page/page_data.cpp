@@ -78,28 +78,14 @@ Json finding_json(const CaseRecord& r, const diff::Finding& f, Strings& strings)
                         has_ratio ? Json(ratio_text(f.ratio)) : Json(nullptr)});
 }
 
-// Causes in the order of the terminal; cases are told by their numbers, the one to look at first.
+// Causes in the order of the terminal.
 Json causes_json(const Run& run, const std::vector<Cause>& list) {
     Json json = Json::array();
     const Repeated repeated(run);
-    const auto number_of = [&](const CaseRecord& record) { return &record - run.cases.data(); };
     for (const Cause& cause : list) {
-        const CaseRecord& smallest = smallest_case(cause);
-        Json members = Json::array({number_of(smallest)});
-        for (const CaseRecord* record : cause.cases) {
-            if (record != &smallest) {
-                members.push_back(number_of(*record));
-            }
-        }
-        json.push_back(Json{{"status", to_string(cause.status)},
-                            {"family", cases::printable(cause.family)},
-                            {"rule", cases::printable(cause.rule)},
-                            {"kind", cases::printable(cause.kind)},
-                            {"level", cause.level ? cases::to_string(*cause.level) : ""},
-                            {"cases", std::move(members)}});
-        if (!cause.door.empty()) {
-            json.back()["door"] = cases::printable(cause.door);
-        }
+        json.push_back(cause_json(cause, [&](const CaseRecord& record) {
+            return static_cast<size_t>(&record - run.cases.data());
+        }));
         if (!cause.level && cause.is_known) {
             json.back()["known"] = true;
         }
@@ -316,6 +302,24 @@ Json sources_json(const Run& run) {
 }
 
 }  // namespace
+
+Json cause_json(const Cause& cause, const std::function<size_t(const CaseRecord&)>& number_of) {
+    const CaseRecord& smallest = smallest_case(cause);
+    Json members = Json::array({number_of(smallest)});
+    for (const CaseRecord* record : cause.cases) {
+        if (record != &smallest) {
+            members.push_back(number_of(*record));
+        }
+    }
+    Json json{{"status", to_string(cause.status)},
+              {"family", cases::printable(cause.family)},
+              {"rule", cases::printable(cause.rule)},
+              {"kind", cases::printable(cause.kind)},
+              {"level", cause.level ? cases::to_string(*cause.level) : ""},
+              {"cases", std::move(members)}};
+    put(json, "door", cause.door);
+    return json;
+}
 
 PageData page_data(const Run& run, size_t part) {
     PageData data;

@@ -6,11 +6,13 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "report/record/run.hpp"
+#include "report/text/causes.hpp"
 
 namespace report {
 
@@ -31,5 +33,9 @@ struct PageData {
 // `part`: 1 for the first page of a run. The page says of what is left out that it stands in the
 // next part.
 PageData page_data(const Run& run, size_t part);
+
+// A cause as the pages read it; cases are told by their numbers, the one to look at first.
+nlohmann::ordered_json cause_json(const Cause& cause,
+                                  const std::function<size_t(const CaseRecord&)>& number_of);
 
 }  // namespace report

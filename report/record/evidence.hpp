@@ -101,11 +101,11 @@ struct SampleValue {
 };
 
 struct SampleEvidence {
-    uint32_t x = 0, y = 0, sample = 0;  // y: a row of the stacked layers
-    std::string writer;                 // the triangle that wrote last, as the device says
-    std::string allowed;                // the hits that are allowed here
-    std::string hits;                   // what the device's hit counter says
-    std::vector<SampleValue> values;    // of the writer, or of the triangle that ought to be it
+    std::array<uint32_t, 3> at{};     // x, row of the stacked layers, sample
+    std::string writer;               // the triangle that wrote last, as the device says
+    std::string allowed;              // the hits that are allowed here
+    std::string hits;                 // what the device's hit counter says
+    std::vector<SampleValue> values;  // of the writer, or of the triangle that ought to be it
     // What becomes of the triangles there, in drawing order: "triangle 0 of draw 1" and a sentence
     // on its discard or on one of its tests. Only of a case that discards or tests.
     std::vector<std::pair<std::string, std::string>> courses;
@@ -114,9 +114,7 @@ struct SampleEvidence {
     std::string stencil;         // that the sample may hold, "3 or 5"; empty: nobody tests it
     std::string device_stencil;  // that it holds
     static void fields(auto&& visit, auto&... e) {
-        visit("x", e.x...);
-        visit("y", e.y...);
-        visit("sample", e.sample...);
+        visit("at", e.at...);
         visit("writer", e.writer...);
         visit("allowed", e.allowed...);
         visit("hits", e.hits...);

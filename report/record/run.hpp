@@ -177,7 +177,7 @@ struct Drawn {
 };
 
 // How the worker ended that drew a case.
-struct Death {
+struct WorkerEnd {
     std::string step;    // its last one ("submit", ...)
     std::string signal;  // "SIGSEGV", ... of a crash
     // Of a death that no case repeated alone, and that is charged to this one as a flake: the cases
@@ -206,13 +206,20 @@ struct Evidence {
     std::vector<SampleEvidence> samples;  // wrong ones and some of their neighbours
 };
 
+// The errors that a hunt counts by themselves, as it makes cases by chance: a picture without any
+// triangle would pass; nobody built a shader for the combination of features.
+enum class ErrorKind : uint8_t { other, shows_nothing, not_built };
+
 // A case with its end.
 struct CaseRecord : PlannedCase {
+    CaseRecord() = default;
+    CaseRecord(PlannedCase planned) : PlannedCase(std::move(planned)) {}
     Status status = Status::not_run;
     std::string reason;  // why unsupported, skipped, error, lost, crashed; one sentence
+    ErrorKind error_kind = ErrorKind::other;  // of an error; no journal holds it
     Known known;
     Drawn drawn;
-    Death death;
+    WorkerEnd death;
     diff::Outcome outcome;
     Commands commands;
     Evidence evidence;

@@ -16,6 +16,7 @@
 #include <tuple>
 #include <utility>
 
+#include "cases/base/counted.hpp"
 #include "cases/base/printable.hpp"
 #include "cases/model/rule.hpp"
 #include "report/record/levels.hpp"
@@ -174,8 +175,7 @@ std::string cause_title(const Cause& cause) {
         text += ": " + rule_and_door(cause.rule, cause.door) +
                 (cause.rule.empty() || cause.kind.empty() ? "" : " ") + cause.kind;
     }
-    text += fmt::format(" in {}, {} {}", cause.family, cause.cases.size(),
-                        cause.cases.size() == 1 ? "case" : "cases");
+    text += fmt::format(" in {}, {}", cause.family, cases::counted(cause.cases.size(), "case"));
     return one_line(text);
 }
 

@@ -10,7 +10,6 @@
 #include <tuple>
 #include <utility>
 
-#include "cases/base/printable.hpp"
 #include "cases/select/selector.hpp"
 #include "report/text/sentences.hpp"
 #include "run/expected/glob_cover.hpp"
@@ -57,13 +56,6 @@ std::string with_word(const std::string& line, size_t k, const std::string& word
 std::string with_words_after_bug(const std::string& line, const std::string& words) {
     return line.substr(0, word_at(line, 2).second) + (words.empty() ? "" : "   " + words) + "   " +
            line.substr(line.find('#', line.find(" #")));
-}
-
-std::string one_line(const std::string& text) {
-    std::string line = cases::printable(text);
-    std::replace(line.begin(), line.end(), '\n', ' ');
-    std::replace(line.begin(), line.end(), '\t', ' ');
-    return line;
 }
 
 // The words of a line between the bug and the reason.
@@ -116,11 +108,11 @@ std::vector<std::string> ids_of(const std::vector<Wanted>& all) {
 // What the run says of a case, for a line that nobody has explained yet.
 std::string reason_of(const CaseRecord& record) {
     if (record.outcome.findings.empty()) {
-        return one_line(report::why_it_happened(record));
+        return report::one_line(report::why_it_happened(record));
     }
     const diff::Finding& f = report::leading_finding(record);
-    return one_line(report::counts_text(record) + ", " + f.rule + " [" +
-                    std::string(cases::to_string(f.level)) + "].");
+    return report::one_line(report::counts_text(record) + ", " + f.rule + " [" +
+                            std::string(cases::to_string(f.level)) + "].");
 }
 
 class Updater {
@@ -386,10 +378,10 @@ Update update_expectations(std::string_view text, const ExpectationFile& file,
 
 std::string new_expectation_file(const report::Run& run) {
     const capture::DeviceInfo& d = run.device;
-    std::string text =
-        std::string(kExpectationsFirstLine) + "\n# device: " + escaped(one_line(d.name), "*?[]\\");
+    std::string text = std::string(kExpectationsFirstLine) +
+                       "\n# device: " + escaped(report::one_line(d.name), "*?[]\\");
     if (!d.driver_name.empty()) {
-        text += "   driver: " + escaped(one_line(d.driver_name), ".*+?^$()[]{}|\\");
+        text += "   driver: " + escaped(report::one_line(d.driver_name), ".*+?^$()[]{}|\\");
         const std::string driver = d.driver_name + " " + d.driver_info;
         const std::vector<uint32_t> version = find_version(driver, d.driver_name.size());
         for (size_t k = 0; k < std::min<size_t>(version.size(), 2); ++k) {

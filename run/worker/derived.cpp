@@ -45,16 +45,20 @@ std::string wrong_at_vulkan(const cases::Case& filed, const Rendered& drawn,
             return view;
         };
         // All that is wrong takes much longer to tell, and all other cases wait for it.
-        const diff::Verdict first = diff::compare_to_first(c, expectation, seen(drawn));
+        const diff::Verdict first =
+            diff::compare(c, expectation, seen(drawn), diff::Wanted::first_finding);
         if (!first.error.empty() || first.findings.empty()) {
             return first.error;
         }
         const diff::Verdict verdict =
-            plain == nullptr ? first : diff::compare_without_ratios(c, expectation, seen(drawn));
+            plain == nullptr
+                ? first
+                : diff::compare(c, expectation, seen(drawn), diff::Wanted::findings_without_ratios);
         std::set<std::string> broken;
         if (plain != nullptr) {
             for (const diff::Finding& f :
-                 diff::compare_without_ratios(c, expectation, seen(*plain)).findings) {
+                 diff::compare(c, expectation, seen(*plain), diff::Wanted::findings_without_ratios)
+                     .findings) {
                 broken.insert(f.rule);
             }
         }

@@ -62,19 +62,17 @@ bool swap_first_attributes(PipelineCopy& p) {
 
 constexpr std::array kAssemblyFaults = {
     Fault{"cull-off",
-          "Nothing is culled.",
+          "cull-none"_fault,
           {.cull_mode = [](VkCullModeFlags& m) { return change(m, VK_CULL_MODE_NONE); }}},
-    Fault{"cull-swapped",
-          "Front faces are culled for back faces, and the reverse.",
-          {.cull_mode = swap_cull}},
+    Fault{"cull-swapped", "cull-inverted"_fault, {.cull_mode = swap_cull}},
     Fault{"cull-back-always",
-          "Where nothing is to be culled, back faces are.",
+          "cull-back-always"_fault,
           {.cull_mode = cull<VK_CULL_MODE_NONE, VK_CULL_MODE_BACK_BIT>}},
     Fault{"cull-both-as-front",
-          "Of front and back faces only front faces are culled.",
+          "cull-both-as-front"_fault,
           {.cull_mode = cull<VK_CULL_MODE_FRONT_AND_BACK, VK_CULL_MODE_FRONT_BIT>}},
     Fault{"front-face-swapped",
-          "Front faces wind the other way.",
+          "front-face-inverted"_fault,
           {.front_face =
                [](VkFrontFace& f) {
                    return change(f, f == VK_FRONT_FACE_CLOCKWISE ? VK_FRONT_FACE_COUNTER_CLOCKWISE
@@ -82,52 +80,46 @@ constexpr std::array kAssemblyFaults = {
                }}},
     Fault{
         "front-face-ignored",
-        "Front faces are always the counter-clockwise ones.",
+        "front-always-counter-clockwise"_fault,
         {.front_face = [](VkFrontFace& f) { return change(f, VK_FRONT_FACE_COUNTER_CLOCKWISE); }}},
     Fault{
         "strip-as-list",
-        "A triangle strip is drawn as a list.",
+        "strip-as-list"_fault,
         {.topology =
              topology<VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP, VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST>}},
     Fault{
         "list-as-strip",
-        "A triangle list is drawn as a strip.",
+        "list-as-strip"_fault,
         {.topology =
              topology<VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST, VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP>}},
     Fault{"fan-as-strip",
-          "A triangle fan is drawn as a strip.",
+          "fan-as-strip"_fault,
           {.topology =
                topology<VK_PRIMITIVE_TOPOLOGY_TRIANGLE_FAN, VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP>}},
     Fault{"discard-ignored",
-          "Rasterizer discard is off.",
+          "discard-ignored"_fault,
           {.rasterizer_discard = [](VkBool32& d) { return change(d, VK_FALSE); }}},
     Fault{"restart-ignored",
-          "Primitive restart is off.",
+          "restart-ignored"_fault,
           {.primitive_restart = [](VkBool32& r) { return change(r, VK_FALSE); }}},
     Fault{"index-16-bits",
-          "Indices of 32 bits are read as indices of 16 bits.",
+          "index-16-bits"_fault,
           {.index_type = [](VkIndexType& t) { return change(t, VK_INDEX_TYPE_UINT16); }}},
-    Fault{"provoking-first",
-          "The first vertex provokes where the last one should.",
-          {.pipeline = first_provokes}},
-    Fault{"provoking-last",
-          "The last vertex provokes where the first one should.",
-          {.pipeline = last_provokes}},
+    Fault{"provoking-first", "provoking-mode-ignored"_fault, {.pipeline = first_provokes}},
+    Fault{"provoking-last", "provoking-last"_fault, {.pipeline = last_provokes}},
     Fault{"position-w-one",
-          "The w of positions is read as 1.",
+          "position-w-one"_fault,
           {.pipeline =
                [](PipelineCopy& p) { return read_fewer(p, true, VK_FORMAT_R32G32B32_SFLOAT); }}},
     Fault{
         "position-z-zero",
-        "The z of positions is read as 0, w as 1.",
+        "position-z-zero"_fault,
         {.pipeline = [](PipelineCopy& p) { return read_fewer(p, true, VK_FORMAT_R32G32_SFLOAT); }}},
     Fault{"attributes-w-one",
-          "The fourth component of vertex attributes is read as 1.",
+          "attribute-w-one"_fault,
           {.pipeline =
                [](PipelineCopy& p) { return read_fewer(p, false, VK_FORMAT_R32G32B32_SFLOAT); }}},
-    Fault{"attributes-swapped",
-          "The first two vertex attributes are swapped.",
-          {.pipeline = swap_first_attributes}},
+    Fault{"attributes-swapped", "attributes-swapped"_fault, {.pipeline = swap_first_attributes}},
     Fault{"polygon-lines",
           "Polygons are drawn as their outlines.",
           {.pipeline =
@@ -143,7 +135,7 @@ constexpr std::array kAssemblyFaults = {
                }},
           true},
     Fault{"discard-all",
-          "The rasterizer discards everything.",
+          "draw-nothing"_fault,
           {.rasterizer_discard = [](VkBool32& d) { return change(d, VK_TRUE); }}},
 };
 

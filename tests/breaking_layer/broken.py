@@ -27,12 +27,16 @@ class Run:
     err: str
 
 
-def faults():
-    """Name and sentence of each fault, from the layer itself."""
+def table():
+    """Name, sentence and row of the catalogue (cases/fault; "-" for none) of each fault, from the layer itself."""
     library = ctypes.CDLL(str(LAYER / "libbreaking_layer.so"))
     library.edgecase_breaking_faults.restype = ctypes.c_char_p
     text = library.edgecase_breaking_faults().decode()
     return [tuple(line.split("\t")) for line in text.splitlines()]
+
+
+def faults():
+    return [(name, sentence) for name, sentence, _ in table()]
 
 
 def is_deadly(name):

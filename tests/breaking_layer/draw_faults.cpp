@@ -38,25 +38,23 @@ bool drop_last(std::vector<uint32_t>& order) {
 
 constexpr std::array kDrawFaults = {
     Fault{"draw-dropped",
-          "Nothing is drawn.",
+          "draws-nothing"_fault,
           {.draw = [](DrawCall& d) { return change(d.times, 0); }}},
     Fault{"draw-first-only",
-          "Of the draws of a rendering only the first is drawn.",
+          "draw-first-only"_fault,
           {.draw = [](DrawCall& d) { return d.number > 0 && change(d.times, 0); }}},
-    Fault{"draw-last-dropped",
-          "The last of several draws of a rendering is lost.",
-          {.order = drop_last}},
+    Fault{"draw-last-dropped", "draw-last-lost"_fault, {.order = drop_last}},
     Fault{"draw-indexed-dropped",
-          "Indexed draws are lost.",
+          "draw-indexed-lost"_fault,
           {.draw = [](DrawCall& d) { return d.indexed && change(d.times, 0); }}},
     Fault{"draw-doubled",
-          "Every draw is drawn twice.",
+          "draw-doubled"_fault,
           {.draw = [](DrawCall& d) { return change(d.times, 2); }}},
     Fault{"draw-second-doubled",
-          "The second draw of a rendering is drawn twice.",
+          "draw-second-twice"_fault,
           {.draw = [](DrawCall& d) { return d.number == 1 && change(d.times, 2); }}},
     Fault{"draw-last-triangle",
-          "A draw of several triangles loses its last one.",
+          "last-triangle-lost"_fault,
           {.draw =
                [](DrawCall& d) {
                    const uint32_t size = last_primitive_size(d.topology);
@@ -73,7 +71,7 @@ constexpr std::array kDrawFaults = {
                           change(d.count, 192);
                }}},
     Fault{"draw-first-triangle-lost",
-          "A triangle list of several triangles loses its first one.",
+          "first-triangle-lost"_fault,
           {.draw =
                [](DrawCall& d) {
                    if (d.topology != VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST || d.count < 6) {
@@ -84,27 +82,24 @@ constexpr std::array kDrawFaults = {
                    return true;
                }}},
     Fault{"first-vertex-off-by-one",
-          "A draw without indices begins one vertex late.",
+          "first-vertex-late"_fault,
           {.draw =
                [](DrawCall& d) {
                    d.count -= d.indexed ? 0 : 1;
                    return !d.indexed && change(d.first, d.first + 1);
                }}},
     Fault{"first-index-off-by-one",
-          "A draw with indices begins one index late.",
+          "first-index-late"_fault,
           {.draw =
                [](DrawCall& d) {
                    d.count -= d.indexed ? 1 : 0;
                    return d.indexed && change(d.first, d.first + 1);
                }}},
     Fault{"vertex-offset-one",
-          "Indices name the next vertex.",
+          "index-names-next-vertex"_fault,
           {.draw = [](DrawCall& d) { return d.indexed && change(d.vertex_offset, 1); }}},
-    Fault{
-        "draws-reversed", "The draws of a rendering are drawn last to first.", {.order = reverse}},
-    Fault{"draws-swapped",
-          "The first two draws of a rendering are drawn in the other order.",
-          {.order = swap_first_two}},
+    Fault{"draws-reversed", "draws-reversed"_fault, {.order = reverse}},
+    Fault{"draws-swapped", "draws-swapped"_fault, {.order = swap_first_two}},
 };
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "cases/fault/fault.hpp"
 #include "pipeline_copy.hpp"
 #include "shader_words.hpp"
 
@@ -246,9 +247,19 @@ struct Hooks {
     Answer (*map)(uint64_t number) = nullptr;         // vkMapMemory
 };
 
+// What the driver does wrong: a row of the catalogue, of which the layer has the calls, or, of what
+// no picture without these calls could show, a sentence of its own.
+struct Saying {
+    constexpr Saying(const char* own) : sentence(own) {}
+    constexpr Saying(cases::Fault of) : row(of), sentence(cases::row_of(of).sentence) {}
+    cases::Fault row = cases::kNoFault;
+    std::string_view sentence;
+};
+using cases::operator""_fault;
+
 struct Fault {
     std::string_view name;
-    std::string_view sentence;  // what the driver does wrong, as if it did
+    Saying says;
     Hooks hooks;
     bool needs_lines = false;  // enables VkPhysicalDeviceFeatures::fillModeNonSolid
 };

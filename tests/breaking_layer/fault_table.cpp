@@ -95,12 +95,14 @@ void count_alteration() {
 
 }  // namespace breaking
 
-// The table for scripts: "name\tsentence\n" of each fault.
+// The table for scripts: "name\tsentence\trow\n" of each fault; "-" for a row of the layer's own.
 extern "C" __attribute__((visibility("default"))) const char* edgecase_breaking_faults() {
     static const std::string kText = [] {
         std::string text;
         for (const breaking::Fault* fault : breaking::all_faults()) {
-            text.append(fault->name).append("\t").append(fault->sentence).append("\n");
+            const cases::Fault row = fault->says.row;
+            text.append(fault->name).append("\t").append(fault->says.sentence).append("\t");
+            text.append(row == cases::kNoFault ? "-" : cases::to_string(row)).append("\n");
         }
         return text;
     }();

@@ -98,21 +98,16 @@ bool depth_sample_zero(Rendering& r) {
            change(r.depth->resolveMode, VK_RESOLVE_MODE_SAMPLE_ZERO_BIT);
 }
 constexpr std::array kMultisampleFaults = {
-    Fault{"sample-mask-ignored",
-          "The sample mask of the pipeline counts as all ones.",
-          {.pipeline = no_mask}},
-    Fault{"sample-mask-rotated",
-          "The sample mask's bits belong to the next sample each.",
-          {.pipeline = rotate_mask}},
+    Fault{"sample-mask-ignored", "mask-ignored"_fault, {.pipeline = no_mask}},
+    Fault{"sample-mask-rotated", "sample-mask-rotated"_fault, {.pipeline = rotate_mask}},
     Fault{
         "sample-shading-off",
-        "Sample shading is off.",
+        "shading-once"_fault,
         {.pipeline =
              [](PipelineCopy& p) { return change(p.multisample.sampleShadingEnable, VK_FALSE); }}},
-    Fault{
-        "sample-shading-on", "Every sample is shaded by itself.", {.pipeline = sample_shading_on}},
+    Fault{"sample-shading-on", "sample-shading-always"_fault, {.pipeline = sample_shading_on}},
     Fault{"sample-shading-halved",
-          "The least part of samples to be shaded counts half.",
+          "sample-shading-halved"_fault,
           {.pipeline =
                [](PipelineCopy& p) {
                    return change(p.multisample.minSampleShading,
@@ -124,20 +119,20 @@ constexpr std::array kMultisampleFaults = {
         {.pipeline =
              [](PipelineCopy& p) { return change(p.multisample.alphaToCoverageEnable, VK_TRUE); }}},
     Fault{"sample-alpha-to-coverage-off",
-          "Alpha to coverage does nothing.",
+          "alpha-to-coverage-ignored"_fault,
           {.pipeline =
                [](PipelineCopy& p) {
                    return change(p.multisample.alphaToCoverageEnable, VK_FALSE);
                }}},
-    Fault{"sample-alpha-to-one-off", "Alpha to one does nothing.", {.pipeline = keep_alpha}},
+    Fault{"sample-alpha-to-one-off", "alpha-to-one-ignored"_fault, {.pipeline = keep_alpha}},
     Fault{"sample-alpha-to-one-multisampled",
-          "Alpha to one does nothing with one sample a pixel.",
+          "alpha-to-one-multisampled"_fault,
           {.pipeline = keep_alpha_of_one_sample}},
     Fault{"sample-locations-centre",
           "All samples with locations of their own lie at the centre.",
           {.pipeline = of_pipeline<all_centre>, .sample_locations = all_centre}},
     Fault{"sample-locations-mirrored",
-          "Sample locations are upside down.",
+          "samples-upside-down"_fault,
           {.pipeline = of_pipeline<mirror_locations>, .sample_locations = mirror_locations}},
     Fault{"sample-locations-reversed",
           "Sample locations are numbered last to first.",
@@ -145,7 +140,7 @@ constexpr std::array kMultisampleFaults = {
     Fault{"sample-locations-moved",
           "Sample locations lie 1/16 pixel too far right.",
           {.pipeline = of_pipeline<move_locations>, .sample_locations = move_locations}},
-    Fault{"resolve-off", "Nothing is resolved.", {.rendering = no_resolve}},
+    Fault{"resolve-off", "resolve-ignored"_fault, {.rendering = no_resolve}},
     Fault{"resolve-no-depth", "Depth is not resolved.", {.rendering = resolve_no_depth}},
     Fault{"resolve-min-max-swapped",
           "Minimum and maximum are swapped in resolves of depth.",

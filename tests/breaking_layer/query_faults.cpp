@@ -13,30 +13,30 @@ namespace {
 
 constexpr std::array kQueryFaults = {
     Fault{"query-halved",
-          "Queries give half of what they counted.",
+          "query-halved"_fault,
           {.query_result = [](QueryResult& q) { return change(q.count, q.count / 2); }}},
     Fault{"query-one-more",
           "A query that counted any sample gives one more.",
           {.query_result =
                [](QueryResult& q) { return change(q.count, q.count + (q.count > 0 ? 1 : 0)); }}},
     Fault{"query-in-16-bits",
-          "Queries count in 16 bits.",
+          "query-in-16-bits"_fault,
           {.query_result = [](QueryResult& q) { return change(q.count, q.count & 0xffff); }}},
     Fault{"query-precise-as-any",
-          "A precise query tells only whether any sample passed.",
+          "query-precise-as-any"_fault,
           {.query_result =
                [](QueryResult& q) {
                    return q.is_precise && change(q.count, std::min(q.count, uint64_t{1}));
                }}},
     Fault{"query-any-always",
-          "A query that is not precise tells of samples where none passed.",
+          "query-always-any"_fault,
           {.query_result =
                [](QueryResult& q) {
                    return !q.is_precise && q.statistics == 0 &&
                           change(q.count, std::max(q.count, uint64_t{1}));
                }}},
     Fault{"query-not-reset",
-          "A query goes on from what the queries before it counted.",
+          "query-not-reset"_fault,
           {.query_result = [](QueryResult& q) { return change(q.count, q.count + q.before); }}},
     Fault{"statistics-one-less",
           "A query of pipeline statistics that counted anything gives one less.",

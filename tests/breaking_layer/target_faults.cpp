@@ -95,7 +95,7 @@ constexpr std::array kTargetFaults = {
           "Where one of the last two attachments is blended, both are.",
           {.pipeline = blend_together}},
     Fault{"targets-masked-together",
-          "Where an attachment is not written, the last one is not, either.",
+          "targets-masked-together"_fault,
           {.pipeline = write_none_together}},
     Fault{"targets-clears-turned",
           "The clear colours of the last two attachments are swapped.",

@@ -5,6 +5,7 @@ that catches.json names for it; matrix.py finds them. A machine without lavapipe
 skipped."""
 import json
 import pathlib
+import re
 import shutil
 import subprocess
 import tempfile
@@ -46,6 +47,20 @@ class Table(LayerTest):
         self.assertEqual(sorted(names), sorted([*CATCHES, *UNSEEN]))
         for name, ids in CATCHES.items():
             self.assertGreaterEqual(len(ids), 1, name)
+
+    def test_what_the_catalogue_has_is_said_there(self):
+        """A fault of the layer names a row of cases/fault, or is one of its own: with a name and a sentence of its own."""
+        text = "".join(p.read_text() for p in sorted((broken.SOURCE / "cases/fault").glob("*_rows.hpp")))
+        rows = {name: "".join(re.findall(r'"([^"]*)"', sentence))
+                for name, sentence in re.findall(r'\{"([a-z0-9-]+)",\s*((?:"[^"]*"\s*)+?),', text)}
+        self.assertGreaterEqual(len(rows), 500)
+        for name, sentence, row in broken.table():
+            with self.subTest(name):
+                if row == "-":
+                    self.assertFalse(name in rows or sentence in rows.values(), "the catalogue has it")
+                else:
+                    self.assertEqual(sentence, rows[row])
+                    self.assertIn(row, (name, row) if name not in rows else (name,))
 
     def test_unknown_faults_stop_the_run(self):
         for wrong in ("viewport-x", "nothing-every-nth:0", "nothing-every-nth:x", "nothing-every-nth:"):

@@ -34,21 +34,17 @@ std::string contents(const std::filesystem::path& path) {
     return text.str();
 }
 
-// The sources of the device that name a fault: "`tiles.cpp` `planes.cpp`".
+// The sources that have the body by which the device draws a fault: "`tiles.cpp` `planes.cpp`".
 class Sources {
   public:
-    explicit Sources(const std::filesystem::path& folder) {
-        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-            const std::string name = entry.path().filename().string();
-            const std::filesystem::path extension = entry.path().extension();
-            if (extension == ".cpp" || extension == ".hpp") {
-                texts_[name] = contents(entry.path());
-            }
-        }
+    explicit Sources(const std::filesystem::path& root) {
+        read(root / "rasterizers/software", code_);
+        read(root / "cases/fault", changes_);
+        read(root / "rasterizers/strength", changes_);
     }
     std::string of(const FaultRow& info) const {
         std::string out;
-        for (const auto& [name, text] : texts_) {
+        for (const auto& [name, text] : cases::has_code(info.fault) ? code_ : changes_) {
             if (text.find(fmt::format("\"{}\"_fault", info.name)) != std::string::npos) {
                 out += fmt::format("{}`{}`", out.empty() ? "" : " ", name);
             }
@@ -57,7 +53,16 @@ class Sources {
     }
 
   private:
-    std::map<std::string, std::string> texts_;
+    using Texts = std::map<std::string, std::string>;
+    static void read(const std::filesystem::path& folder, Texts& texts) {
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+            const std::filesystem::path extension = entry.path().extension();
+            if (extension == ".cpp" || extension == ".hpp") {
+                texts[entry.path().filename().string()] = contents(entry.path());
+            }
+        }
+    }
+    Texts code_, changes_;
 };
 
 // The cheapest leaves of two families, those that catch it at the loosest profile first.
@@ -81,7 +86,7 @@ bool print_faults(const Matrix& matrix, const Sources& sources) {
     bool is_complete = true;
     std::string table;
     size_t found = 0, count = 0;
-    for (const FaultRow& info : cases::kFaults) {
+    for (const FaultRow& info : cases::kCodeFaults) {
         const std::vector<Kill> kills = software::kills_of(matrix, info.fault);
         const std::string where = sources.of(info);
         if (kills.size() < 2 || where.empty()) {
@@ -102,7 +107,7 @@ bool print_faults(const Matrix& matrix, const Sources& sources) {
                              top, cases::to_string(software::loosest(kills)), kills.size(), cases);
     }
     const auto count_of = [&](auto&& is_counted) {
-        return std::count_if(cases::kFaults.begin(), cases::kFaults.end(),
+        return std::count_if(cases::kCodeFaults.begin(), cases::kCodeFaults.end(),
                              [&](const FaultRow& info) {
                                  return is_counted(software::kills_of(matrix, info.fault).size());
                              });
@@ -120,6 +125,31 @@ bool print_faults(const Matrix& matrix, const Sources& sources) {
             count_of([](size_t kills) { return kills > 1; }), count,
             count_of([](size_t kills) { return kills == 0; }), found,
             100.0 * static_cast<double>(found) / static_cast<double>(count))),
+        table);
+    return is_complete;
+}
+
+// Faults that the device draws by a change of the case or the picture; false if one has no body.
+bool print_changes(const Sources& sources) {
+    bool is_complete = true;
+    std::string table;
+    for (const FaultRow& info : cases::kStateFaultRows) {
+        const std::string where = sources.of(info);
+        if (where.empty()) {
+            fmt::print(stderr, "error: {} is in no source\n", info.name);
+            is_complete = false;
+        }
+        table += fmt::format("| `{}` | {} | {} | {} |\n", info.name, info.sentence, where,
+                             code_words(info.rules));
+    }
+    fmt::print(
+        "\n## Faults that take a case for another one\n\n{}\n"
+        "| fault | what the device does | where | breaks |\n| --- | --- | --- | --- |\n{}",
+        wrapped(fmt::format("These {} have no code in the device, which draws the case as a device "
+                            "with the fault takes it, or changes the picture. `edgecase diagnose` "
+                            "tries them as it does those above; how often cases catch them is not "
+                            "recorded.",
+                            cases::kStateFaultRows.size())),
         table);
     return is_complete;
 }
@@ -166,7 +196,7 @@ void print_families(const Matrix& matrix) {
         std::vector<std::string> needed;  // one of two that catch it at all
     };
     std::map<std::string, Family> families;
-    for (const FaultRow& info : cases::kFaults) {
+    for (const FaultRow& info : cases::kCodeFaults) {
         const std::vector<Kill> kills = software::kills_of(matrix, info.fault);
         const cases::Profile level = software::loosest(kills);
         const auto at_level = std::count_if(kills.begin(), kills.end(),
@@ -215,13 +245,14 @@ int main(int argc, char** argv) try {
     const Matrix matrix = software::read_matrix(rasterizers / "strength");
     fmt::print(
         "# What the suite catches of a broken rasterizer\n\n"
-        "Generated from `rasterizers/` by `scripts/generate-docs`; do not edit.\n\n{}\n",
+        "Generated from `cases/fault/` and `rasterizers/` by `scripts/generate-docs`; do not "
+        "edit.\n\n{}\n",
         wrapped(fmt::format(
             "`rasterizers/software/` is a rasterizer of its own, written as drivers are, that "
-            "shares no "
-            "arithmetic with the reference. It can be given one fault "
-            "at a time that an author could make, and it can be given each choice that the "
-            "specifications leave open. Below is what a run of {} cases from {} case files found; "
+            "shares no arithmetic with the reference. It can be given one fault at a time that an "
+            "author could make, in its code or by taking a case for another one, and it can be "
+            "given each choice that the specifications leave open. Below is what a run of {} cases "
+            "from {} case files found; "
             "`cmake --build --preset release --target record_mutants` runs the whole suite and "
             "rewrites what this page is made of ([tests/mutants](../tests/mutants/README.md)); "
             "`edgecase lint --strength` asks the same of your own case. The tests run each fault "
@@ -229,10 +260,12 @@ int main(int argc, char** argv) try {
             "cases, and each legal device on a share of the suite. "
             "[breaking-layer.md](breaking-layer.md) has the same of a real driver with faults.",
             matrix.leaves, matrix.files)));
-    const bool all_caught = print_faults(matrix, Sources(rasterizers / "software"));
+    const Sources sources(argv[1]);
+    const bool all_caught = print_faults(matrix, sources);
+    const bool all_drawn = print_changes(sources);
     const bool all_legal = print_legal(matrix);
     print_families(matrix);
-    return all_caught && all_legal ? 0 : 3;
+    return all_caught && all_drawn && all_legal ? 0 : 3;
 } catch (const std::exception& error) {
     fmt::print(stderr, "error: {}\n", error.what());
     return 3;

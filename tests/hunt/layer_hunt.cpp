@@ -87,7 +87,7 @@ void draw(std::span<const Numbered> chunk, const std::string& fault, const fs::p
         give_up(renderer.error().message);
     }
     run::LoopConfig config;
-    config.limits = run::limits_of((*renderer)->device());
+    config.judging.limits = run::limits_of((*renderer)->device());
     const auto pose_of = [](const Numbered& one) { return one.number / fuzz::kGeometries; };
     for (size_t begin = 0; begin < chunk.size();) {
         const bool is_first = begin == 0 || pose_of(chunk[begin]) != pose_of(chunk[begin - 1]);
@@ -102,7 +102,7 @@ void draw(std::span<const Numbered> chunk, const std::string& fault, const fs::p
         std::vector<run::RenderedCase> drawn =
             run::render_with_derived(**renderer, batch, [](std::string_view) {}, {});
         for (size_t k = 0; k < drawn.size(); ++k) {
-            if (!see(chunk[begin + k], drawn[k], config.limits)) {
+            if (!see(chunk[begin + k], drawn[k], config.judging.limits)) {
                 return;
             }
         }
@@ -129,7 +129,7 @@ uint64_t bits_of(const run::RenderedCase& drawn) {
 
 report::CaseRecord judged(const Numbered& one, const run::RenderedCase& drawn,
                           const ref::Limits& limits) {
-    report::CaseRecord record = run::make_record(one.data);
+    report::CaseRecord record = run::planned_case(one.data);
     run::judge(record, one.data, capture::view_of(drawn.rendered),
                {drawn.consistency, drawn.rendered.stray_writes}, limits, cases::Profile::direct3d,
                run::KeepPictures::none);

@@ -24,7 +24,7 @@ constexpr size_t kPosesOfChunk = 8;
 
 // What a hunt says of a case that a device has drawn.
 report::CaseRecord judged(const cases::Case& c, const software::Device& device) {
-    report::CaseRecord record = run::make_record(c);
+    report::CaseRecord record = run::planned_case(c);
     const capture::Capture drawn = software::captured(c, device);
     run::judge(record, c, capture::CaptureView(drawn), {}, {}, cases::Profile::direct3d,
                run::KeepPictures::none);
@@ -35,7 +35,7 @@ report::CaseRecord judged(const cases::Case& c, const software::Device& device) 
 
 std::vector<std::string> software_faults() {
     std::vector<std::string> names;
-    for (const cases::FaultRow& info : cases::kFaults) {
+    for (const cases::FaultRow& info : cases::kCodeFaults) {
         names.emplace_back(info.name);
     }
     return names;

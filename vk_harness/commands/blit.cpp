@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vk_harness/commands/blit.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <span>
 
@@ -32,12 +30,11 @@ constexpr std::byte kPoisonByte{0x5a};
 
 }  // namespace
 
-std::optional<Rejection> check_blit(const Capabilities& capabilities, const cases::Case& c) {
+void check_blit(const Capabilities& capabilities, const cases::Case& c) {
     const cases::Blit& blit = *c.blit;
-    const auto invalid = [](const char* why) { return Rejection{Rendered::Status::error, why}; };
     if (!c.target.color || c.target.has_instruments || c.target.has_depth || !c.draws.empty() ||
         c.target.samples != 1 || c.target.layers != 1) {
-        return invalid("a blit writes to a colour target of one sample alone");
+        throw invalid("a blit writes to a colour target of one sample alone");
     }
     const auto inside = [](const cases::Corners& r, uint32_t width, uint32_t height) {
         const auto within = [](int32_t a, int32_t b, uint32_t size) {
@@ -48,27 +45,23 @@ std::optional<Rejection> check_blit(const Capabilities& capabilities, const case
     if (blit.source_width == 0 || blit.source_height == 0 ||
         !inside(blit.source, blit.source_width, blit.source_height) ||
         !inside(blit.destination, c.target.width, c.target.height)) {
-        return invalid("a region of the blit leaves its image, or is empty");
+        throw invalid("a region of the blit leaves its image, or is empty");
     }
-    const auto unsupported = [](std::string why) {
-        return Rejection{Rendered::Status::unsupported, std::move(why)};
-    };
     const bool linear = blit.filter == cases::BlitFilter::linear;
     constexpr VkFormatFeatureFlags filtered = VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
     if (!has_features(capabilities, to_vulkan(blit.source_format),
                       VK_FORMAT_FEATURE_BLIT_SRC_BIT | VK_FORMAT_FEATURE_TRANSFER_DST_BIT |
                           (linear ? filtered : VkFormatFeatureFlags{0}))) {
-        return unsupported(fmt::format("the device does not blit{} from the format {}",
-                                       linear ? " with a linear filter" : "",
-                                       cases::name_of(blit.source_format)));
+        throw unsupported("the device does not blit{} from the format {}",
+                          linear ? " with a linear filter" : "",
+                          cases::name_of(blit.source_format));
     }
     if (!has_features(capabilities, to_vulkan(c.target.color->format),
                       VK_FORMAT_FEATURE_BLIT_DST_BIT | VK_FORMAT_FEATURE_TRANSFER_DST_BIT |
                           VK_FORMAT_FEATURE_TRANSFER_SRC_BIT)) {
-        return unsupported(fmt::format("the device does not blit to the format {}",
-                                       cases::name_of(c.target.color->format)));
+        throw unsupported("the device does not blit to the format {}",
+                          cases::name_of(c.target.color->format));
     }
-    return std::nullopt;
 }
 
 std::vector<std::byte> encode_texels(cases::ColorFormat format,
@@ -91,27 +84,24 @@ BlitImages::PlainImage BlitImages::make_image(const Device& device, cases::Color
     return made;
 }
 
-BlitImages BlitImages::create(const Device& device, const cases::Case& c) {
+BlitImages::BlitImages(const Device& device, const cases::Case& c) {
     const cases::Blit& blit = *c.blit;
-    BlitImages images;
     const std::vector<std::byte> texels =
         encode_texels(blit.source_format, cases::blit_source(blit));
     // Behind the texels what the destination holds before it is cleared: fresh memory may hold the
     // clear colour, and a clear that is lost would go unseen.
-    images.poison_offset_ = (texels.size() + kCopyAlignment - 1) / kCopyAlignment * kCopyAlignment;
+    poison_offset_ = (texels.size() + kCopyAlignment - 1) / kCopyAlignment * kCopyAlignment;
     const VkDeviceSize poison =
         VkDeviceSize{c.target.width} * c.target.height * bytes_of(c.target.color->format);
-    images.upload_ = Buffer::create(device, images.poison_offset_ + poison,
-                                    VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HostAccess::write);
-    const std::span<std::byte> upload = images.upload_.bytes();
+    upload_ = Buffer::create(device, poison_offset_ + poison, VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                             HostAccess::write);
+    const std::span<std::byte> upload = upload_.bytes();
     std::copy(texels.begin(), texels.end(), upload.begin());
-    std::fill(upload.begin() + static_cast<std::ptrdiff_t>(images.poison_offset_), upload.end(),
+    std::fill(upload.begin() + static_cast<std::ptrdiff_t>(poison_offset_), upload.end(),
               kPoisonByte);
-    images.upload_.flush();
-    images.source_ = make_image(device, blit.source_format, blit.source_width, blit.source_height);
-    images.destination_ =
-        make_image(device, c.target.color->format, c.target.width, c.target.height);
-    return images;
+    upload_.flush();
+    source_ = make_image(device, blit.source_format, blit.source_width, blit.source_height);
+    destination_ = make_image(device, c.target.color->format, c.target.width, c.target.height);
 }
 
 void BlitImages::record(const Device& device, VkCommandBuffer commands, const cases::Case& c,

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <vector>
 
 #include "vk_harness/device/rejection.hpp"
@@ -13,8 +12,8 @@
 
 namespace vk_harness {
 
-// Why the device cannot do a case's blit; nothing if it can.
-std::optional<Rejection> check_blit(const Capabilities& capabilities, const cases::Case& c);
+// Throws why the device cannot do a case's blit, if it cannot.
+void check_blit(const Capabilities& capabilities, const cases::Case& c);
 
 // The bytes of texels with these codes, one after the other, as VkFormat lays them out.
 std::vector<std::byte> encode_texels(cases::ColorFormat format,
@@ -24,7 +23,7 @@ std::vector<std::byte> encode_texels(cases::ColorFormat format,
 class BlitImages {
   public:
     // The case has a blit. The source's texels are written to host memory here.
-    static BlitImages create(const Device& device, const cases::Case& c);
+    BlitImages(const Device& device, const cases::Case& c);
 
     // Records the upload of the source, clearing of the destination, the blit, and, unless
     // `readback` is null, the copy of the destination to byte `offset` of it.

@@ -86,7 +86,7 @@ void push_constants(const Device& device, const PipelineCache& pipelines, VkComm
         constants.other_where = static_cast<uint32_t>(draw.frag_depth->where);
         constants.depth_is_coord = draw.frag_depth->is_coord ? 1 : 0;
     }
-    device.vk().vkCmdPushConstants(commands, pipelines.layout(), draw_stages(device), 0,
+    device.vk().vkCmdPushConstants(commands, pipelines.layouts().draw.get(), draw_stages(device), 0,
                                    sizeof constants, &constants);
 }
 
@@ -163,10 +163,11 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
         }
         if (plan.texture != VK_NULL_HANDLE) {
             vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                                       pipelines.layout(), 0, 1, &plan.texture, 0, nullptr);
+                                       pipelines.layouts().draw.get(), 0, 1, &plan.texture, 0,
+                                       nullptr);
         }
         if (plan.feed) {
-            plan.feed->bind_pulled(device, commands, pipelines.pulled_layout());
+            plan.feed->bind_pulled(device, commands, pipelines.layouts().pulled.get());
         }
     };
     DrawState state = draw_state(test, draw);

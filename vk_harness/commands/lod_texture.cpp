@@ -43,7 +43,7 @@ LodTextures::Texture LodTextures::make(const PipelineCache& pipelines,
     Texture texture;
     texture.image = make_sampled(*device_, info, VK_IMAGE_VIEW_TYPE_2D, kAllLevels);
     constexpr VkDescriptorType kType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-    texture.set = make_sets(*device_, {kType}, pipelines.texture_set_layout());
+    texture.set = make_sets(*device_, {kType}, pipelines.layouts().texture_set.get());
     DescriptorWrites writes;
     writes.add(
         texture.set.sets.front(), 0, kType,

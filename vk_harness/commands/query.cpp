@@ -43,35 +43,24 @@ uint64_t read_one(const Device& device, VkQueryPool pool, uint32_t query,
 
 // The bit of a statistic; of the kinds of pools 0 is that of occlusion queries.
 VkQueryPipelineStatisticFlags statistic_of(Query query) {
-    switch (query) {
-        case Query::none:
-        case Query::occlusion:
-        case Query::occlusion_precise:
-            break;
-        case Query::input_vertices:
-            return VK_QUERY_PIPELINE_STATISTIC_INPUT_ASSEMBLY_VERTICES_BIT;
-        case Query::input_primitives:
-            return VK_QUERY_PIPELINE_STATISTIC_INPUT_ASSEMBLY_PRIMITIVES_BIT;
-        case Query::vertex_invocations:
-            return VK_QUERY_PIPELINE_STATISTIC_VERTEX_SHADER_INVOCATIONS_BIT;
-        case Query::clipping_invocations:
-            return VK_QUERY_PIPELINE_STATISTIC_CLIPPING_INVOCATIONS_BIT;
-        case Query::clipping_primitives:
-            return VK_QUERY_PIPELINE_STATISTIC_CLIPPING_PRIMITIVES_BIT;
-        case Query::fragment_invocations:
-            return VK_QUERY_PIPELINE_STATISTIC_FRAGMENT_SHADER_INVOCATIONS_BIT;
-    }
-    return 0;
+    static const std::map<Query, VkQueryPipelineStatisticFlagBits> kStatistics = {
+        {Query::input_vertices, VK_QUERY_PIPELINE_STATISTIC_INPUT_ASSEMBLY_VERTICES_BIT},
+        {Query::input_primitives, VK_QUERY_PIPELINE_STATISTIC_INPUT_ASSEMBLY_PRIMITIVES_BIT},
+        {Query::vertex_invocations, VK_QUERY_PIPELINE_STATISTIC_VERTEX_SHADER_INVOCATIONS_BIT},
+        {Query::clipping_invocations, VK_QUERY_PIPELINE_STATISTIC_CLIPPING_INVOCATIONS_BIT},
+        {Query::clipping_primitives, VK_QUERY_PIPELINE_STATISTIC_CLIPPING_PRIMITIVES_BIT},
+        {Query::fragment_invocations, VK_QUERY_PIPELINE_STATISTIC_FRAGMENT_SHADER_INVOCATIONS_BIT}};
+    const auto found = kStatistics.find(query);
+    return found != kStatistics.end() ? VkQueryPipelineStatisticFlags{found->second} : 0;
 }
 
 }  // namespace
 
 // A pool has one kind of queries, and all that a case asks are as long as it has draws: those of
 // other draws are not used.
-Queries Queries::create(const Device& device, const cases::Case& c) {
-    Queries queries(device, c);
+Queries::Queries(const Device& device, const cases::Case& c) : device_(&device), case_(&c) {
     for (const cases::Draw& draw : c.draws) {
-        if (!queries.is_asked(draw.query) || queries.pools_.contains(statistic_of(draw.query))) {
+        if (!is_asked(draw.query) || pools_.contains(statistic_of(draw.query))) {
             continue;
         }
         VkQueryPoolCreateInfo info = Typed{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
@@ -79,11 +68,10 @@ Queries Queries::create(const Device& device, const cases::Case& c) {
         info.queryType = info.pipelineStatistics == 0 ? VK_QUERY_TYPE_OCCLUSION
                                                       : VK_QUERY_TYPE_PIPELINE_STATISTICS;
         info.queryCount = static_cast<uint32_t>(c.draws.size());
-        queries.pools_[info.pipelineStatistics] =
+        pools_[info.pipelineStatistics] =
             make(device, Stage::memory, "vkCreateQueryPool", device.vk().vkCreateQueryPool,
                  device.vk().vkDestroyQueryPool, info);
     }
-    return queries;
 }
 
 bool Queries::is_asked(Query query) const {

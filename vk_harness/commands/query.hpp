@@ -18,7 +18,7 @@ namespace vk_harness {
 class Queries {
   public:
     // Keeps references.
-    static Queries create(const Device& device, const cases::Case& c);
+    Queries(const Device& device, const cases::Case& c);
 
     // Outside of a rendering, before its first query.
     void reset(VkCommandBuffer commands) const;
@@ -31,7 +31,6 @@ class Queries {
     std::vector<uint64_t> read() const;
 
   private:
-    Queries(const Device& device, const cases::Case& c) : device_(&device), case_(&c) {}
     bool is_asked(cases::Query query) const;
     VkQueryPool pool_of(cases::Query query) const;
     const Device* device_;

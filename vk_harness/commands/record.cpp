@@ -69,7 +69,7 @@ void make_door_buffers(const Device& device, const PipelineCache& pipelines, con
                        std::span<const std::byte> memory) {
     for (const DrawPlan& item : plan.draws) {
         if (item.feed) {
-            item.feed->make_buffers(device, memory, pipelines.pulled_set_layout());
+            item.feed->make_buffers(device, memory, pipelines.layouts().pulled_set.get());
         }
     }
 }
@@ -117,11 +117,12 @@ void record_copies(const Device& device, PipelineCache& pipelines, VkCommandBuff
         const VkPipeline pipeline = pipelines.get_copy(plan.attachments[k]);
         if (std::exchange(bound, pipeline) != pipeline) {
             vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
-            vk.vkCmdPushConstants(commands, pipelines.copy_layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
-                                  sizeof(constants), constants.data());
+            vk.vkCmdPushConstants(commands, pipelines.layouts().copy.get(),
+                                  VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants),
+                                  constants.data());
         }
         vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
-                                   pipelines.copy_layout(), 0, 1, &sets[k], 0, nullptr);
+                                   pipelines.layouts().copy.get(), 0, 1, &sets[k], 0, nullptr);
         vk.vkCmdDispatch(commands, groups_x, groups_y, target.layers);
     }
 }

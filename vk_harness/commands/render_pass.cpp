@@ -49,9 +49,9 @@ void read_inputs(const Device& device, const PipelineCache& pipelines, VkCommand
         vk.vkCmdSetViewport(commands, 0, 1, &viewport);
         vk.vkCmdSetScissor(commands, 0, 1, &scissor);
         vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                                   pipelines.input_layout(), 0, 1, &input.set, 0, nullptr);
-        vk.vkCmdPushConstants(commands, pipelines.input_layout(), VK_SHADER_STAGE_FRAGMENT_BIT, 0,
-                              sizeof constants, constants.data());
+                                   pipelines.layouts().input.get(), 0, 1, &input.set, 0, nullptr);
+        vk.vkCmdPushConstants(commands, pipelines.layouts().input.get(),
+                              VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof constants, constants.data());
         vk.vkCmdDraw(commands, 3, 1, 0, 0);
     }
 }

@@ -279,7 +279,7 @@ void clear_by_draws(const Device& device, const PipelineCache& pipelines, VkComm
         if (clear.has_stencil) {
             vk.vkCmdSetStencilReference(commands, VK_STENCIL_FACE_FRONT_AND_BACK, clear.stencil);
         }
-        vk.vkCmdPushConstants(commands, pipelines.layout(), draw_stages(device), 0,
+        vk.vkCmdPushConstants(commands, pipelines.layouts().draw.get(), draw_stages(device), 0,
                               sizeof clear.bits, clear.bits.data());
         vk.vkCmdDraw(commands, 3, 1, 0, 0);
     }

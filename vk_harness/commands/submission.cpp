@@ -8,21 +8,19 @@
 
 namespace vk_harness {
 
-Submission Submission::create(const Device& device) {
+Submission::Submission(const Device& device) : device_(&device) {
     const VolkDeviceTable& vk = device.vk();
-    Submission submission(device);
     VkCommandPoolCreateInfo pool_info = Typed{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     pool_info.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
     pool_info.queueFamilyIndex = device.capabilities().queue_family;
-    submission.pool_ = make(device, Stage::device, "vkCreateCommandPool", vk.vkCreateCommandPool,
-                            vk.vkDestroyCommandPool, pool_info);
-    VkFenceCreateInfo fence_info = Typed{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-    submission.fence_ = make(device, Stage::device, "vkCreateFence", vk.vkCreateFence,
-                             vk.vkDestroyFence, fence_info);
-    return submission;
+    pool_ = make(device, Stage::device, "vkCreateCommandPool", vk.vkCreateCommandPool,
+                 vk.vkDestroyCommandPool, pool_info);
+    const VkFenceCreateInfo fence_info = Typed{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+    fence_ = make(device, Stage::device, "vkCreateFence", vk.vkCreateFence, vk.vkDestroyFence,
+                  fence_info);
 }
 
-Buffer* Submission::grow(Buffer& buffer, VkDeviceSize size, VkBufferUsageFlags usage,
+Buffer& Submission::grow(Buffer& buffer, VkDeviceSize size, VkBufferUsageFlags usage,
                          HostAccess access) {
     if (buffer.size() < size) {
         constexpr VkDeviceSize kSmallest = 1U << 16;
@@ -32,17 +30,17 @@ Buffer* Submission::grow(Buffer& buffer, VkDeviceSize size, VkBufferUsageFlags u
         buffer = Buffer();  // frees the old one first
         buffer = Buffer::create(*device_, std::max(size, enough), usage, access);
     }
-    return &buffer;
+    return buffer;
 }
 
-Buffer* Submission::vertices(VkDeviceSize size) {
+Buffer& Submission::vertices(VkDeviceSize size) {
     return grow(vertices_, size,
                 VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT |
                     VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
                 HostAccess::write);
 }
 
-Buffer* Submission::readback(VkDeviceSize size) {
+Buffer& Submission::readback(VkDeviceSize size) {
     return grow(readback_, size,
                 VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                 HostAccess::read);
@@ -149,7 +147,8 @@ VkDescriptorBufferInfo Submission::samples_of(const CasePlan& plan, size_t attac
 std::vector<VkDescriptorSet> Submission::copy_sets(const PipelineCache& pipelines,
                                                    const CasePlan& plan) {
     constexpr VkDescriptorType kRead = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
-    std::vector<VkDescriptorSet> out = sets(kRead, pipelines.copy_set_layout(), plan.images.size());
+    std::vector<VkDescriptorSet> out =
+        sets(kRead, pipelines.layouts().copy_set.get(), plan.images.size());
     for (size_t k = 0; k < plan.images.size(); ++k) {
         if (plan.attachments[k].is_resolved() || plan.attachments[k].is_input) {
             continue;  // copied, or read by another shader
@@ -172,7 +171,7 @@ void Submission::make_input_sets(const PipelineCache& pipelines, CasePlan& plan)
     }
     constexpr VkDescriptorType kRead = VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT;
     const std::vector<VkDescriptorSet> made =
-        sets(kRead, pipelines.input_set_layout(), plan.inputs.size());
+        sets(kRead, pipelines.layouts().input_set.get(), plan.inputs.size());
     DescriptorWrites writes;
     for (size_t n = 0; n < plan.inputs.size(); ++n) {
         InputRead& input = plan.inputs[n];

@@ -11,11 +11,11 @@ namespace vk_harness {
 // Commands and memory of one submission, reused by the next.
 class Submission {
   public:
-    static Submission create(const Device& device);
+    explicit Submission(const Device& device);
 
     // The vertex buffer of at least `size` bytes; the read-back buffer likewise.
-    Buffer* vertices(VkDeviceSize size);
-    Buffer* readback(VkDeviceSize size);
+    Buffer& vertices(VkDeviceSize size);
+    Buffer& readback(VkDeviceSize size);
     // Frees buffers larger than `limit` bytes.
     void trim(VkDeviceSize limit);
 
@@ -38,8 +38,7 @@ class Submission {
                                       size_t count);
     // The place of an attachment in the read-back buffer.
     VkDescriptorBufferInfo samples_of(const CasePlan& plan, size_t attachment) const;
-    explicit Submission(const Device& device) : device_(&device) {}
-    Buffer* grow(Buffer& buffer, VkDeviceSize size, VkBufferUsageFlags usage, HostAccess access);
+    Buffer& grow(Buffer& buffer, VkDeviceSize size, VkBufferUsageFlags usage, HostAccess access);
 
     // Makes them `count` command buffers at least.
     void allocate(std::vector<VkCommandBuffer>& buffers, size_t count, VkCommandBufferLevel level);

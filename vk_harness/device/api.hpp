@@ -74,6 +74,8 @@ void get_properties(VkPhysicalDevice physical, T& properties) {
     vkGetPhysicalDeviceProperties2(physical, &all);
 }
 
+bool has_device_extension(VkPhysicalDevice physical, const char* name);
+
 // A device object that is destroyed with its owner.
 template <class T>
 class Handle {

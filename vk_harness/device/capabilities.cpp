@@ -6,11 +6,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <utility>
 
 #include "cases/model/words.hpp"
-#include "vk_harness/limits/required_limits.hpp"
+#include "vk_harness/device/features.hpp"
 
 namespace vk_harness {
 
@@ -52,16 +51,6 @@ std::string device_type_name(VkPhysicalDeviceType type) {
     constexpr std::array<const char*, 5> kNames = {"other", "integrated-gpu", "discrete-gpu",
                                                    "virtual-gpu", "cpu"};  // numbered by Vulkan
     return static_cast<size_t>(type) < kNames.size() ? kNames.at(type) : "other";
-}
-
-bool has_device_extension(VkPhysicalDevice physical, const char* name) {
-    uint32_t count = 0;
-    vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
-    std::vector<VkExtensionProperties> extensions(count);
-    vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
-    return std::any_of(extensions.begin(), extensions.end(), [name](const auto& extension) {
-        return std::strcmp(extension.extensionName, name) == 0;
-    });
 }
 
 void require_format(Capabilities& c, VkFormat format, std::string_view name,
@@ -140,78 +129,29 @@ void query_sample_locations(Capabilities& c) {
     }
 }
 
-// What a device of the portability subset lacks of Vulkan; one that is none lacks nothing of it.
-PortabilitySupport portability_support(
-    const VkPhysicalDevicePortabilitySubsetFeaturesKHR& features) {
-    PortabilitySupport out;
-    out.is_subset = true;
-    out.triangle_fans = features.triangleFans == VK_TRUE;
-    out.interpolation_functions = features.shaderSampleRateInterpolationFunctions == VK_TRUE;
-    out.view_reinterpretation = features.imageViewFormatReinterpretation == VK_TRUE;
-    out.multisampled_arrays = features.multisampleArrayImage == VK_TRUE;
-    out.constant_alpha_factors = features.constantAlphaColorBlendFactors == VK_TRUE;
-    return out;
-}
-
 void query_optional_features(Capabilities& c) {
-    VkPhysicalDevicePortabilitySubsetFeaturesKHR portability =
-        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PORTABILITY_SUBSET_FEATURES_KHR};
-    VkPhysicalDeviceVulkan12Features features12 =
-        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
-    VkPhysicalDeviceDepthClipEnableFeaturesEXT depth_clip =
-        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_ENABLE_FEATURES_EXT};
-    VkPhysicalDeviceFragmentShaderBarycentricFeaturesKHR barycentric =
-        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADER_BARYCENTRIC_FEATURES_KHR};
-    VkPhysicalDevicePrimitiveTopologyListRestartFeaturesEXT restart =
-        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PRIMITIVE_TOPOLOGY_LIST_RESTART_FEATURES_EXT};
-    VkPhysicalDeviceFeatures2 features = Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
-    if (c.api_version >= VK_API_VERSION_1_2) {
-        chain(features, features12);
+    const bool has_old_divisor =
+        has_device_extension(c.physical, VK_EXT_VERTEX_ATTRIBUTE_DIVISOR_EXTENSION_NAME);
+    if (!has_old_divisor) {  // the name since it became one of Khronos; structures are the same
+        c.doors.divisor_extension = "VK_KHR_vertex_attribute_divisor";
     }
-    // A structure may only be chained if the device has its extension.
-    const auto ask = [&](const char* extension, auto& structure) {
-        const bool has = has_device_extension(c.physical, extension);
-        if (has) {
-            chain(features, structure);
-        }
-        return has;
-    };
-    const bool is_subset = ask(VK_KHR_PORTABILITY_SUBSET_EXTENSION_NAME, portability);
-    ask(VK_KHR_FRAGMENT_SHADER_BARYCENTRIC_EXTENSION_NAME, barycentric);
-    ask(VK_EXT_DEPTH_CLIP_ENABLE_EXTENSION_NAME, depth_clip);
-    ask(VK_EXT_PRIMITIVE_TOPOLOGY_LIST_RESTART_EXTENSION_NAME, restart);
-    vkGetPhysicalDeviceFeatures2(c.physical, &features);
-    if (is_subset) {
-        c.portability = portability_support(portability);
+    query_features(c);
+    if (!c.core.independent_blend) {
+        c.info.missing.emplace_back("the device lacks the feature independentBlend");
     }
-    c.info.wrong_limits = wrong_limits(c.limits, features.features, c.api_version, is_subset);
-    c.info.has_primitive_id = features.features.geometryShader == VK_TRUE;
-    c.depth_clamp = features.features.depthClamp == VK_TRUE;
-    c.depth_bias_clamp = features.features.depthBiasClamp == VK_TRUE;
-    c.depth_bounds = features.features.depthBounds == VK_TRUE;
-    c.logic_op = features.features.logicOp == VK_TRUE;
-    c.alpha_to_one = features.features.alphaToOne == VK_TRUE;
-    c.dual_source = features.features.dualSrcBlend == VK_TRUE;
-    c.precise_queries = features.features.occlusionQueryPrecise == VK_TRUE;
-    c.pipeline_statistics = features.features.pipelineStatisticsQuery == VK_TRUE;
-    c.depth_clip_enable = depth_clip.depthClipEnable == VK_TRUE;
-    c.list_restart = restart.primitiveTopologyListRestart == VK_TRUE;
-    c.depth_bias = query_depth_bias_support(c.physical, has_device_extension);
-    c.has_sample_shading = features.features.sampleRateShading == VK_TRUE;
+    c.core.dynamic_state = c.core.dynamic_state || c.api_version >= VK_API_VERSION_1_3;
+    c.info.has_dynamic_rendering = c.core.dynamic_rendering;
+    c.info.has_dynamic_state = c.core.dynamic_state;
     query_sample_locations(c);
-    // Before 1.2 vertex shaders that choose would need another extension and another SPIR-V.
-    c.layer_output = features12.shaderOutputLayer == VK_TRUE;
-    c.viewport_output = features12.shaderOutputViewportIndex == VK_TRUE;
-    if (features.features.multiViewport == VK_TRUE) {
-        c.max_viewports = c.limits.maxViewports;
-    }
+    c.max_viewports = c.multi_viewport ? c.limits.maxViewports : 1;
     c.max_layers = std::min(c.limits.maxFramebufferLayers, c.limits.maxImageArrayLayers);
-    c.doors = query_door_support(c.physical, has_device_extension);
+    query_clip_limits(c.physical, c.limits, c.clip);
+    if (c.api_version >= VK_API_VERSION_1_2) {
+        query_door_limits(c.physical, c.limits, c.doors);
+    }
     c.doors.geometry = c.info.has_primitive_id;  // the same feature
-    c.discard = query_discard_support(c.physical, c.api_version, has_device_extension);
-    c.clip = query_clip_support(c.physical, has_device_extension);
-    c.doors.feedback = c.doors.feedback && c.clip.feedback_keeps_order;
-    c.barycentrics = barycentric.fragmentShaderBarycentric == VK_TRUE;
+    c.doors.feedback = c.clip.feedback_keeps_order =
+        c.doors.feedback && c.clip.feedback_keeps_order;
     if (c.barycentrics) {
         VkPhysicalDeviceFragmentShaderBarycentricPropertiesKHR order =
             Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADER_BARYCENTRIC_PROPERTIES_KHR};
@@ -236,22 +176,15 @@ void query_conservative(Capabilities& c) {
     c.most_overestimation = conservative.maxExtraPrimitiveOverestimationSize;
 }
 
-// The extension needs render passes of Vulkan 1.2 or VK_KHR_create_renderpass2, as all here.
 void query_fragment_sizes(Capabilities& c) {
-    if (vkGetPhysicalDeviceFragmentShadingRatesKHR == nullptr ||
-        !has_device_extension(c.physical, VK_KHR_FRAGMENT_SHADING_RATE_EXTENSION_NAME)) {
+    FragmentSizeSupport& out = c.fragment_sizes;
+    out.is_supported = out.is_supported && vkGetPhysicalDeviceFragmentShadingRatesKHR != nullptr;
+    if (!out.is_supported) {
         return;
     }
-    VkPhysicalDeviceFragmentShadingRateFeaturesKHR features =
-        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADING_RATE_FEATURES_KHR};
-    VkPhysicalDeviceFeatures2 all = Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
-    chain(all, features);
-    vkGetPhysicalDeviceFeatures2(c.physical, &all);
     VkPhysicalDeviceFragmentShadingRatePropertiesKHR limits =
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADING_RATE_PROPERTIES_KHR};
     get_properties(c.physical, limits);
-    FragmentSizeSupport& out = c.fragment_sizes;
-    out.is_supported = features.pipelineFragmentShadingRate == VK_TRUE;
     out.with_sample_mask = limits.fragmentShadingRateWithSampleMask == VK_TRUE;
     out.with_shader_mask = limits.fragmentShadingRateWithShaderSampleMask == VK_TRUE;
     uint32_t count = 0;
@@ -270,13 +203,11 @@ void query_fragment_sizes(Capabilities& c) {
     }
 }
 
-void query_features(Capabilities& c) {
+void query_support(Capabilities& c) {
     std::vector<std::string>& missing = c.info.missing;
-    c.core = query_core_support(c.physical, c.api_version, has_device_extension);
+    c.core = query_core_support(c.physical, c.api_version);
     missing.insert(missing.end(), c.core.missing.begin(), c.core.missing.end());
     if (c.core.missing.empty()) {
-        c.info.has_dynamic_rendering = c.core.dynamic_rendering;
-        c.info.has_dynamic_state = c.core.dynamic_state;
         query_optional_features(c);
         query_conservative(c);
         query_fragment_sizes(c);
@@ -408,7 +339,7 @@ Capabilities query_capabilities(VkPhysicalDevice physical, uint32_t index) {
     Capabilities c;
     c.physical = physical;
     query_properties(c, index);
-    query_features(c);
+    query_support(c);
     query_targets(c);
     query_depth_formats(c);
     return c;

@@ -13,7 +13,6 @@
 #include "vk_harness/device/clip_support.hpp"
 #include "vk_harness/device/core_support.hpp"
 #include "vk_harness/device/depth_bias_control.hpp"
-#include "vk_harness/device/discard_support.hpp"
 #include "vk_harness/device/door_support.hpp"
 #include "vk_harness/device/instance.hpp"
 
@@ -28,6 +27,12 @@ struct PortabilitySupport {
     bool view_reinterpretation = true;    // imageViewFormatReinterpretation
     bool multisampled_arrays = true;      // multisampleArrayImage
     bool constant_alpha_factors = true;   // constantAlphaColorBlendFactors
+};
+
+// The instructions besides OpKill by which a fragment shader may discard.
+struct DiscardSupport {
+    bool demote = false;     // shaderDemoteToHelperInvocation
+    bool terminate = false;  // shaderTerminateInvocation
 };
 
 // VK_KHR_fragment_shading_rate, with pipelineFragmentShadingRate.
@@ -86,6 +91,7 @@ struct Capabilities {
     DepthBiasSupport depth_bias;
     PortabilitySupport portability;
     CoreSupport core;
+    bool multi_viewport = false;
     uint32_t max_viewports = 1;  // 1 without multiViewport
     uint32_t max_layers = 1;     // of a target
     // shaderOutputLayer and shaderOutputViewportIndex: gl_Layer and gl_ViewportIndex in a vertex

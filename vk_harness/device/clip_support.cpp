@@ -10,55 +10,16 @@
 
 namespace vk_harness {
 
-ClipSupport query_clip_support(VkPhysicalDevice physical, HasExtension has_extension) {
-    ClipSupport out;
-    VkPhysicalDeviceProperties properties{};
-    vkGetPhysicalDeviceProperties(physical, &properties);
-    if (properties.apiVersion < VK_API_VERSION_1_1) {
-        return out;
-    }
-    ClipFeatures optional;
-    VkPhysicalDeviceFeatures2 features = Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
-    VkPhysicalDeviceProvokingVertexPropertiesEXT modes =
-        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROVOKING_VERTEX_PROPERTIES_EXT};
-    if (has_extension(physical, VK_EXT_DEPTH_CLIP_CONTROL_EXTENSION_NAME)) {
-        chain(features, optional.depth_clip_control);
-    }
-    if (has_extension(physical, VK_EXT_PROVOKING_VERTEX_EXTENSION_NAME)) {
-        chain(features, optional.provoking);
+void query_clip_limits(VkPhysicalDevice physical, const VkPhysicalDeviceLimits& limits,
+                       ClipSupport& clip) {
+    clip.max_clip = clip.clips ? limits.maxClipDistances : 0;
+    clip.max_cull = clip.culls ? limits.maxCullDistances : 0;
+    clip.max_combined = limits.maxCombinedClipAndCullDistances;
+    if (clip.last_provoking_vertex) {
+        VkPhysicalDeviceProvokingVertexPropertiesEXT modes =
+            Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROVOKING_VERTEX_PROPERTIES_EXT};
         get_properties(physical, modes);
-    }
-    vkGetPhysicalDeviceFeatures2(physical, &features);
-    const VkPhysicalDeviceLimits& limits = properties.limits;
-    if (features.features.shaderClipDistance == VK_TRUE) {
-        out.max_clip = limits.maxClipDistances;
-    }
-    if (features.features.shaderCullDistance == VK_TRUE) {
-        out.max_cull = limits.maxCullDistances;
-    }
-    out.max_combined = limits.maxCombinedClipAndCullDistances;
-    out.depth_clip_control = optional.depth_clip_control.depthClipControl == VK_TRUE;
-    out.last_provoking_vertex = optional.provoking.provokingVertexLast == VK_TRUE;
-    out.feedback_keeps_order =
-        out.last_provoking_vertex &&
-        optional.provoking.transformFeedbackPreservesProvokingVertex == VK_TRUE;
-    out.provoking_per_pipeline = modes.provokingVertexModePerPipeline == VK_TRUE;
-    return out;
-}
-
-void enable_clip_features(const ClipSupport& support, VkPhysicalDeviceFeatures2& features,
-                          std::vector<const char*>& extensions, ClipFeatures& enabled) {
-    features.features.shaderClipDistance = support.max_clip > 0 ? VK_TRUE : VK_FALSE;
-    features.features.shaderCullDistance = support.max_cull > 0 ? VK_TRUE : VK_FALSE;
-    if (support.depth_clip_control) {
-        enabled.depth_clip_control.depthClipControl = VK_TRUE;
-        chain(features, enabled.depth_clip_control);
-        extensions.push_back(VK_EXT_DEPTH_CLIP_CONTROL_EXTENSION_NAME);
-    }
-    if (support.last_provoking_vertex) {
-        enabled.provoking.provokingVertexLast = VK_TRUE;
-        chain(features, enabled.provoking);
-        extensions.push_back(VK_EXT_PROVOKING_VERTEX_EXTENSION_NAME);
+        clip.provoking_per_pipeline = modes.provokingVertexModePerPipeline == VK_TRUE;
     }
 }
 

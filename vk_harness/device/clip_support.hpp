@@ -22,28 +22,19 @@ namespace vk_harness {
 inline constexpr uint32_t kClipBinding = 5, kCullBinding = 6;
 
 struct ClipSupport {
+    bool clips = false, culls = false;  // shaderClipDistance, shaderCullDistance
     uint32_t max_clip = 0, max_cull = 0, max_combined = 0;  // distances; 0 without the feature
     bool depth_clip_control = false;                        // VK_EXT_depth_clip_control
     bool last_provoking_vertex = false;   // VK_EXT_provoking_vertex, provokingVertexLast
     bool provoking_per_pipeline = false;  // provokingVertexModePerPipeline
     // transformFeedbackPreservesProvokingVertex, without which any vertex of a primitive may be
-    // written first; only with last_provoking_vertex.
+    // written first; only with last_provoking_vertex and transformFeedback.
     bool feedback_keeps_order = false;
 };
 
-using HasExtension = bool (*)(VkPhysicalDevice, const char*);
-ClipSupport query_clip_support(VkPhysicalDevice physical, HasExtension has_extension);
-
-// Features to enable, as a chain that must outlive vkCreateDevice and must not be moved.
-struct ClipFeatures {
-    VkPhysicalDeviceDepthClipControlFeaturesEXT depth_clip_control =
-        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_CONTROL_FEATURES_EXT};
-    VkPhysicalDeviceProvokingVertexFeaturesEXT provoking =
-        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROVOKING_VERTEX_FEATURES_EXT};
-};
-// Puts what is supported before `features`' chain, and the names of its extensions into the list.
-void enable_clip_features(const ClipSupport& support, VkPhysicalDeviceFeatures2& features,
-                          std::vector<const char*>& extensions, ClipFeatures& enabled);
+// Limits and modes of what was found to be supported.
+void query_clip_limits(VkPhysicalDevice physical, const VkPhysicalDeviceLimits& limits,
+                       ClipSupport& clip);
 
 // Why a case cannot be drawn: one sentence that names the feature; nothing if it can.
 std::optional<std::string> missing_clip_support(const ClipSupport& support, const cases::Case& c);

@@ -8,8 +8,6 @@ namespace vk_harness {
 
 namespace {
 
-constexpr const char* kExtension = "VK_EXT_depth_bias_control";
-
 // VkDepthBiasRepresentationInfoEXT.
 struct RepresentationInfo {
     VkStructureType type = static_cast<VkStructureType>(1000283002);
@@ -27,33 +25,6 @@ struct BiasInfo {
 
 }  // namespace
 
-DepthBiasSupport query_depth_bias_support(VkPhysicalDevice physical,
-                                          bool (*has_extension)(VkPhysicalDevice, const char*)) {
-    if (!has_extension(physical, kExtension)) {
-        return {};
-    }
-    DepthBiasControlFeatures control;
-    VkPhysicalDeviceFeatures2 features = Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
-    features.pNext = &control;
-    vkGetPhysicalDeviceFeatures2(physical, &features);
-    return {control.control == VK_TRUE, control.force_unorm == VK_TRUE, control.floating == VK_TRUE,
-            control.exact == VK_TRUE};
-}
-
-void enable_depth_bias_control(const DepthBiasSupport& support, VkPhysicalDeviceFeatures2& features,
-                               std::vector<const char*>& extensions,
-                               DepthBiasControlFeatures& chain) {
-    if (!support.control) {
-        return;
-    }
-    chain.control = VK_TRUE;
-    chain.force_unorm = support.force_unorm ? VK_TRUE : VK_FALSE;
-    chain.floating = support.floating ? VK_TRUE : VK_FALSE;
-    chain.exact = support.exact ? VK_TRUE : VK_FALSE;
-    vk_harness::chain(features, chain);
-    extensions.push_back(kExtension);
-}
-
 std::optional<std::string> missing_depth_bias_support(const DepthBiasSupport& support,
                                                       const cases::DepthBias& bias) {
     using Representation = cases::DepthBiasRepresentation;
@@ -68,7 +39,8 @@ std::optional<std::string> missing_depth_bias_support(const DepthBiasSupport& su
            "floatRepresentation"},
           {bias.is_exact && !support.exact, "depthBiasExact"}}) {
         if (lacks) {
-            return std::string("the device lacks the feature ") + feature + " of " + kExtension;
+            return std::string("the device lacks the feature ") + feature + " of " +
+                   kDepthBiasControlExtension;
         }
     }
     return std::nullopt;

@@ -15,6 +15,8 @@
 
 namespace vk_harness {
 
+inline constexpr const char* kDepthBiasControlExtension = "VK_EXT_depth_bias_control";
+
 struct DepthBiasSupport {
     bool control = false;      // depthBiasControl
     bool force_unorm = false;  // leastRepresentableValueForceUnormRepresentation
@@ -31,16 +33,6 @@ struct DepthBiasControlFeatures {
 
 // As PFN_vkCmdSetDepthBias2EXT; the argument is a VkDepthBiasInfoEXT.
 using SetDepthBias2 = void(VKAPI_PTR*)(VkCommandBuffer, const void*);
-
-// What a device that has the extension supports; all false without.
-DepthBiasSupport query_depth_bias_support(VkPhysicalDevice physical,
-                                          bool (*has_extension)(VkPhysicalDevice, const char*));
-
-// Puts what is supported before `features`' chain, and the extension into the list. `chain` must
-// outlive vkCreateDevice and must not be moved.
-void enable_depth_bias_control(const DepthBiasSupport& support, VkPhysicalDeviceFeatures2& features,
-                               std::vector<const char*>& extensions,
-                               DepthBiasControlFeatures& chain);
 
 // Why the device cannot take a bias: one sentence that names the feature; nothing if it can.
 std::optional<std::string> missing_depth_bias_support(const DepthBiasSupport& support,

@@ -9,6 +9,8 @@
 #include <cstring>
 #include <utility>
 
+#include "vk_harness/device/features.hpp"
+
 namespace vk_harness {
 
 namespace {
@@ -95,94 +97,21 @@ Device Device::create(const Capabilities& capabilities) {
     queue.queueCount = 1;
     queue.pQueuePriorities = &priority;
 
-    VkPhysicalDevicePortabilitySubsetFeaturesKHR portability =
-        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PORTABILITY_SUBSET_FEATURES_KHR};
-    const PortabilitySupport& subset = capabilities.portability;
-    for (const auto& [has, feature] :
-         {std::pair(subset.triangle_fans, &portability.triangleFans),
-          {subset.interpolation_functions, &portability.shaderSampleRateInterpolationFunctions},
-          {subset.view_reinterpretation, &portability.imageViewFormatReinterpretation},
-          {subset.multisampled_arrays, &portability.multisampleArrayImage},
-          {subset.constant_alpha_factors, &portability.constantAlphaColorBlendFactors}}) {
-        *feature = has ? VK_TRUE : VK_FALSE;
-    }
-    const VkBool32 has_viewports = capabilities.max_viewports > 1 ? VK_TRUE : VK_FALSE;
-    VkPhysicalDeviceVulkan12Features features12 =
-        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
-    features12.shaderOutputViewportIndex = capabilities.viewport_output ? VK_TRUE : VK_FALSE;
-    features12.shaderOutputLayer = capabilities.layer_output ? VK_TRUE : VK_FALSE;
-    VkPhysicalDeviceFragmentShaderBarycentricFeaturesKHR barycentric =
-        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADER_BARYCENTRIC_FEATURES_KHR};
-    barycentric.fragmentShaderBarycentric = VK_TRUE;
-    VkPhysicalDeviceFragmentShadingRateFeaturesKHR fragment_sizes =
-        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADING_RATE_FEATURES_KHR};
-    fragment_sizes.pipelineFragmentShadingRate = VK_TRUE;
-    VkPhysicalDeviceDepthClipEnableFeaturesEXT depth_clip =
-        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_ENABLE_FEATURES_EXT};
-    depth_clip.depthClipEnable = VK_TRUE;
-    VkPhysicalDevicePrimitiveTopologyListRestartFeaturesEXT restart =
-        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PRIMITIVE_TOPOLOGY_LIST_RESTART_FEATURES_EXT};
-    restart.primitiveTopologyListRestart = VK_TRUE;
-    VkPhysicalDeviceFeatures2 features = Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
-    if (capabilities.api_version >= VK_API_VERSION_1_2) {
-        features.pNext = &features12;
-    }
-    std::vector<const char*> extensions;
-    CoreFeatures core;
-    enable_core_features(capabilities.core, features, extensions, core);
-    const auto enable = [&](const char* extension, auto& structure) {
-        chain(features, structure);
-        extensions.push_back(extension);
-    };
-    if (subset.is_subset) {
-        enable(VK_KHR_PORTABILITY_SUBSET_EXTENSION_NAME, portability);
-    }
-    if (capabilities.depth_clip_enable) {
-        enable(VK_EXT_DEPTH_CLIP_ENABLE_EXTENSION_NAME, depth_clip);
-    }
-    if (capabilities.list_restart) {
-        enable(VK_EXT_PRIMITIVE_TOPOLOGY_LIST_RESTART_EXTENSION_NAME, restart);
-    }
+    EnabledFeatures features(capabilities);
+    std::vector<const char*> extensions = capabilities.core.extensions;
+    extensions.insert(extensions.end(), features.extensions.begin(), features.extensions.end());
     if (capabilities.location_counts != 0) {
         extensions.push_back(VK_EXT_SAMPLE_LOCATIONS_EXTENSION_NAME);
     }
     if (capabilities.has_conservative) {
         extensions.push_back(VK_EXT_CONSERVATIVE_RASTERIZATION_EXTENSION_NAME);
     }
-    if (capabilities.barycentrics) {
-        enable(VK_KHR_FRAGMENT_SHADER_BARYCENTRIC_EXTENSION_NAME, barycentric);
+    if (capabilities.doors.host_import) {
+        extensions.push_back(VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME);
     }
-    if (capabilities.fragment_sizes.is_supported) {
-        enable(VK_KHR_FRAGMENT_SHADING_RATE_EXTENSION_NAME, fragment_sizes);
-    }
-    features.features.multiViewport = has_viewports;
-    features.features.independentBlend = VK_TRUE;
-    features.features.sampleRateShading = capabilities.has_sample_shading ? VK_TRUE : VK_FALSE;
-    features.features.depthClamp = capabilities.depth_clamp ? VK_TRUE : VK_FALSE;
-    features.features.depthBiasClamp = capabilities.depth_bias_clamp ? VK_TRUE : VK_FALSE;
-    features.features.dualSrcBlend = capabilities.dual_source ? VK_TRUE : VK_FALSE;
-    features.features.alphaToOne = capabilities.alpha_to_one ? VK_TRUE : VK_FALSE;
-    features.features.logicOp = capabilities.logic_op ? VK_TRUE : VK_FALSE;
-    features.features.depthBounds = capabilities.depth_bounds ? VK_TRUE : VK_FALSE;
-    features.features.occlusionQueryPrecise = capabilities.precise_queries ? VK_TRUE : VK_FALSE;
-    features.features.pipelineStatisticsQuery =
-        capabilities.pipeline_statistics ? VK_TRUE : VK_FALSE;
-    features.features.geometryShader = capabilities.info.has_primitive_id ? VK_TRUE : VK_FALSE;
-
-    ClipFeatures clip;
-    enable_clip_features(capabilities.clip, features, extensions, clip);
-    DiscardFeatures discard;
-    enable_discard_features(capabilities.discard, features, extensions, discard);
-    DoorFeatures doors;
-    // It is no feature of a device without transform feedback.
-    clip.provoking.transformFeedbackPreservesProvokingVertex =
-        capabilities.doors.feedback ? VK_TRUE : VK_FALSE;
-    enable_door_features(capabilities.doors, features, features12, extensions, doors);
-    DepthBiasControlFeatures bias_control;
-    enable_depth_bias_control(capabilities.depth_bias, features, extensions, bias_control);
 
     VkDeviceCreateInfo info = Typed{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
-    info.pNext = &features;
+    info.pNext = &features.chain();
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
     info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());

@@ -52,15 +52,13 @@ GuardPlaces place_guards(const VkMemoryRequirements& image, const VkMemoryRequir
     return places;
 }
 
-std::unique_ptr<Guard> Guard::create(const Device& device) {
-    auto guard = std::make_unique<Guard>();
-    for (Handle<VkBuffer>* side : {&guard->before_, &guard->after_}) {
+Guard::Guard(const Device& device) {
+    for (Handle<VkBuffer>* side : {&before_, &after_}) {
         *side = make_buffer(device, kGuardBytes,
                             VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
     }
     // Those of the other buffer, made with the same parameters, are the same.
-    device.vk().vkGetBufferMemoryRequirements(device.get(), guard->before(), &guard->needs_);
-    return guard;
+    device.vk().vkGetBufferMemoryRequirements(device.get(), before(), &needs_);
 }
 
 void Guard::bind(const Device& device, VkDeviceMemory memory, const GuardPlaces& places,

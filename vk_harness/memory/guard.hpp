@@ -31,7 +31,7 @@ GuardPlaces place_guards(const VkMemoryRequirements& image, const VkMemoryRequir
 // The two buffers of an image.
 class Guard {
   public:
-    static std::unique_ptr<Guard> create(const Device& device);
+    explicit Guard(const Device& device);
 
     VkMemoryRequirements needs() const { return needs_; }  // of either
     // `image_size`: bytes of the image between them.

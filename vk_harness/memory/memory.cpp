@@ -289,7 +289,7 @@ ImageMemory bind_guarded(const Device& device, VkImage image, bool is_dedicated,
     std::optional<uint32_t> type;
     is_dedicated = is_dedicated || dedicated.requiresDedicatedAllocation != VK_FALSE;
     if (!is_dedicated) {
-        auto guard = Guard::create(device);
+        auto guard = std::make_unique<Guard>(device);
         const VkMemoryRequirements side = guard->needs();
         type = find_type(needs.memoryTypeBits & side.memoryTypeBits);
         if (type) {

@@ -7,9 +7,7 @@
 #include "cases/format/color_format.hpp"
 #include "cases/model/sample.hpp"
 #include "shaders/shaders.hpp"
-#include "vk_harness/pipeline/pipeline_cache.hpp"
 #include "vk_harness/pipeline/pipeline_state.hpp"
-#include "vk_harness/pipeline/shader_stage.hpp"
 
 namespace vk_harness {
 
@@ -80,23 +78,18 @@ VkClearValue other_clear(const Attachment& attachment) {
     return out;
 }
 
-VkPipeline PipelineCache::get_clear(const ClearKey& key) {
-    return get_or_make(clears_, key, [&] { return make_clear(key); });
-}
-
-Handle<VkPipeline> PipelineCache::make_clear(const ClearKey& key) {
+Handle<VkPipeline> make_clear(PipelineBase& base, const ClearKey& key) {
     const bool is_depth = !key.location;
-    auto vertex = shader_module(shaders::clear_vertex());
-    auto fragment = shader_module(is_depth ? shaders::clear_depth()
-                                           : shaders::clear_color(*key.location, key.is_integer));
+    const VkShaderModule vertex = base.shader_module(shaders::clear_vertex());
+    const VkShaderModule fragment = base.shader_module(
+        is_depth ? shaders::clear_depth() : shaders::clear_color(*key.location, key.is_integer));
     const std::array<VkPipelineShaderStageCreateInfo, 2> stages = {
         stage_info(VK_SHADER_STAGE_VERTEX_BIT, vertex),
         stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, fragment)};
     PipelineKey target;
     target.samples = key.samples;
     target.sample_locations = key.sample_locations;
-    MultisampleState multisample;
-    multisample_state(target, multisample);
+    const MultisampleState multisample(target);
     VkPipelineDepthStencilStateCreateInfo depth =
         Typed{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
     depth.depthCompareOp = VK_COMPARE_OP_ALWAYS;
@@ -117,13 +110,8 @@ Handle<VkPipeline> PipelineCache::make_clear(const ClearKey& key) {
     if (is_depth && key.has_stencil) {
         full.dynamic.push_back(VK_DYNAMIC_STATE_STENCIL_REFERENCE);
     }
-    VkPipelineRenderingCreateInfo rendering =
-        Typed{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
-    rendering.colorAttachmentCount = static_cast<uint32_t>(key.colors.size());
-    rendering.pColorAttachmentFormats = key.colors.data();
-    rendering.depthAttachmentFormat = key.depth_format;
-    rendering.stencilAttachmentFormat = key.stencil_format;
-
+    const VkPipelineRenderingCreateInfo rendering =
+        rendering_info(key.colors, key.depth_format, key.stencil_format);
     VkGraphicsPipelineCreateInfo info = Typed{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO};
     info.pNext = &rendering;
     info.stageCount = static_cast<uint32_t>(stages.size());
@@ -131,9 +119,9 @@ Handle<VkPipeline> PipelineCache::make_clear(const ClearKey& key) {
     info.pMultisampleState = &multisample.info;
     info.pDepthStencilState = &depth;
     info.pColorBlendState = &blend;
-    info.layout = layout_.get();
+    info.layout = base.layouts().draw.get();
     full.apply(info);
-    return create(info, cache_.get());
+    return base.create(info);
 }
 
 }  // namespace vk_harness

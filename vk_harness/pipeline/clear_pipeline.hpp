@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cases/model/case.hpp"
+#include "vk_harness/pipeline/pipeline_base.hpp"
 #include "vk_harness/target/attachments.hpp"
 
 namespace vk_harness {
@@ -30,6 +31,8 @@ struct ClearKey {
 // One for each colour attachment, then one for depth and stencil, if there are.
 std::vector<ClearKey> clear_keys(const cases::Target& target,
                                  const std::vector<Attachment>& attachments);
+
+Handle<VkPipeline> make_clear(PipelineBase& base, const ClearKey& key);
 
 // A value that is not the one to which an attachment is cleared.
 VkClearValue other_clear(const Attachment& attachment);

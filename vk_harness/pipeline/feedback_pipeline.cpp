@@ -1,24 +1,18 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// The pipeline of the door transform_feedback (cases/model/door.hpp): nothing is rasterized.
-#include "vk_harness/pipeline/pipeline_cache.hpp"
+#include "vk_harness/pipeline/feedback_pipeline.hpp"
+
 #include "vk_harness/pipeline/pipeline_state.hpp"
 
 namespace vk_harness {
 
-VkPipeline PipelineCache::get_feedback(uint32_t attribute_count) {
-    return get_or_make(feedbacks_, attribute_count, [&] { return make_feedback(attribute_count); });
-}
-
-Handle<VkPipeline> PipelineCache::make_feedback(uint32_t attribute_count) {
-    auto vertex = shader_module(shaders::feedback_vertex(attribute_count));
+Handle<VkPipeline> make_feedback(PipelineBase& base, uint32_t attribute_count) {
+    const VkShaderModule vertex = base.shader_module(shaders::feedback_vertex(attribute_count));
     const VkPipelineShaderStageCreateInfo stage = stage_info(VK_SHADER_STAGE_VERTEX_BIT, vertex);
     PipelineKey key;
     key.attribute_count = attribute_count;
     key.way.interleaved = true;
-    VertexInputState inputs;
-    vertex_input_state(key, inputs);
+    const VertexInputState inputs(key);
     VkPipelineInputAssemblyStateCreateInfo assembly =
         Typed{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
     assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
@@ -35,8 +29,8 @@ Handle<VkPipeline> PipelineCache::make_feedback(uint32_t attribute_count) {
     info.pVertexInputState = &inputs.info;
     info.pInputAssemblyState = &assembly;
     info.pRasterizationState = &rasterization;
-    info.layout = layout_.get();
-    return create(info, cache_.get());
+    info.layout = base.layouts().draw.get();
+    return base.create(info);
 }
 
 }  // namespace vk_harness

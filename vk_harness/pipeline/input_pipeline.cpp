@@ -3,7 +3,6 @@
 #include "vk_harness/pipeline/input_pipeline.hpp"
 
 #include "shaders/shaders.hpp"
-#include "vk_harness/pipeline/pipeline_cache.hpp"
 #include "vk_harness/pipeline/pipeline_state.hpp"
 
 namespace vk_harness {
@@ -32,37 +31,36 @@ InputKey input_key(const PassKey& pass, const cases::Target& target, const Attac
     return key;
 }
 
-VkPipeline PipelineCache::get_input(const InputKey& key) {
-    return get_or_make(inputs_, key, [&] { return make_input(key); });
-}
-
-Handle<VkPipeline> PipelineCache::make_input(const InputKey& key) {
+Handle<VkPipeline> make_input(PipelineBase& base, const InputKey& key, VkRenderPass pass) {
     ShaderChanges changes;
     changes.input_index = key.index;
-    auto vertex = shader_module(shaders::clear_vertex());
-    auto fragment = shader_module(
+    const VkShaderModule vertex = base.shader_module(shaders::clear_vertex());
+    const VkShaderModule fragment = base.shader_module(
         shaders::read_input(key.kind == cases::ComponentKind::uint, key.pass.samples > 1), changes);
     Specialization constants;
-    specialize_input(key, constants);
+    constants.add(shaders::kInputWords, key.words);
+    constants.add(shaders::kInputKind, static_cast<uint32_t>(key.kind));
+    for (uint32_t k = 0; k < key.bits.size(); ++k) {
+        constants.add(shaders::kInputBits + k, key.bits.at(k));
+        constants.add(shaders::kInputFirstBits + k, key.first_bit.at(k));
+    }
+    constants.tie();
     std::array<VkPipelineShaderStageCreateInfo, 2> stages = {
         stage_info(VK_SHADER_STAGE_VERTEX_BIT, vertex),
         stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, fragment)};
     stages[1].pSpecializationInfo = &constants.info;
     // Nothing is drawn to: one sample covers a pixel, of which the shader reads all.
-    PipelineKey target;
-    MultisampleState multisample;
-    multisample_state(target, multisample);
-    auto pass = get_pass(key.pass);
+    const MultisampleState multisample{PipelineKey()};
     VkGraphicsPipelineCreateInfo info = Typed{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO};
     info.stageCount = static_cast<uint32_t>(stages.size());
     info.pStages = stages.data();
     info.pMultisampleState = &multisample.info;
-    info.layout = input_layout_.get();
+    info.layout = base.layouts().input.get();
     info.renderPass = pass;
     info.subpass = 1;
     FullTargetState full;
     full.apply(info);
-    return create(info, cache_.get());
+    return base.create(info);
 }
 
 }  // namespace vk_harness

@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "cases/format/color_format.hpp"
+#include "vk_harness/pipeline/pipeline_base.hpp"
 #include "vk_harness/pipeline/render_pass.hpp"
 #include "vk_harness/target/attachments.hpp"
 
@@ -27,5 +28,8 @@ struct InputKey {
 
 InputKey input_key(const PassKey& pass, const cases::Target& target, const Attachment& attachment,
                    uint32_t index);
+
+// `pass`: of key.pass.
+Handle<VkPipeline> make_input(PipelineBase& base, const InputKey& key, VkRenderPass pass);
 
 }  // namespace vk_harness

@@ -13,8 +13,7 @@ namespace vk_harness {
 namespace {
 
 void set_inputs(const Device& device, VkCommandBuffer commands, const PipelineKey& key) {
-    VertexInputState own;
-    vertex_input_state(key, own);
+    const VertexInputState own(key);
     std::vector<VkVertexInputBindingDescription2EXT> bindings;
     for (const VkVertexInputBindingDescription& b : own.bindings) {
         bindings.push_back({VK_STRUCTURE_TYPE_VERTEX_INPUT_BINDING_DESCRIPTION_2_EXT, nullptr,
@@ -47,8 +46,7 @@ void set_samples(const Device& device, VkCommandBuffer commands, const PipelineK
 void set_rasterization(const Device& device, VkCommandBuffer commands, const PipelineKey& key) {
     const VolkDeviceTable& vk = device.vk();
     const Capabilities& c = device.capabilities();
-    RasterizationState own;
-    rasterization_state(key, own);
+    const RasterizationState own(key);
     vk.vkCmdSetPolygonModeEXT(commands, own.info.polygonMode);
     if (c.depth_clamp) {
         vk.vkCmdSetDepthClampEnableEXT(commands, own.info.depthClampEnable);
@@ -81,65 +79,6 @@ void set_rasterization(const Device& device, VkCommandBuffer commands, const Pip
 }
 
 }  // namespace
-
-Handle<ShaderObject> PipelineCache::make_object(VkShaderStageFlagBits stage,
-                                                std::span<const uint32_t> code,
-                                                const VkSpecializationInfo* specialization) {
-    const VkDescriptorSetLayout set = texture_set_layout_.get();
-    const VkPushConstantRange range{draw_stages(*device_), 0, sizeof(shaders::DrawConstants)};
-    ShaderObjectInfo info;
-    info.stage = stage;
-    info.next_stages =
-        stage == VK_SHADER_STAGE_VERTEX_BIT ? VkShaderStageFlags{VK_SHADER_STAGE_FRAGMENT_BIT} : 0;
-    info.code_size = code.size_bytes();
-    info.code = code.data();
-    info.set_count = 1;
-    info.sets = &set;
-    info.range_count = 1;
-    info.ranges = &range;
-    info.specialization = specialization;
-    ShaderObject made = VK_NULL_HANDLE;
-    check(Stage::shader, device_->shader_objects().create(device_->get(), 1, &info, nullptr, &made),
-          "vkCreateShadersEXT");
-    return Handle<ShaderObject>(device_->get(), made, device_->shader_objects().destroy);
-}
-
-ShaderPair PipelineCache::get_objects(const PipelineKey& key) {
-    auto found = objects_.find(key);
-    if (found == objects_.end()) {
-        auto code =
-            changed_code(shaders::capture_fragment(fragment_variant(key)),
-                         fragment_changes(key, device_->capabilities().info.has_primitive_id));
-        Specialization specialization;
-        specialize(key, specialization);
-        auto vertex = make_object(VK_SHADER_STAGE_VERTEX_BIT,
-                                  shaders::capture_vertex(vertex_variant(key)), nullptr);
-        auto fragment = make_object(VK_SHADER_STAGE_FRAGMENT_BIT, code, &specialization.info);
-        std::array<Handle<ShaderObject>, 2> made = {std::move(vertex), std::move(fragment)};
-        found = objects_.emplace(key, std::move(made)).first;
-    }
-    return ShaderPair{found->second[0].get(), found->second[1].get()};
-}
-
-void bind_objects(const Device& device, VkCommandBuffer commands, const ShaderPair& shaders) {
-    std::vector<VkShaderStageFlagBits> stages = {VK_SHADER_STAGE_VERTEX_BIT,
-                                                 VK_SHADER_STAGE_FRAGMENT_BIT};
-    std::vector<ShaderObject> objects(shaders.begin(), shaders.end());
-    const DoorSupport& doors = device.capabilities().doors;
-    if (doors.tessellation) {
-        stages.push_back(VK_SHADER_STAGE_TESSELLATION_CONTROL_BIT);
-        stages.push_back(VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT);
-    }
-    if (doors.geometry) {
-        stages.push_back(VK_SHADER_STAGE_GEOMETRY_BIT);
-    }
-    if (doors.mesh) {
-        stages.push_back(VK_SHADER_STAGE_MESH_BIT_EXT);
-    }
-    objects.resize(stages.size(), VK_NULL_HANDLE);
-    device.shader_objects().bind(commands, static_cast<uint32_t>(stages.size()), stages.data(),
-                                 objects.data());
-}
 
 void set_object_state(const Device& device, VkCommandBuffer commands, const PipelineKey& key) {
     const VolkDeviceTable& vk = device.vk();

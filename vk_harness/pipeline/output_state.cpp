@@ -7,10 +7,8 @@
 namespace vk_harness {
 
 OutputState output_state(const PipelineKey& key) {
-    ColorState color;
-    color_state(key, color);
-    MultisampleState multisample;
-    multisample_state(key, multisample);
+    const ColorState color(key);
+    const MultisampleState multisample(key);
     OutputState out;
     for (const VkPipelineColorBlendAttachmentState& blend : color.blends) {
         out.blends.push_back(blend.blendEnable);

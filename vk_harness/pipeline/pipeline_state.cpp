@@ -11,18 +11,18 @@
 
 namespace vk_harness {
 
-void vertex_input_state(const PipelineKey& key, VertexInputState& state) {
+VertexInputState::VertexInputState(const PipelineKey& key) {
     // Binding and location 0: positions; 1..: attributes; distances. Each is an array of its own,
     // but if all lie together.
-    const Bindings bindings =
-        key.way.pulled ? Bindings{}
-                       : bindings_of(key.attribute_count, key.clip_count, key.cull_count);
+    const Bindings read = key.way.pulled
+                              ? Bindings{}
+                              : bindings_of(key.attribute_count, key.clip_count, key.cull_count);
     uint32_t offset = 0;
-    for (const uint32_t binding : bindings) {
+    for (const uint32_t binding : read) {
         const uint32_t size = size_of(key.way, binding);
         const auto format = static_cast<VkFormat>(row_of(key.way.formats.at(binding)).vulkan);
         if (key.way.interleaved) {
-            state.inputs.push_back({binding, 0, format, offset});
+            inputs.push_back({binding, 0, format, offset});
             offset += size;
             continue;
         }
@@ -30,71 +30,71 @@ void vertex_input_state(const PipelineKey& key, VertexInputState& state) {
         const VkVertexInputRate rate =
             is_of_instance ? VK_VERTEX_INPUT_RATE_INSTANCE : VK_VERTEX_INPUT_RATE_VERTEX;
         if (is_of_instance && key.way.divisor != 1) {
-            state.divisors.push_back({binding, key.way.divisor});
+            divisors.push_back({binding, key.way.divisor});
         }
         const uint32_t stride =
             key.way.dynamic_stride ? kIgnoredStride : stride_of(key.way, binding);
-        state.bindings.push_back({binding, stride, rate});
-        state.inputs.push_back({binding, binding, format, 0});
+        bindings.push_back({binding, stride, rate});
+        inputs.push_back({binding, binding, format, 0});
     }
     if (key.way.interleaved) {
-        state.bindings.push_back({0, offset, VK_VERTEX_INPUT_RATE_VERTEX});
+        bindings.push_back({0, offset, VK_VERTEX_INPUT_RATE_VERTEX});
     }
     if (key.unused_interface) {  // part of what is bound for positions
-        state.inputs.push_back({kUnusedInput, 0, VK_FORMAT_R32_SFLOAT, 0});
+        inputs.push_back({kUnusedInput, 0, VK_FORMAT_R32_SFLOAT, 0});
     }
-    state.info.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
-    if (!state.divisors.empty()) {
-        state.divided.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_DIVISOR_STATE_CREATE_INFO_EXT;
-        state.divided.vertexBindingDivisorCount = static_cast<uint32_t>(state.divisors.size());
-        state.divided.pVertexBindingDivisors = state.divisors.data();
-        state.info.pNext = &state.divided;
+    info.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
+    if (!divisors.empty()) {
+        divided.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_DIVISOR_STATE_CREATE_INFO_EXT;
+        divided.vertexBindingDivisorCount = static_cast<uint32_t>(divisors.size());
+        divided.pVertexBindingDivisors = divisors.data();
+        info.pNext = &divided;
     }
-    state.info.vertexBindingDescriptionCount = static_cast<uint32_t>(state.bindings.size());
-    state.info.pVertexBindingDescriptions = state.bindings.data();
-    state.info.vertexAttributeDescriptionCount = static_cast<uint32_t>(state.inputs.size());
-    state.info.pVertexAttributeDescriptions = state.inputs.data();
+    info.vertexBindingDescriptionCount = static_cast<uint32_t>(bindings.size());
+    info.pVertexBindingDescriptions = bindings.data();
+    info.vertexAttributeDescriptionCount = static_cast<uint32_t>(inputs.size());
+    info.pVertexAttributeDescriptions = inputs.data();
 }
 
-void rasterization_state(const PipelineKey& key, RasterizationState& state) {
-    state.info.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
-    state.info.polygonMode = VK_POLYGON_MODE_FILL;
-    state.info.lineWidth = 1.0F;
-    state.info.depthClampEnable = key.depth_clamp ? VK_TRUE : VK_FALSE;
+RasterizationState::RasterizationState(const PipelineKey& key) {
+    info.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
+    info.polygonMode = VK_POLYGON_MODE_FILL;
+    info.lineWidth = 1.0F;
+    info.depthClampEnable = key.depth_clamp ? VK_TRUE : VK_FALSE;
     if (key.fixed) {
         const auto [constant, clamp, slope] = std::bit_cast<std::array<float, 3>>(key.fixed->bias);
-        state.info.cullMode = key.fixed->cull;
-        state.info.frontFace = key.fixed->front_face;
-        state.info.rasterizerDiscardEnable = key.fixed->discard;
-        state.info.depthBiasEnable = key.fixed->has_bias;
-        state.info.depthBiasConstantFactor = constant;
-        state.info.depthBiasClamp = clamp;
-        state.info.depthBiasSlopeFactor = slope;
+        info.cullMode = key.fixed->cull;
+        info.frontFace = key.fixed->front_face;
+        info.rasterizerDiscardEnable = key.fixed->discard;
+        info.depthBiasEnable = key.fixed->has_bias;
+        info.depthBiasConstantFactor = constant;
+        info.depthBiasClamp = clamp;
+        info.depthBiasSlopeFactor = slope;
     }
     if (key.depth_clip) {
-        state.depth_clip.sType =
+        depth_clip.sType =
             VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_DEPTH_CLIP_STATE_CREATE_INFO_EXT;
-        state.depth_clip.depthClipEnable = *key.depth_clip ? VK_TRUE : VK_FALSE;
-        state.depth_clip.pNext = state.info.pNext;
-        state.info.pNext = &state.depth_clip;
+        depth_clip.depthClipEnable = *key.depth_clip ? VK_TRUE : VK_FALSE;
+        depth_clip.pNext = info.pNext;
+        info.pNext = &depth_clip;
     }
     if (key.conservative != cases::Conservative::none) {
-        state.conservative.sType =
+        conservative.sType =
             VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_CONSERVATIVE_STATE_CREATE_INFO_EXT;
-        state.conservative.conservativeRasterizationMode =
+        conservative.conservativeRasterizationMode =
             key.conservative == cases::Conservative::overestimate
                 ? VK_CONSERVATIVE_RASTERIZATION_MODE_OVERESTIMATE_EXT
                 : VK_CONSERVATIVE_RASTERIZATION_MODE_UNDERESTIMATE_EXT;
-        state.conservative.extraPrimitiveOverestimationSize = std::bit_cast<float>(key.extra_bits);
-        state.conservative.pNext = state.info.pNext;
-        state.info.pNext = &state.conservative;
+        conservative.extraPrimitiveOverestimationSize = std::bit_cast<float>(key.extra_bits);
+        conservative.pNext = info.pNext;
+        info.pNext = &conservative;
     }
     if (key.provoking == cases::ProvokingVertex::last) {
-        state.provoking.sType =
+        provoking.sType =
             VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_PROVOKING_VERTEX_STATE_CREATE_INFO_EXT;
-        state.provoking.provokingVertexMode = VK_PROVOKING_VERTEX_MODE_LAST_VERTEX_EXT;
-        state.provoking.pNext = state.info.pNext;
-        state.info.pNext = &state.provoking;
+        provoking.provokingVertexMode = VK_PROVOKING_VERTEX_MODE_LAST_VERTEX_EXT;
+        provoking.pNext = info.pNext;
+        info.pNext = &provoking;
     }
 }
 
@@ -118,42 +118,42 @@ VkPipelineInputAssemblyStateCreateInfo assembly_state(const PipelineKey& key) {
     return assembly;
 }
 
-void viewport_state(const PipelineKey& key, ViewportState& state) {
-    state.info.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
-    state.info.viewportCount = key.viewports;
-    state.info.scissorCount = key.viewports;
+ViewportState::ViewportState(const PipelineKey& key) {
+    info.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
+    info.viewportCount = key.viewports;
+    info.scissorCount = key.viewports;
     if (key.fixed) {
-        state.viewports = key.fixed->vulkan_viewports();
-        state.scissors = key.fixed->vulkan_scissors();
-        state.info.pViewports = state.viewports.data();
-        state.info.pScissors = state.scissors.data();
+        viewports = key.fixed->vulkan_viewports();
+        scissors = key.fixed->vulkan_scissors();
+        info.pViewports = viewports.data();
+        info.pScissors = scissors.data();
     }
     if (key.negative_one_to_one) {
-        state.depth_clip_control.sType =
+        depth_clip_control.sType =
             VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_DEPTH_CLIP_CONTROL_CREATE_INFO_EXT;
-        state.depth_clip_control.negativeOneToOne = VK_TRUE;
-        state.info.pNext = &state.depth_clip_control;
+        depth_clip_control.negativeOneToOne = VK_TRUE;
+        info.pNext = &depth_clip_control;
     }
 }
 
-void multisample_state(const PipelineKey& key, MultisampleState& state) {
-    state.info.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
-    state.info.rasterizationSamples = static_cast<VkSampleCountFlagBits>(key.samples);
-    state.sample_mask = key.sample_mask;
-    state.info.pSampleMask = &state.sample_mask;
-    state.info.sampleShadingEnable = key.min_shading_bits ? VK_TRUE : VK_FALSE;
-    state.info.minSampleShading = std::bit_cast<float>(key.min_shading_bits.value_or(0U));
-    state.info.alphaToCoverageEnable = key.alpha_to_coverage ? VK_TRUE : VK_FALSE;
-    state.info.alphaToOneEnable = key.alpha_to_one ? VK_TRUE : VK_FALSE;
-    state.places = sample_places(key.sample_locations);
-    state.locations.sType = VK_STRUCTURE_TYPE_PIPELINE_SAMPLE_LOCATIONS_STATE_CREATE_INFO_EXT;
-    state.locations.sampleLocationsEnable = VK_TRUE;
-    state.locations.sampleLocationsInfo = sample_locations_info(state.places);
-    if (!state.places.empty()) {
-        state.info.pNext = &state.locations;
+MultisampleState::MultisampleState(const PipelineKey& key) {
+    info.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
+    info.rasterizationSamples = static_cast<VkSampleCountFlagBits>(key.samples);
+    sample_mask = key.sample_mask;
+    info.pSampleMask = &sample_mask;
+    info.sampleShadingEnable = key.min_shading_bits ? VK_TRUE : VK_FALSE;
+    info.minSampleShading = std::bit_cast<float>(key.min_shading_bits.value_or(0U));
+    info.alphaToCoverageEnable = key.alpha_to_coverage ? VK_TRUE : VK_FALSE;
+    info.alphaToOneEnable = key.alpha_to_one ? VK_TRUE : VK_FALSE;
+    places = sample_places(key.sample_locations);
+    locations.sType = VK_STRUCTURE_TYPE_PIPELINE_SAMPLE_LOCATIONS_STATE_CREATE_INFO_EXT;
+    locations.sampleLocationsEnable = VK_TRUE;
+    locations.sampleLocationsInfo = sample_locations_info(places);
+    if (!places.empty()) {
+        info.pNext = &locations;
     }
     if (key.outputs_are_dynamic) {
-        state.sample_mask = 0;
+        sample_mask = 0;
     }
 }
 
@@ -211,10 +211,6 @@ VkPipelineColorBlendAttachmentState blend_state(const ColorKey& key) {
     return out;
 }
 
-}  // namespace
-
-namespace {
-
 using capture::kAttributePlane;
 using capture::kFragCoordPlane;
 using capture::kHitsPlane;
@@ -261,29 +257,27 @@ void instrument_states(const PipelineKey& key, ColorState& state) {
 
 }  // namespace
 
-void color_state(const PipelineKey& key, ColorState& state) {
-    state.formats.clear();
-    state.blends.clear();
+ColorState::ColorState(const PipelineKey& key) {
     if (key.instruments) {
-        instrument_states(key, state);
+        instrument_states(key, *this);
     }
     for (const ColorKey& color : key.colors) {
-        state.blends.push_back(blend_state(color));
-        state.formats.push_back(color.format);
+        blends.push_back(blend_state(color));
+        formats.push_back(color.format);
     }
-    state.info.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
+    info.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
     if (key.outputs_are_dynamic) {
-        state.blends.assign(state.blends.size(), {});  // nothing is written
+        blends.assign(blends.size(), {});  // nothing is written
     }
-    state.info.attachmentCount = static_cast<uint32_t>(state.blends.size());
-    state.info.pAttachments = state.blends.data();
+    info.attachmentCount = static_cast<uint32_t>(blends.size());
+    info.pAttachments = blends.data();
     if (key.logic) {
-        state.info.logicOpEnable = VK_TRUE;
-        state.info.logicOp = static_cast<VkLogicOp>(*key.logic);
+        info.logicOpEnable = VK_TRUE;
+        info.logicOp = static_cast<VkLogicOp>(*key.logic);
     }
     if (key.fixed) {
         const auto constants = std::bit_cast<std::array<float, 4>>(key.fixed->blend_constants);
-        std::copy(constants.begin(), constants.end(), state.info.blendConstants);
+        std::copy(constants.begin(), constants.end(), info.blendConstants);
     }
 }
 
@@ -331,6 +325,16 @@ std::vector<VkDynamicState> dynamic_states(const PipelineKey& key) {
         out.push_back(VK_DYNAMIC_STATE_VERTEX_INPUT_BINDING_STRIDE);
     }
     return out;
+}
+
+VkPipelineRenderingCreateInfo rendering_info(const std::vector<VkFormat>& colors, VkFormat depth,
+                                             VkFormat stencil) {
+    VkPipelineRenderingCreateInfo info = Typed{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
+    info.colorAttachmentCount = static_cast<uint32_t>(colors.size());
+    info.pColorAttachmentFormats = colors.data();
+    info.depthAttachmentFormat = depth;
+    info.stencilAttachmentFormat = stencil;
+    return info;
 }
 
 FullTargetState::FullTargetState() {

@@ -13,6 +13,7 @@
 namespace vk_harness {
 
 struct VertexInputState {
+    explicit VertexInputState(const PipelineKey& key);
     std::vector<VkVertexInputBindingDescription> bindings;
     std::vector<VkVertexInputAttributeDescription> inputs;
     std::vector<VkVertexInputBindingDivisorDescriptionEXT> divisors;
@@ -21,15 +22,14 @@ struct VertexInputState {
 };
 // The location of an input that no shader has: a device has 16 at least.
 inline constexpr uint32_t kUnusedInput = 15;
-void vertex_input_state(const PipelineKey& key, VertexInputState& state);
 
 struct RasterizationState {
+    explicit RasterizationState(const PipelineKey& key);
     VkPipelineRasterizationProvokingVertexStateCreateInfoEXT provoking{};
     VkPipelineRasterizationConservativeStateCreateInfoEXT conservative{};
     VkPipelineRasterizationStateCreateInfo info{};
     VkPipelineRasterizationDepthClipStateCreateInfoEXT depth_clip{};
 };
-void rasterization_state(const PipelineKey& key, RasterizationState& state);
 
 // The fragment size, which alone decides the rate ("KEEP").
 VkPipelineFragmentShadingRateStateCreateInfoKHR fragment_size_state(const PipelineKey& key);
@@ -37,30 +37,34 @@ VkPipelineFragmentShadingRateStateCreateInfoKHR fragment_size_state(const Pipeli
 VkPipelineInputAssemblyStateCreateInfo assembly_state(const PipelineKey& key);
 
 struct ViewportState {
+    explicit ViewportState(const PipelineKey& key);
     std::vector<VkViewport> viewports;
     std::vector<VkRect2D> scissors;
     VkPipelineViewportDepthClipControlCreateInfoEXT depth_clip_control{};
     VkPipelineViewportStateCreateInfo info{};
 };
-void viewport_state(const PipelineKey& key, ViewportState& state);
 
 struct MultisampleState {
+    explicit MultisampleState(const PipelineKey& key);
     uint32_t sample_mask = 0;
     std::vector<VkSampleLocationEXT> places;
     VkPipelineSampleLocationsStateCreateInfoEXT locations{};
     VkPipelineMultisampleStateCreateInfo info{};
 };
-void multisample_state(const PipelineKey& key, MultisampleState& state);
 
 VkPipelineDepthStencilStateCreateInfo depth_state(const PipelineKey& key);
 
 // Colour attachments of a draw, in order, and how each is blended.
 struct ColorState {
+    explicit ColorState(const PipelineKey& key);
     std::vector<VkFormat> formats;
     std::vector<VkPipelineColorBlendAttachmentState> blends;
     VkPipelineColorBlendStateCreateInfo info{};
 };
-void color_state(const PipelineKey& key, ColorState& state);
+
+// The formats of dynamic rendering.
+VkPipelineRenderingCreateInfo rendering_info(const std::vector<VkFormat>& colors, VkFormat depth,
+                                             VkFormat stencil);
 
 // A triangle over the whole target, of a vertex shader without inputs; viewport and scissor are
 // dynamic, and what is added to `dynamic`. apply() is the last thing before the pipeline is made.

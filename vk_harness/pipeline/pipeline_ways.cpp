@@ -1,14 +1,9 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// Pipelines that are linked of libraries, derived from another one, or made with a cache of data
-// (doors of the group `state`, cases/model/door.hpp).
+#include "vk_harness/pipeline/pipeline_ways.hpp"
+
 #include <algorithm>
 #include <array>
-#include <limits>
-#include <vector>
-
-#include "vk_harness/pipeline/pipeline_cache.hpp"
 
 namespace vk_harness {
 
@@ -57,7 +52,9 @@ VkGraphicsPipelineCreateInfo part_of(const VkGraphicsPipelineCreateInfo& whole,
 
 }  // namespace
 
-Handle<VkPipeline> PipelineCache::make_from_library(const VkGraphicsPipelineCreateInfo& info) {
+Handle<VkPipeline> make_from_library(const PipelineBase& base,
+                                     const VkGraphicsPipelineCreateInfo& info,
+                                     std::vector<Handle<VkPipeline>>& kept) {
     constexpr std::array<VkGraphicsPipelineLibraryFlagBitsEXT, 4> kParts = {
         VK_GRAPHICS_PIPELINE_LIBRARY_VERTEX_INPUT_INTERFACE_BIT_EXT,
         VK_GRAPHICS_PIPELINE_LIBRARY_PRE_RASTERIZATION_SHADERS_BIT_EXT,
@@ -86,7 +83,7 @@ Handle<VkPipeline> PipelineCache::make_from_library(const VkGraphicsPipelineCrea
         which.pNext = &rendering;
         own.pNext = &which;
         own.flags |= VK_PIPELINE_CREATE_LIBRARY_BIT_KHR;
-        auto library = create(own, cache_.get());
+        auto library = base.create(own);
         handles.push_back(library.get());
         libraries.push_back(std::move(library));
     }
@@ -97,47 +94,25 @@ Handle<VkPipeline> PipelineCache::make_from_library(const VkGraphicsPipelineCrea
     VkGraphicsPipelineCreateInfo whole = Typed{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO};
     whole.pNext = &linked;
     whole.layout = info.layout;
-    auto made = create(whole, cache_.get());
-    std::move(libraries.begin(), libraries.end(), std::back_inserter(libraries_));
+    auto made = base.create(whole);
+    std::move(libraries.begin(), libraries.end(), std::back_inserter(kept));
     return made;
 }
 
-Handle<VkPipeline> PipelineCache::make_derived(const PipelineKey& key,
-                                               VkGraphicsPipelineCreateInfo info) {
-    PipelineKey other = key;
-    other.made = PipelineWay::base;
-    other.masked = std::numeric_limits<uint32_t>::max();
-    for (ColorKey& color : other.colors) {
-        color.write_mask = 0;
-    }
-    auto base = get(other);
-    info.flags = VK_PIPELINE_CREATE_DERIVATIVE_BIT;
-    info.basePipelineHandle = base;
-    info.basePipelineIndex = -1;
-    return create(info, cache_.get());
-}
-
-Handle<VkPipeline> PipelineCache::make_cached(const VkGraphicsPipelineCreateInfo& info) {
-    const VolkDeviceTable& vk = device_->vk();
-    VkPipelineCacheCreateInfo cache_info = Typed{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
-    const auto make_cache = [&] {
-        return make(*device_, Stage::pipeline, "vkCreatePipelineCache", vk.vkCreatePipelineCache,
-                    vk.vkDestroyPipelineCache, cache_info);
-    };
-    auto first = make_cache();
-    create(info, first.get());
+Handle<VkPipeline> make_cached(const PipelineBase& base, const VkGraphicsPipelineCreateInfo& info) {
+    const Device& device = base.device();
+    const Handle<VkPipelineCache> first = make_cache(device);
+    base.create(info, first.get());
     size_t size = 0;
-    std::vector<char> data;
-    check(Stage::pipeline, vk.vkGetPipelineCacheData(device_->get(), first.get(), &size, nullptr),
-          "vkGetPipelineCacheData");
-    data.resize(size);
-    check(Stage::pipeline,
-          vk.vkGetPipelineCacheData(device_->get(), first.get(), &size, data.data()),
-          "vkGetPipelineCacheData");
-    cache_info.initialDataSize = size;
-    cache_info.pInitialData = data.data();
-    auto second = make_cache();
-    return create(info, second.get());
+    const auto ask = [&](char* to) {
+        check(Stage::pipeline,
+              device.vk().vkGetPipelineCacheData(device.get(), first.get(), &size, to),
+              "vkGetPipelineCacheData");
+    };
+    ask(nullptr);
+    std::vector<char> data(size);
+    ask(data.data());
+    return base.create(info, make_cache(device, std::span(data).first(size)).get());
 }
 
 }  // namespace vk_harness

@@ -43,20 +43,19 @@ shaders::Ending ending_of(const PipelineKey& key) {
     return shaders::Ending::kill;
 }
 
-void add(Specialization& to, uint32_t id, uint32_t word) {
-    to.entries.push_back({id, static_cast<uint32_t>(to.words.size() * sizeof word), sizeof word});
-    to.words.push_back(word);
-}
-
-// Once all constants have been added.
-void tie(Specialization& to) {
-    to.info.mapEntryCount = static_cast<uint32_t>(to.entries.size());
-    to.info.pMapEntries = to.entries.data();
-    to.info.dataSize = to.words.size() * sizeof(uint32_t);
-    to.info.pData = to.words.data();
-}
-
 }  // namespace
+
+void Specialization::add(uint32_t id, uint32_t word) {
+    entries.push_back({id, static_cast<uint32_t>(words.size() * sizeof word), sizeof word});
+    words.push_back(word);
+}
+
+void Specialization::tie() {
+    info.mapEntryCount = static_cast<uint32_t>(entries.size());
+    info.pMapEntries = entries.data();
+    info.dataSize = words.size() * sizeof(uint32_t);
+    info.pData = words.data();
+}
 
 VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage, VkShaderModule module) {
     VkPipelineShaderStageCreateInfo info =
@@ -150,17 +149,17 @@ std::vector<uint32_t> changed_code(std::span<const uint32_t> code, const ShaderC
 
 void specialize(const PipelineKey& key, Specialization& out) {
     for (uint32_t k = 0; k < key.attribute_count; ++k) {
-        add(out, k, static_cast<uint32_t>(choice_of(key.attributes[k])));
+        out.add(k, static_cast<uint32_t>(choice_of(key.attributes[k])));
     }
     for (uint32_t k = 0; k < key.colors.size(); ++k) {
-        add(out,
+        out.add(
             k == 0 ? shaders::kColorAttributeConstant : shaders::kOtherAttributeConstant + k - 1,
             std::bit_cast<uint32_t>(key.colors[k].attribute));
     }
     if (key.layout.halves) {
-        add(out, shaders::kBackHitConstant, std::bit_cast<uint32_t>(kBinary16Hits.back_hit));
+        out.add(shaders::kBackHitConstant, std::bit_cast<uint32_t>(kBinary16Hits.back_hit));
     }
-    tie(out);
+    out.tie();
 }
 
 void specialize_patch(const PipelineKey& key, Specialization& out) {
@@ -168,19 +167,9 @@ void specialize_patch(const PipelineKey& key, Specialization& out) {
     for (uint32_t k = 0; k < key.attribute_count; ++k) {
         flat |= (key.attributes[k].interpolation == cases::Interpolation::flat ? 1U : 0U) << k;
     }
-    add(out, shaders::kProvokingConstant, key.provoking == cases::ProvokingVertex::last ? 2 : 0);
-    add(out, shaders::kFlatConstant, flat);
-    tie(out);
-}
-
-void specialize_input(const InputKey& key, Specialization& out) {
-    add(out, shaders::kInputWords, key.words);
-    add(out, shaders::kInputKind, static_cast<uint32_t>(key.kind));
-    for (uint32_t k = 0; k < key.bits.size(); ++k) {
-        add(out, shaders::kInputBits + k, key.bits.at(k));
-        add(out, shaders::kInputFirstBits + k, key.first_bit.at(k));
-    }
-    tie(out);
+    out.add(shaders::kProvokingConstant, key.provoking == cases::ProvokingVertex::last ? 2 : 0);
+    out.add(shaders::kFlatConstant, flat);
+    out.tie();
 }
 
 std::vector<std::pair<VkShaderStageFlagBits, std::span<const uint32_t>>> stages_between(

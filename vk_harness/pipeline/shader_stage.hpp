@@ -12,7 +12,6 @@
 
 #include "shaders/spirv_variant.hpp"
 #include "vk_harness/device/api.hpp"
-#include "vk_harness/pipeline/input_pipeline.hpp"
 #include "vk_harness/pipeline/pipeline_key.hpp"
 
 namespace vk_harness {
@@ -41,18 +40,19 @@ ShaderChanges vertex_changes(const PipelineKey& key);
 ShaderChanges fragment_changes(const PipelineKey& key, bool has_primitive_id);
 std::vector<uint32_t> changed_code(std::span<const uint32_t> code, const ShaderChanges& changes);
 
-// Values of the specialization constants of capture.frag. Must not be moved once it is filled.
+// Values of specialization constants. Must not be moved once it is filled.
 struct Specialization {
     std::vector<uint32_t> words;
     std::vector<VkSpecializationMapEntry> entries;
     VkSpecializationInfo info{};
-};
-void specialize(const PipelineKey& key, Specialization& out);
-// The same of capture.tese.
-void specialize_patch(const PipelineKey& key, Specialization& out);
 
-// The same of input.frag.
-void specialize_input(const InputKey& key, Specialization& out);
+    void add(uint32_t id, uint32_t word);
+    void tie();  // once all constants have been added
+};
+// Those of capture.frag.
+void specialize(const PipelineKey& key, Specialization& out);
+// Those of capture.tese.
+void specialize_patch(const PipelineKey& key, Specialization& out);
 
 // The stages between the vertex shader and rasterization, with their code.
 std::vector<std::pair<VkShaderStageFlagBits, std::span<const uint32_t>>> stages_between(

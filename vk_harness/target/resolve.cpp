@@ -37,7 +37,7 @@ const ResolveMode& mode_of(cases::Resolve mode) {
 
 }  // namespace
 
-std::optional<Rejection> check_resolve_and_stencil(const Capabilities& c, const cases::Target& t) {
+void check_resolve_and_stencil(const Capabilities& c, const cases::Target& t) {
     VkResult failed = VK_SUCCESS;
     const auto has_image = [&](VkFormat format, VkImageUsageFlags usage, uint32_t samples) {
         const ImageLimits limits = image_limits(c.physical, format, usage, 0);
@@ -56,34 +56,33 @@ std::optional<Rejection> check_resolve_and_stencil(const Capabilities& c, const 
                        VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | read, t.samples) ||
             (c.limits.framebufferStencilSampleCounts & t.samples) == 0 ||
             (t.samples > 1 && (c.limits.sampledImageStencilSampleCounts & t.samples) == 0)) {
-            return unsupported(
+            throw unsupported(
                 fmt::format("the device cannot draw to and read back format {} at sample count {}",
                             cases::row_of(beside).with_stencil_name, t.samples));
         }
     }
     if (capture::resolves_color(t) && !has_image(to_vulkan(t.color->format), color_usage(1), 1)) {
-        return unsupported(fmt::format("the device cannot resolve into the colour format {}",
-                                       cases::name_of(t.color->format)));
+        throw unsupported(fmt::format("the device cannot resolve into the colour format {}",
+                                      cases::name_of(t.color->format)));
     }
     if (!capture::resolves_depth(t)) {
-        return std::nullopt;
+        return;
     }
     if (!c.core.depth_resolve) {
-        return unsupported("the device lacks Vulkan 1.2 or VK_KHR_depth_stencil_resolve");
+        throw unsupported("the device lacks Vulkan 1.2 or VK_KHR_depth_stencil_resolve");
     }
     VkPhysicalDeviceDepthStencilResolveProperties resolve =
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_STENCIL_RESOLVE_PROPERTIES};
     get_properties(c.physical, resolve);
     const ResolveMode& mode = mode_of(t.depth_resolve);
     if ((resolve.supportedDepthResolveModes & static_cast<VkResolveModeFlags>(mode.bit)) == 0) {
-        return unsupported(fmt::format("the device does not resolve depth by {}", mode.name));
+        throw unsupported(fmt::format("the device does not resolve depth by {}", mode.name));
     }
     // A stencil beside it is not resolved: one of the two modes is NONE.
     if (t.has_stencil && resolve.independentResolveNone != VK_TRUE) {
-        return unsupported(
+        throw unsupported(
             "the device does not resolve depth without stencil (independentResolveNone)");
     }
-    return std::nullopt;
 }
 
 VkResolveModeFlagBits resolve_mode(cases::Resolve mode) {

@@ -4,17 +4,14 @@
 // Planes beside the instruments: what colour and depth are resolved into, and a stencil.
 #pragma once
 
-#include <optional>
-
 #include "cases/model/case.hpp"
 #include "vk_harness/device/device.hpp"
 #include "vk_harness/device/rejection.hpp"
 
 namespace vk_harness {
 
-// What the device lacks for them, or which question about them failed; nothing if it can draw them
-// all.
-std::optional<Rejection> check_resolve_and_stencil(const Capabilities& c, const cases::Target& t);
+// Throws what the device lacks for them, or which question about them failed.
+void check_resolve_and_stencil(const Capabilities& c, const cases::Target& t);
 
 VkResolveModeFlagBits resolve_mode(cases::Resolve mode);
 

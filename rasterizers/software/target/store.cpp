@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rasterizers/software/target/store.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -62,57 +63,22 @@ uint32_t to_code(float v, uint32_t bits, const Device& device) {
 }  // namespace
 
 FormatLayout layout_of(ColorFormat format) {
-    const std::array<uint8_t, 4> in_order = {0, 1, 2, 3};
-    const auto all = [&](Number number, uint32_t bits) {
-        const Channel c{number, bits};
-        return FormatLayout{{c, c, c, c}, in_order};
-    };
-    const auto red_only = [&](Number number) {
-        return FormatLayout{{Channel{number, 32}, {number, 0}, {number, 0}, {number, 0}}, in_order};
-    };
-    switch (format) {
-        case ColorFormat::rgba8_unorm:
-            break;
-        case ColorFormat::bgra8_unorm: {
-            FormatLayout out = all(Number::unorm, 8);
-            out.position = {2, 1, 0, 3};
-            return out;
+    const cases::ColorFormatRow& row = cases::row_of(format);
+    const auto has_bytes = [](uint8_t bits) { return bits % 8 == 0; };
+    const bool is_packed = !std::ranges::all_of(row.bits, has_bytes);
+    FormatLayout out{};
+    for (size_t k = 0; k < 4; ++k) {
+        const bool is_linear = k == 3;  // the alpha of sRGB
+        out.channels[k] = {is_linear && row.kind == Number::srgb ? Number::unorm : row.kind,
+                           row.bits[k]};
+        out.position[k] = static_cast<uint8_t>(k);
+        for (size_t n = 0; !is_packed && row.bits[k] != 0 && n < 4; ++n) {
+            const bool is_before = row.bits[n] != 0 && row.first_bit[n] < row.first_bit[k];
+            out.position[k] = static_cast<uint8_t>(out.position[k] + (is_before ? 1 : 0) -
+                                                   (n < k && row.bits[n] != 0 ? 1 : 0));
         }
-        case ColorFormat::rgba8_srgb: {
-            FormatLayout out = all(Number::srgb, 8);
-            out.channels[3].number = Number::unorm;  // alpha is linear
-            return out;
-        }
-        case ColorFormat::rgb10a2_unorm: {
-            FormatLayout out = all(Number::unorm, 10);
-            out.channels[3].bits = 2;
-            return out;
-        }
-        case ColorFormat::r5g6b5_unorm: {
-            FormatLayout out = all(Number::unorm, 5);
-            out.channels[1].bits = 6;
-            out.channels[3].bits = 0;
-            return out;
-        }
-        case ColorFormat::rgba16_unorm:
-            return all(Number::unorm, 16);
-        case ColorFormat::rgba16_float:
-            return all(Number::half, 16);
-        case ColorFormat::rg16_float: {
-            FormatLayout out = all(Number::half, 16);
-            out.channels[2].bits = out.channels[3].bits = 0;
-            return out;
-        }
-        case ColorFormat::rgba32_float:
-            return all(Number::binary32, 32);
-        case ColorFormat::r32_float:
-            return red_only(Number::binary32);
-        case ColorFormat::r32_uint:
-            return red_only(Number::uint);
-        case ColorFormat::rgba8_uint:
-            return all(Number::uint, 8);
     }
-    return all(Number::unorm, 8);
+    return out;
 }
 
 uint32_t store_channel(float v, Channel channel, const Device& device) {

@@ -8,12 +8,13 @@
 #include <array>
 #include <cstdint>
 
+#include "cases/format/color_format.hpp"
 #include "cases/model/case.hpp"
 #include "rasterizers/software/choice/device.hpp"
 
 namespace software {
 
-enum class Number : uint8_t { unorm, srgb, half, binary32, uint };
+using Number = cases::ComponentKind;
 
 struct Channel {
     Number number = Number::unorm;

@@ -10,7 +10,6 @@
 #include <gmpxx.h>
 
 #include <algorithm>
-#include <array>
 #include <optional>
 
 #include "ref/coverage/facing.hpp"

@@ -5,10 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
-#include <limits>
 
 #include "cases/model/sample.hpp"
-#include "ref/number/edge_function.hpp"
 #include "ref/position/clip.hpp"
 #include "ref/position/viewport_grid.hpp"
 #include "ref/value/accept/judge_candidates.hpp"
@@ -45,24 +43,21 @@ bool add_corner_triangles(const Primitive& primitive, const std::vector<PlaneInp
     Candidate<T> candidate;
     candidate.name = ref::BasisKind::snapped;
     int orientation = 0;
-    for (const FixedPoint& a : choice[0]) {
-        for (const FixedPoint& b : choice[1]) {
-            for (const FixedPoint& c : choice[2]) {
-                Basis<T> basis =
-                    make_basis(moved_vertices<T>(primitive, {a, b, c}), inputs, kBudgetFactor);
-                if (basis.orientation == 2) {
-                    return false;
-                }
-                if (basis.orientation == 0 ||
-                    (orientation != 0 && orientation != basis.orientation)) {
-                    candidate.is_unbounded = true;
-                }
-                if (basis.orientation != 0) {
-                    orientation = basis.orientation;
-                    candidate.bases.push_back(std::move(basis));
-                }
+    bool is_known = true;
+    for_each_choice(
+        choice[0], choice[1], choice[2], [&](const auto& a, const auto& b, const auto& c) {
+            Basis<T> basis =
+                make_basis(moved_vertices<T>(primitive, {a, b, c}), inputs, kBudgetFactor);
+            is_known = is_known && basis.orientation != 2;
+            candidate.is_unbounded = candidate.is_unbounded || basis.orientation == 0 ||
+                                     (orientation != 0 && orientation != basis.orientation);
+            if (basis.orientation != 0) {
+                orientation = basis.orientation;
+                candidate.bases.push_back(std::move(basis));
             }
-        }
+        });
+    if (!is_known) {
+        return false;
     }
     set.candidates.push_back(std::move(candidate));
     return true;
@@ -77,6 +72,74 @@ struct PieceVertex {
     bool is_bounded = true;
 };
 
+// A vertex of a clipped polygon, of which `rounding` bounds what clipping loses, relative.
+template <class T>
+PieceVertex<T> piece_vertex(const Primitive& primitive, const std::vector<PlaneInput<T>>& inputs,
+                            const Vertices<T>& ideal, const ClippedVertex& vertex, const T& u,
+                            const T& rounding) {
+    const cases::Viewport& viewport = primitive.draw->viewport;
+    PieceVertex<T> p;
+    Triple<T> weight;
+    glm::vec4 most(0.0F);  // largest magnitude among the vertices that contribute
+    for (size_t i = 0; i < 3; ++i) {
+        weight[i] = from_exact<T>(vertex.weights[i]);
+        if (sgn(vertex.weights[i]) != 0) {
+            most = glm::max(most, glm::abs(primitive.clip[i]));
+        }
+        p.hx = p.hx + weight[i] * ideal.hx[i];
+        p.hy = p.hy + weight[i] * ideal.hy[i];
+        p.w = p.w + weight[i] * ideal.w[i];
+    }
+    const bool is_original = vertex.original >= 0;
+    const T ew = is_original ? T{} : T(rounding * from_float<T>(most.w));
+    const T safe_w = p.w - ew - ew;
+    if (is_positive(safe_w) != Answer::yes) {
+        p.is_bounded = false;
+        return p;
+    }
+    const T room = p.w - ew;
+    const T sx = magnitude(T(static_cast<double>(viewport.width) / 2));
+    const T sy = magnitude(T(static_cast<double>(viewport.height) / 2));
+    const T xd = magnitude(from_exact<T>(mpq_class(vertex.clip[0] / vertex.clip[3])));
+    const T yd = magnitude(from_exact<T>(mpq_class(vertex.clip[1] / vertex.clip[3])));
+    if (is_original) {
+        p.ex = ideal.ex[static_cast<size_t>(vertex.original)];
+        p.ey = ideal.ey[static_cast<size_t>(vertex.original)];
+    } else {
+        // Divide and transform as in position.cpp: u (4|t| + |o| + 2|x_f| + 1).
+        const T ox = magnitude(from_float<T>(viewport.x)) + sx;
+        const T oy = magnitude(from_float<T>(viewport.y)) + sy;
+        p.ex = sx * (rounding * from_float<T>(most.x) + xd * ew) / room +
+               u * (T(6.0) * sx * xd + T(3.0) * ox + T(1.0));
+        p.ey = sy * (rounding * from_float<T>(most.y) + yd * ew) / room +
+               u * (T(6.0) * sy * yd + T(3.0) * oy + T(1.0));
+    }
+    for (size_t plane = 0; plane < inputs.size(); ++plane) {
+        T h{};
+        T largest{};
+        for (size_t i = 0; i < 3; ++i) {
+            h = h + weight[i] * inputs[plane].h[i];
+            if (sgn(vertex.weights[i]) != 0) {
+                largest = larger(largest, T(magnitude(inputs[plane].h[i])));
+            }
+        }
+        // The components that were clipped, h = g w (depth: viewport transform of z and w).
+        T own = is_original ? T{} : T(rounding * largest);
+        const T g = magnitude(T(h / p.w));
+        if (plane == kPlaneInvW) {
+            own = T{};  // h = 1 is not computed
+        }
+        T error = (own + g * ew) / room;
+        if (plane == kPlaneDepth) {
+            // z_d |p_z| and z_f are at most 1: 4u + u, the offset's clipping included in `own`.
+            error = error + T(5.0) * u + T(2.0) * ew / room;
+        }
+        p.h.push_back(h);
+        p.error.push_back(error);
+    }
+    return p;
+}
+
 // The vertices of the polygon clipped by `planes` as a device re-projects them with rounding errors
 // of `roundoff`.
 template <class T>
@@ -84,10 +147,9 @@ std::vector<PieceVertex<T>> piece_vertices(const Primitive& primitive,
                                            const std::vector<PlaneInput<T>>& inputs,
                                            const Vertices<T>& ideal, double roundoff,
                                            std::span<const ClipPlane> planes) {
-    const cases::Viewport& viewport = primitive.draw->viewport;
     const ClipInput input(*primitive.draw, primitive.triangle.vertex);
     const std::vector<ClippedVertex> polygon =
-        clip_triangle(input, viewport, cases::Profile::direct3d, planes);
+        clip_triangle(input, primitive.draw->viewport, cases::Profile::direct3d, planes);
     size_t cuts = 0;
     for (const ClipPlane& plane : planes) {
         cuts += is_inside(input, std::span(&plane, 1)) ? 0U : 1U;
@@ -96,67 +158,7 @@ std::vector<PieceVertex<T>> piece_vertices(const Primitive& primitive,
     const T rounding = T(kClipRoundings * static_cast<double>(cuts)) * u;
     std::vector<PieceVertex<T>> out;
     for (const ClippedVertex& vertex : polygon) {
-        PieceVertex<T> p;
-        Triple<T> weight;
-        glm::vec4 most(0.0F);  // largest magnitude among the vertices that contribute
-        for (size_t i = 0; i < 3; ++i) {
-            weight[i] = from_exact<T>(vertex.weights[i]);
-            if (sgn(vertex.weights[i]) != 0) {
-                most = glm::max(most, glm::abs(primitive.clip[i]));
-            }
-            p.hx = p.hx + weight[i] * ideal.hx[i];
-            p.hy = p.hy + weight[i] * ideal.hy[i];
-            p.w = p.w + weight[i] * ideal.w[i];
-        }
-        const bool is_original = vertex.original >= 0;
-        const T ew = is_original ? T{} : T(rounding * from_float<T>(most.w));
-        const T safe_w = p.w - ew - ew;
-        if (is_positive(safe_w) != Answer::yes) {
-            p.is_bounded = false;
-            out.push_back(std::move(p));
-            continue;
-        }
-        const T room = p.w - ew;
-        const T sx = magnitude(T(static_cast<double>(viewport.width) / 2));
-        const T sy = magnitude(T(static_cast<double>(viewport.height) / 2));
-        const T xd = magnitude(from_exact<T>(mpq_class(vertex.clip[0] / vertex.clip[3])));
-        const T yd = magnitude(from_exact<T>(mpq_class(vertex.clip[1] / vertex.clip[3])));
-        if (is_original) {
-            p.ex = ideal.ex[static_cast<size_t>(vertex.original)];
-            p.ey = ideal.ey[static_cast<size_t>(vertex.original)];
-        } else {
-            // Divide and transform as in position.cpp: u (4|t| + |o| + 2|x_f| + 1).
-            const T ox = magnitude(from_float<T>(viewport.x)) + sx;
-            const T oy = magnitude(from_float<T>(viewport.y)) + sy;
-            p.ex = sx * (rounding * from_float<T>(most.x) + xd * ew) / room +
-                   u * (T(6.0) * sx * xd + T(3.0) * ox + T(1.0));
-            p.ey = sy * (rounding * from_float<T>(most.y) + yd * ew) / room +
-                   u * (T(6.0) * sy * yd + T(3.0) * oy + T(1.0));
-        }
-        for (size_t plane = 0; plane < inputs.size(); ++plane) {
-            T h{};
-            T largest{};
-            for (size_t i = 0; i < 3; ++i) {
-                h = h + weight[i] * inputs[plane].h[i];
-                if (sgn(vertex.weights[i]) != 0) {
-                    largest = larger(largest, T(magnitude(inputs[plane].h[i])));
-                }
-            }
-            // The components that were clipped, h = g w (depth: viewport transform of z and w).
-            T own = is_original ? T{} : T(rounding * largest);
-            const T g = magnitude(T(h / p.w));
-            if (plane == kPlaneInvW) {
-                own = T{};  // h = 1 is not computed
-            }
-            T error = (own + g * ew) / room;
-            if (plane == kPlaneDepth) {
-                // z_d |p_z| and z_f are at most 1: 4u + u, the offset's clipping included in `own`.
-                error = error + T(5.0) * u + T(2.0) * ew / room;
-            }
-            p.h.push_back(h);
-            p.error.push_back(error);
-        }
-        out.push_back(std::move(p));
+        out.push_back(piece_vertex(primitive, inputs, ideal, vertex, u, rounding));
     }
     return out;
 }
@@ -282,153 +284,190 @@ bool has_border_between_pixels(const cases::Viewport& v) {
 
 // Whether the vertices may be snapped to a line.
 bool may_have_no_area(const Primitive& primitive, const Limits& limits, cases::Profile profile) {
-    std::vector<BoxCorners> boxes;
+    std::vector<Box> boxes;
     for (const glm::vec4& clip : primitive.clip) {
         const auto box = position_box(clip, primitive.draw->viewport, limits, profile);
         if (!box) {
             return true;
         }
-        boxes.emplace_back(*box);
+        boxes.push_back(*box);
     }
-    // The area is affine in each position, so that its extremes lie at corners.
-    bool has_positive = false;
-    bool has_negative = false;
-    for (const FixedPoint& a : boxes[0]) {
-        for (const FixedPoint& b : boxes[1]) {
-            for (const FixedPoint& c : boxes[2]) {
-                const Int128 area = edge_function(a, b, c);
-                has_positive = has_positive || area >= 0;
-                has_negative = has_negative || area <= 0;
-            }
-        }
-    }
-    return has_positive && has_negative;
+    const auto [low, high] = area_range(boxes[0], boxes[1], boxes[2]);
+    return low <= 0 && high >= 0;
 }
 
-// Nothing if T cannot tell an orientation.
+// Makes the set of one triangle and profile.
 template <class T>
-std::optional<CandidateSet<T>> try_candidates(const Primitive& primitive,
-                                              std::span<const Quantity> quantities,
-                                              const Limits& limits, cases::Profile profile) {
-    CandidateSet<T> set;
-    bool is_known = true;
-    set.factor = from_exact<T>(exact_budget_factor(profile));
-    set.margin = T(std::ldexp(1.0, -limits.subpixel_bits));
-    set.any_of_all = profile == cases::Profile::vulkan;
-    // w of a visible point is a convex combination of the w_i.
-    const float most_w = std::max({primitive.clip[0].w, primitive.clip[1].w, primitive.clip[2].w});
-    set.least_inv_w = most_w > 0 ? T(T(1.0) / from_float<T>(most_w)) : T{};
-    set.depth = make_depth_path<T>(primitive, profile);
-    const std::vector<PlaneInput<T>> inputs = plane_inputs<T>(primitive, quantities);
-    const Vertices<T> ideal = ideal_vertices<T>(primitive);
-    const double roundoff = profile == cases::Profile::vulkan ? kVulkanRoundoff : kUnitRoundoff;
-    std::vector<PieceVertex<T>> polygon, guarded;
-    const ClipVolume volume = clip_volume_of(*primitive.draw);
-    const ClipInput input(*primitive.draw, primitive.triangle.vertex);
-    if (primitive.needs_clipping) {
-        polygon = piece_vertices(primitive, inputs, ideal, roundoff, volume.all());
-        if (!is_inside(input, volume.borders()) && !is_inside(input, volume.without_borders())) {
-            guarded = piece_vertices(primitive, inputs, ideal, roundoff, volume.without_borders());
-            for (PieceVertex<T>& p : guarded) {
-                // Where a cut lies that is off by more, far outside and near w = 0, position and
-                // values are off together, which bounds of each by itself do not show: they would
-                // accept nearly anything. The corners in the view stand for such a piece.
-                p.is_bounded = p.is_bounded && is_at_most(p.ex, set.margin) == Answer::yes &&
-                               is_at_most(p.ey, set.margin) == Answer::yes;
+class CandidateMaker {
+  public:
+    CandidateMaker(const Primitive& primitive, std::span<const Quantity> quantities,
+                   const Limits& limits, cases::Profile profile)
+        : primitive_(primitive),
+          quantities_(quantities),
+          limits_(limits),
+          profile_(profile),
+          inputs_(plane_inputs<T>(primitive, quantities)),
+          ideal_(ideal_vertices<T>(primitive)),
+          roundoff_(profile == cases::Profile::vulkan ? kVulkanRoundoff : kUnitRoundoff),
+          volume_(clip_volume_of(*primitive.draw)),
+          input_(*primitive.draw, primitive.triangle.vertex),
+          is_overestimated_(primitive.draw->conservative == cases::Conservative::overestimate) {
+        set_.factor = from_exact<T>(exact_budget_factor(profile));
+        set_.margin = T(std::ldexp(1.0, -limits.subpixel_bits));
+        set_.any_of_all = profile == cases::Profile::vulkan;
+        // w of a visible point is a convex combination of the w_i.
+        const float most_w =
+            std::max({primitive.clip[0].w, primitive.clip[1].w, primitive.clip[2].w});
+        set_.least_inv_w = most_w > 0 ? T(T(1.0) / from_float<T>(most_w)) : T{};
+        set_.depth = make_depth_path<T>(primitive, profile);
+        set_.covers_samples = !is_overestimated_;
+    }
+
+    // Nothing if T cannot tell an orientation.
+    std::optional<CandidateSet<T>> make() {
+        clip();
+        make_hulls();
+        if (!add_bases()) {
+            return std::nullopt;
+        }
+        add_unbounded();
+        return std::move(set_);
+    }
+
+  private:
+    void clip() {
+        if (primitive_.needs_clipping) {
+            polygon_ = piece_vertices(primitive_, inputs_, ideal_, roundoff_, volume_.all());
+            if (!is_inside(input_, volume_.borders()) &&
+                !is_inside(input_, volume_.without_borders())) {
+                guarded_ = piece_vertices(primitive_, inputs_, ideal_, roundoff_,
+                                          volume_.without_borders());
+                for (PieceVertex<T>& p : guarded_) {
+                    // Where a cut lies that is off by more, far outside and near w = 0, position
+                    // and values are off together, which bounds of each by itself do not show: they
+                    // would accept nearly anything. The corners in the view stand for such a piece.
+                    p.is_bounded = p.is_bounded && is_at_most(p.ex, set_.margin) == Answer::yes &&
+                                   is_at_most(p.ey, set_.margin) == Answer::yes;
+                }
+            }
+        }
+        is_nothing_left_ = primitive_.needs_clipping && polygon_.empty();
+    }
+
+    void make_hulls() {
+        // A clip distance may pass a sample that lies a little beyond the polygon_ it cuts, and a
+        // device with a guard band one beyond a border between two pixels.
+        const bool is_free_of_borders = primitive_.needs_clipping &&
+                                        has_border_between_pixels(primitive_.draw->viewport) &&
+                                        primitive_.is_projectable;
+        if (primitive_.needs_clipping && (volume_.has_user_planes() || is_free_of_borders)) {
+            const std::span<const ClipPlane> planes =
+                is_free_of_borders ? volume_.depth() : volume_.view();
+            set_.hulls =
+                hulls_of(primitive_, inputs_, quantities_,
+                         is_inside(input_, planes)
+                             ? std::vector<PieceVertex<T>>{}
+                             : piece_vertices(primitive_, inputs_, ideal_, roundoff_, planes),
+                         roundoff_);
+        } else {
+            set_.hulls = hulls_of(primitive_, inputs_, quantities_, polygon_, roundoff_);
+        }
+        const bool is_large = cases::has_large_fragments(*primitive_.draw);
+        for (size_t q = 0; q < set_.hulls.size(); ++q) {
+            // The centre of a pixel that is covered, or of a fragment of several pixels, may lie
+            // outside of the triangle, where values are extrapolated: nothing holds them in the
+            // range of the vertices. And what roundings leave of a triangle, if clipping leaves
+            // nothing, has corners anywhere on its edges.
+            if (is_overestimated_ || (is_large && !quantities_[q].at_sample) ||
+                (is_nothing_left_ && !quantities_[q].id.is_attribute())) {
+                set_.hulls[q] = {T(-0x1p127), T(0x1p127)};
             }
         }
     }
-    // A clip distance may pass a sample that lies a little beyond the polygon it cuts, and a device
-    // with a guard band one beyond a border between two pixels.
-    const bool is_free_of_borders = primitive.needs_clipping &&
-                                    has_border_between_pixels(primitive.draw->viewport) &&
-                                    primitive.is_projectable;
-    if (primitive.needs_clipping && (volume.has_user_planes() || is_free_of_borders)) {
-        const std::span<const ClipPlane> planes =
-            is_free_of_borders ? volume.depth() : volume.view();
-        set.hulls = hulls_of(primitive, inputs, quantities,
-                             is_inside(input, planes)
-                                 ? std::vector<PieceVertex<T>>{}
-                                 : piece_vertices(primitive, inputs, ideal, roundoff, planes),
-                             roundoff);
-    } else {
-        set.hulls = hulls_of(primitive, inputs, quantities, polygon, roundoff);
+
+    // The basis at these positions, if it has an area; false if T cannot tell.
+    bool add_basis(ref::BasisKind name, const Vertices<T>& at) {
+        Basis<T> basis = make_basis(at, inputs_, kBudgetFactor);
+        const int orientation = basis.orientation;
+        if (orientation == 1 || orientation == -1) {
+            set_.candidates.push_back({name, {std::move(basis)}, false, false});
+        }
+        return orientation != 2;
     }
 
-    const bool is_overestimated = primitive.draw->conservative == cases::Conservative::overestimate;
-    set.covers_samples = !is_overestimated;
-    const bool is_nothing_left = primitive.needs_clipping && polygon.empty();
-    const bool is_large = cases::has_large_fragments(*primitive.draw);
-    for (size_t q = 0; q < set.hulls.size(); ++q) {
-        // The centre of a pixel that is covered, or of a fragment of several pixels, may lie
-        // outside of the triangle, where values are extrapolated: nothing holds them in the range
-        // of the vertices. And what roundings leave of a triangle, if clipping leaves nothing, has
-        // corners anywhere on its edges.
-        if (is_overestimated || (is_large && !quantities[q].at_sample) ||
-            (is_nothing_left && !quantities[q].id.is_attribute())) {
-            set.hulls[q] = {T(-0x1p127), T(0x1p127)};
+    bool add_bases() {
+        bool is_known = add_basis(ref::BasisKind::unsnapped, ideal_);
+        has_area_ = !set_.candidates.empty();
+        if (const auto snapped = snapped_positions(primitive_, limits_)) {
+            is_known =
+                add_basis(ref::BasisKind::snapped, moved_vertices<T>(primitive_, *snapped)) &&
+                is_known;
         }
-    }
-
-    Basis<T> unsnapped = make_basis(ideal, inputs, kBudgetFactor);
-    is_known = unsnapped.orientation != 2;
-    const bool has_area = unsnapped.orientation == 1 || unsnapped.orientation == -1;
-    if (has_area) {
-        set.candidates.push_back({ref::BasisKind::unsnapped, {std::move(unsnapped)}, false, false});
-    }
-    const auto snapped = snapped_positions(primitive, limits);
-    if (snapped) {
-        Basis<T> basis = make_basis(moved_vertices<T>(primitive, *snapped), inputs, kBudgetFactor);
-        is_known = is_known && basis.orientation != 2;
-        if (basis.orientation == 1 || basis.orientation == -1) {
-            set.candidates.push_back({ref::BasisKind::snapped, {std::move(basis)}, false, false});
-        }
-    }
-    is_known = is_known && add_corner_triangles(primitive, inputs, limits, profile, set);
-    if (primitive.needs_clipping) {
-        if (profile == cases::Profile::vulkan) {
+        is_known = is_known && add_corner_triangles(primitive_, inputs_, limits_, profile_, set_);
+        if (primitive_.needs_clipping && profile_ == cases::Profile::vulkan) {
             // "a convex combination": the hull of the clipped polygon's vertices is all that the
             // text demands.
-            set.candidates.push_back({ref::BasisKind::clipped_piece, {}, true, false});
-        } else if (has_area) {
-            is_known = is_known && add_pieces(inputs, polygon, T{}, true, set) &&
-                       add_pieces(inputs, polygon, set.margin, false, set) &&
-                       add_pieces(inputs, guarded, T{}, false, set) &&
-                       add_pieces(inputs, guarded, set.margin, false, set);
+            set_.candidates.push_back({ref::BasisKind::clipped_piece, {}, true, false});
+        } else if (primitive_.needs_clipping && has_area_) {
+            is_known = is_known && add_pieces(inputs_, polygon_, T{}, true, set_) &&
+                       add_pieces(inputs_, polygon_, set_.margin, false, set_) &&
+                       add_pieces(inputs_, guarded_, T{}, false, set_) &&
+                       add_pieces(inputs_, guarded_, set_.margin, false, set_);
+        }
+        return is_known;
+    }
+
+    // Where there is no plane to speak of.
+    void add_unbounded() {
+        const bool may_gain_area = primitive_.needs_clipping ||
+                                   std::ranges::any_of(set_.candidates, [](const auto& known) {
+                                       return !known.bases.empty();
+                                   });
+        if (!has_area_ && may_gain_area) {
+            // A device covers the sample by the positions that it snaps, and may set_ its planes up
+            // from those before: these have an area by roundings alone, of any size and sign, and
+            // the sample need not lie between them. So such a plane has any value there; the
+            // weights of the specification have the area for a denominator ("Basic Polygon
+            // Rasterization").
+            set_.candidates.push_back({ref::BasisKind::unsnapped, {}, false, false, true});
+        }
+        // Of a triangle that may have no area, values are those of the provoking vertex, and which
+        // piece of a clipped one a pixel outside of all belongs to is not said.
+        if (is_overestimated_ &&
+            (primitive_.needs_clipping || may_have_no_area(primitive_, limits_, profile_))) {
+            set_.candidates.push_back({ref::BasisKind::unsnapped, {}, false, false, true});
+        }
+        if (is_nothing_left_ && profile_ != cases::Profile::vulkan) {
+            set_.candidates.push_back(
+                {ref::BasisKind::clipped_piece, {}, true, false});  // see the hulls
+        }
+        if (set_.candidates.empty()) {
+            set_.candidates.push_back({ref::BasisKind::unsnapped, {}, true, false});
         }
     }
-    const bool may_gain_area =
-        primitive.needs_clipping ||
-        std::ranges::any_of(set.candidates, [](const auto& known) { return !known.bases.empty(); });
-    if (!has_area && may_gain_area) {
-        // A device covers the sample by the positions that it snaps, and may set its planes up from
-        // those before: these have an area by roundings alone, of any size and sign, and the
-        // sample need not lie between them. So such a plane has any value there; the weights of
-        // the specification have the area for a denominator ("Basic Polygon Rasterization").
-        set.candidates.push_back({ref::BasisKind::unsnapped, {}, false, false, true});
-    }
-    // Of a triangle that may have no area, values are those of the provoking vertex, and which
-    // piece of a clipped one a pixel outside of all belongs to is not said.
-    if (is_overestimated &&
-        (primitive.needs_clipping || may_have_no_area(primitive, limits, profile))) {
-        set.candidates.push_back({ref::BasisKind::unsnapped, {}, false, false, true});
-    }
-    if (is_nothing_left && profile != cases::Profile::vulkan) {
-        set.candidates.push_back(
-            {ref::BasisKind::clipped_piece, {}, true, false});  // see the hulls
-    }
-    if (set.candidates.empty()) {
-        set.candidates.push_back({ref::BasisKind::unsnapped, {}, true, false});
-    }
-    return is_known ? std::optional(std::move(set)) : std::nullopt;
-}
+
+    const Primitive& primitive_;
+    std::span<const Quantity> quantities_;
+    const Limits& limits_;
+    cases::Profile profile_;
+    std::vector<PlaneInput<T>> inputs_;
+    Vertices<T> ideal_;
+    double roundoff_;
+    ClipVolume volume_;
+    ClipInput input_;
+    bool is_overestimated_;
+    bool is_nothing_left_ = false;  // of a triangle that is clipped
+    bool has_area_ = false;         // at the ideal positions
+    std::vector<PieceVertex<T>> polygon_, guarded_;
+    CandidateSet<T> set_;
+};
 
 }  // namespace
 
 template <class T>
 CandidateSet<T> make_candidates(const Primitive& primitive, std::span<const Quantity> quantities,
                                 const Limits& limits, cases::Profile profile) {
-    auto set = try_candidates<T>(primitive, quantities, limits, profile);
+    auto set = CandidateMaker<T>(primitive, quantities, limits, profile).make();
     if constexpr (std::is_same_v<T, Ball>) {
         return set ? *std::move(set)
                    : rounded(make_candidates<mpq_class>(primitive, quantities, limits, profile));

@@ -24,53 +24,6 @@ struct Round {
     CandidateVerdict probes;
 };
 
-// The numeric inputs that are evaluated at one place with each other.
-std::vector<size_t> inputs_at(const Asked& asked, bool at_centroid) {
-    std::vector<size_t> out;
-    for (size_t i = 0; i < asked.quantities.size(); ++i) {
-        const Quantity& q = asked.quantities[i];
-        if (is_judged(asked, i) && q.id.is_attribute() && !q.at_sample &&
-            q.at_centroid == at_centroid) {
-            out.push_back(i);
-        }
-    }
-    return out;
-}
-
-// Whether one place explains all inputs that are decorated alike. Each of them alone has been
-// found to fit somewhere; with a single one that is enough.
-// Polygons are cut in rationals: unknown of Balls that are no exact set's.
-template <class T>
-Answer has_one_point(const CandidateSet<T>& set, size_t index, const OnePoint& where,
-                     const Asked& asked, size_t& blamed) {
-    if constexpr (std::is_same_v<T, Ball>) {
-        const bool is_single =
-            inputs_at(asked, false).size() < 2 && inputs_at(asked, true).size() < 2;
-        return is_single   ? Answer::yes
-               : set.exact ? has_one_point(*set.exact, index, where, asked, blamed)
-                           : Answer::unknown;
-    } else {
-        const Candidate<T>& candidate = set.candidates[index];
-        if (candidate.bases.size() != 1 || candidate.is_unbounded) {
-            return Answer::yes;  // anywhere between several planes: each value alone
-        }
-        for (const bool at_centroid : {false, true}) {
-            const std::vector<size_t> which = inputs_at(asked, at_centroid);
-            if (which.size() < 2) {
-                continue;
-            }
-            const auto wrong = first_unexplained(candidate.bases.front(), set.factor,
-                                                 at_centroid ? where.centroid : where.attributes,
-                                                 asked.quantities, which, *asked.device);
-            if (wrong) {
-                blamed = *wrong;
-                return Answer::no;
-            }
-        }
-        return Answer::yes;
-    }
-}
-
 // How many values do not fit, and the largest error in budgets.
 struct Score {
     size_t failing = 0;
@@ -111,10 +64,6 @@ CandidateVerdict verdict_of(std::span<const Fit> fits, std::span<const size_t> j
     return out;
 }
 
-}  // namespace
-
-namespace {
-
 // The best candidate so far for some of the quantities.
 class Best {
   public:
@@ -132,7 +81,8 @@ class Best {
     // How candidate `c` of a set fits at an evaluation.
     template <class T>
     void take(const CandidateSet<T>& set, size_t c, const Evaluation<T>& where,
-              std::span<const Fit> fits, const CandidateVerdict& probes) {
+              const Round<T>& round) {
+        const auto& [reaches, fits, probes] = round;
         const Score score = score_of(asked_.quantities, fits, judged_, probes);
         if (best_ && score.failing > 0 && !is_better(score, *best_)) {
             return;
@@ -177,13 +127,54 @@ class Best {
 
 }  // namespace
 
+namespace {
+
+bool has_probes(const Asked& asked) {
+    return std::ranges::any_of(asked.quantities,
+                               [](const Quantity& q) { return q.kind == Kind::probe; });
+}
+
+// How candidate c fits at an evaluation, or all together where each value stands alone; what is not
+// fresh stays as it is in the round. False if T cannot tell.
+template <class T>
+bool judge_round(const CandidateSet<T>& set, size_t c, const Evaluation<T>& where,
+                 const Shared<T>& shared, const Asked& asked, CandidateScratch<T>& scratch,
+                 Round<T>& round) {
+    const std::span<const Quantity> quantities = asked.quantities;
+    auto& [reaches, fits, probes] = round;
+    reaches.resize(quantities.size());
+    fits.resize(quantities.size());
+    for (const size_t i : shared.fresh) {
+        reaches[i] = {};
+    }
+    const size_t first = set.any_of_all ? 0 : c;
+    const size_t last = set.any_of_all ? set.candidates.size() : c + 1;
+    for (size_t k = first; k < last && !shared.fresh.empty(); ++k) {
+        add_candidate(set, set.candidates[k], where, asked.of(shared.fresh), scratch, reaches);
+    }
+    for (const size_t i : shared.fresh) {
+        fits[i] = fit(reaches[i], asked.got(i), store_of(set, quantities[i]));
+        if (fits[i].answer == Answer::unknown) {
+            return false;
+        }
+    }
+    if (has_probes(asked) && shared.has_fresh_probes) {
+        probes = {};
+        judge_probes(set, std::span(set.candidates).subspan(first, last - first), where, asked,
+                     probes);
+        if (!probes.is_known) {
+            return false;
+        }
+    }
+    return true;
+}
+
+}  // namespace
+
 template <class T>
 CandidateVerdict judge_candidates(const CandidateSet<T>& set,
                                   const std::vector<Evaluation<T>>& evaluations, const Asked& asked,
                                   std::span<GroupVerdict> groups) {
-    const std::span<const Quantity> quantities = asked.quantities;
-    const bool has_probes = std::any_of(quantities.begin(), quantities.end(),
-                                        [](const Quantity& q) { return q.kind == Kind::probe; });
     const CandidateVerdict unknown{false, false, ref::BasisKind::unsnapped, {}, {}, {}};
     Best all(asked);
     std::vector<Best> parts;
@@ -199,160 +190,32 @@ CandidateVerdict judge_candidates(const CandidateSet<T>& set,
         const Shared<T> shared(asked, std::exchange(before, &where), where);
         for (size_t c = 0; c < rounds; ++c) {
             // All evaluations of a fragment have one sample: a piece is near in all or in none.
-            if (set.candidates[c].is_piece) {
-                const Answer near =
-                    is_near(set.candidates[c].bases.front(), where.sample, set.margin);
-                if (near == Answer::unknown) {
-                    return unknown;
-                }
-                if (near == Answer::no) {
-                    continue;
-                }
+            const Answer near = is_near(set, set.candidates[c], where.sample);
+            if (near == Answer::unknown) {
+                return unknown;
             }
-            auto& [reaches, fits, probes] = kept[kept.size() > 1 ? c : 0];
-            reaches.resize(quantities.size());
-            fits.resize(quantities.size());
-            for (const size_t i : shared.fresh) {
-                reaches[i] = {};
+            if (near == Answer::no) {
+                continue;
             }
-            const size_t first = set.any_of_all ? 0 : c;
-            const size_t last = set.any_of_all ? set.candidates.size() : c + 1;
-            for (size_t k = first; k < last && !shared.fresh.empty(); ++k) {
-                add_candidate(set, set.candidates[k], where, asked.of(shared.fresh), scratch,
-                              reaches);
+            Round<T>& round = kept[kept.size() > 1 ? c : 0];
+            if (!judge_round(set, c, where, shared, asked, scratch, round)) {
+                return unknown;
             }
-            for (const size_t i : shared.fresh) {
-                fits[i] = fit(reaches[i], asked.got(i), store_of(set, quantities[i]));
-                if (fits[i].answer == Answer::unknown) {
-                    return unknown;
-                }
-            }
-            if (has_probes && shared.has_fresh_probes) {
-                probes = {};
-                judge_probes(set, std::span(set.candidates).subspan(first, last - first), where,
-                             asked, probes);
-                if (!probes.is_known) {
-                    return unknown;
-                }
-            }
-            all.take(set, c, where, fits, probes);
+            all.take(set, c, where, round);
             if (all.is_settled()) {
                 return all.verdict();
             }
             for (Best& part : parts) {
                 if (!part.is_settled()) {
-                    part.take(set, c, where, fits, probes);
+                    part.take(set, c, where, round);
                 }
             }
         }
     }
     for (size_t k = 0; k < parts.size(); ++k) {
-        groups[k].verdict = has_probes ? unknown : parts[k].verdict();
+        groups[k].verdict = has_probes(asked) ? unknown : parts[k].verdict();
     }
     return all.verdict();
-}
-
-template <class T>
-std::optional<std::vector<size_t>> failing_together(const CandidateSet<T>& set,
-                                                    const std::vector<Evaluation<T>>& evaluations,
-                                                    const Asked& asked) {
-    const std::span<const Quantity> quantities = asked.quantities;
-    std::vector<size_t> judged;
-    for (size_t i = 0; i < quantities.size(); ++i) {
-        if (quantities[i].kind == Kind::probe || set.any_of_all) {
-            return std::nullopt;
-        }
-        if (is_judged(asked, i)) {
-            judged.push_back(i);
-        }
-    }
-    if (judged.empty()) {
-        return judged;
-    }
-    std::vector<size_t> best;  // fails under a candidate; of all that fail under one, the fewest
-    bool is_tie = false;
-    // Whether all of `best` has failed under a candidate where the last evaluation has it.
-    std::vector<bool> is_known(set.candidates.size(), false);
-    CandidateScratch<T> scratch;
-    std::vector<Reach<T>> reaches(quantities.size());
-    const Evaluation<T>* before = nullptr;
-    for (const Evaluation<T>& where : evaluations) {
-        const Shared<T> shared(asked, std::exchange(before, &where), where);
-        for (size_t c = 0; c < set.candidates.size(); ++c) {
-            const Candidate<T>& candidate = set.candidates[c];
-            if (candidate.is_piece) {
-                const Answer near = is_near(candidate.bases.front(), where.sample, set.margin);
-                if (near == Answer::unknown) {
-                    return std::nullopt;
-                }
-                if (near == Answer::no) {
-                    continue;
-                }
-            }
-            const auto failing_of =
-                [&](std::span<const size_t> which) -> std::optional<std::vector<size_t>> {
-                for (const size_t i : which) {
-                    reaches[i] = {};
-                }
-                add_candidate(set, candidate, where, asked.of(which), scratch, reaches);
-                std::vector<size_t> failing;
-                for (const size_t i : which) {
-                    switch (fit(reaches[i], asked.got(i), store_of(set, quantities[i])).answer) {
-                        case Answer::unknown:
-                            return std::nullopt;
-                        case Answer::no:
-                            failing.push_back(i);
-                            break;
-                        case Answer::yes:
-                            break;
-                    }
-                }
-                return failing;
-            };
-            if (!best.empty()) {
-                const bool is_moved = std::ranges::any_of(best, [&](size_t i) {
-                    return std::ranges::find(shared.fresh, i) != shared.fresh.end();
-                });
-                if (is_moved || !is_known[c]) {
-                    const auto still = failing_of(best);
-                    if (!still) {
-                        return std::nullopt;
-                    }
-                    is_known[c] = still->size() == best.size();
-                }
-                if (is_known[c]) {
-                    continue;
-                }
-            }
-            std::optional<std::vector<size_t>> failing = failing_of(judged);
-            if (!failing) {
-                return std::nullopt;
-            }
-            const bool is_each_explained = failing->empty();
-            if (is_each_explained && where.one_point) {
-                size_t blamed = 0;
-                const Answer one = has_one_point(set, c, *where.one_point, asked, blamed);
-                if (one == Answer::unknown) {
-                    return std::nullopt;
-                }
-                if (one == Answer::no) {
-                    failing->push_back(blamed);
-                }
-            }
-            if (failing->empty()) {
-                return failing;
-            }
-            if (best.empty() || failing->size() < best.size()) {
-                best = *std::move(failing);
-                is_tie = false;
-                is_known.assign(is_known.size(), false);
-                is_known[c] = !is_each_explained;
-            } else if (failing->size() == best.size()) {
-                is_tie = is_tie || *failing != best;
-            }
-        }
-    }
-    return is_tie ? std::nullopt : std::optional(best);
 }
 
 template <class T>
@@ -363,17 +226,15 @@ AcceptedRange<T> reach_of_depth(const CandidateSet<T>& set, const Quantity& dept
     std::vector<Reach<T>> reaches(1);
     CandidateScratch<T> scratch;
     for (const Candidate<T>& candidate : set.candidates) {
-        if (candidate.is_piece) {
-            const Answer near = is_near(candidate.bases.front(), sample, set.margin);
-            if (near == Answer::unknown) {
-                out.is_known = false;
-                return out;
-            }
-            if (near == Answer::no) {
-                continue;
-            }
+        const Answer near = is_near(set, candidate, sample);
+        if (near == Answer::unknown) {
+            out.is_known = false;
+            return out;
         }
-        add_candidate(set, candidate, where, Asked{{&depth, 1}, is_projectable}, scratch, reaches);
+        if (near == Answer::yes) {
+            add_candidate(set, candidate, where, Asked{{&depth, 1}, is_projectable}, scratch,
+                          reaches);
+        }
     }
     const Reach<T>& reach = reaches.front();
     out.is_known = reach.is_known;
@@ -413,9 +274,7 @@ std::vector<AcceptedRange<T>> accepted_ranges(const CandidateSet<T>& set,
     for (const Evaluation<T>& where : evaluations) {
         for (const Candidate<T>& candidate : set.candidates) {
             // A piece that may be near counts: the range is an upper bound.
-            const Answer near = candidate.is_piece
-                                    ? is_near(candidate.bases.front(), where.sample, set.margin)
-                                    : Answer::yes;
+            const Answer near = is_near(set, candidate, where.sample);
             is_outer = is_outer || near == Answer::unknown;
             if (near != Answer::no) {
                 add_candidate(set, candidate, where, asked, scratch, reaches);
@@ -455,10 +314,6 @@ CandidateVerdict verdict_of_both(const CandidateVerdict& a, const CandidateVerdi
     return both;
 }
 
-template std::optional<std::vector<size_t>> failing_together<Ball>(
-    const CandidateSet<Ball>&, const std::vector<Evaluation<Ball>>&, const Asked&);
-template std::optional<std::vector<size_t>> failing_together<mpq_class>(
-    const CandidateSet<mpq_class>&, const std::vector<Evaluation<mpq_class>>&, const Asked&);
 template std::vector<AcceptedRange<Ball>> accepted_ranges<Ball>(
     const CandidateSet<Ball>&, const std::vector<Evaluation<Ball>>&, const Asked&);
 template std::vector<AcceptedRange<mpq_class>> accepted_ranges<mpq_class>(

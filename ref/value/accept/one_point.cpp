@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ref/value/accept/one_point.hpp"
 
+#include "ref/value/accept/reach.hpp"
 #include "ref/value/fragment/fragment_coverage.hpp"
 
 namespace ref::value {
@@ -33,8 +34,8 @@ Form<mpq_class> sum(const Form<mpq_class>& a, const mpq_class& t, const Form<mpq
     return {mpq_class(a.x + t * b.x), mpq_class(a.y + t * b.y), mpq_class(a.c + t * b.c)};
 }
 
-}  // namespace
-
+// The first of the quantities `which` (indices) that leaves no point of the region, given those
+// before it; nothing if one point explains all of them. `factor` is K.
 std::optional<size_t> first_unexplained(const Basis<mpq_class>& basis, const mpq_class& factor,
                                         std::vector<Point<mpq_class>> region,
                                         std::span<const Quantity> quantities,
@@ -78,5 +79,56 @@ std::optional<size_t> first_unexplained(const Basis<mpq_class>& basis, const mpq
     }
     return std::nullopt;
 }
+
+// The numeric inputs that are evaluated at one place with each other.
+std::vector<size_t> inputs_at(const Asked& asked, bool at_centroid) {
+    std::vector<size_t> out;
+    for (size_t i = 0; i < asked.quantities.size(); ++i) {
+        const Quantity& q = asked.quantities[i];
+        if (is_judged(asked, i) && q.id.is_attribute() && !q.at_sample &&
+            q.at_centroid == at_centroid) {
+            out.push_back(i);
+        }
+    }
+    return out;
+}
+
+}  // namespace
+
+template <class T>
+Answer has_one_point(const CandidateSet<T>& set, size_t index, const OnePoint& where,
+                     const Asked& asked, size_t& blamed) {
+    if constexpr (std::is_same_v<T, Ball>) {
+        const bool is_single =
+            inputs_at(asked, false).size() < 2 && inputs_at(asked, true).size() < 2;
+        return is_single   ? Answer::yes
+               : set.exact ? has_one_point(*set.exact, index, where, asked, blamed)
+                           : Answer::unknown;
+    } else {
+        const Candidate<T>& candidate = set.candidates[index];
+        if (candidate.bases.size() != 1 || candidate.is_unbounded) {
+            return Answer::yes;  // anywhere between several planes: each value alone
+        }
+        for (const bool at_centroid : {false, true}) {
+            const std::vector<size_t> which = inputs_at(asked, at_centroid);
+            if (which.size() < 2) {
+                continue;
+            }
+            const auto wrong = first_unexplained(candidate.bases.front(), set.factor,
+                                                 at_centroid ? where.centroid : where.attributes,
+                                                 asked.quantities, which, *asked.device);
+            if (wrong) {
+                blamed = *wrong;
+                return Answer::no;
+            }
+        }
+        return Answer::yes;
+    }
+}
+
+template Answer has_one_point<Ball>(const CandidateSet<Ball>&, size_t, const OnePoint&,
+                                    const Asked&, size_t&);
+template Answer has_one_point<mpq_class>(const CandidateSet<mpq_class>&, size_t, const OnePoint&,
+                                         const Asked&, size_t&);
 
 }  // namespace ref::value

@@ -9,21 +9,15 @@
 // allow, so that a device is never blamed for a point that the budget would have let pass.
 #pragma once
 
-#include <optional>
-#include <span>
-#include <vector>
-
-#include "ref/number/plane_budget.hpp"
-#include "ref/value/fragment/quantities.hpp"
+#include "ref/value/accept/judge_candidates.hpp"
 
 namespace ref::value {
 
-// The first of the quantities `which` (indices) that leaves no point of the region, given those
-// before it; nothing if one point explains all of them. `factor` is K.
-std::optional<size_t> first_unexplained(const Basis<mpq_class>& basis, const mpq_class& factor,
-                                        std::vector<Point<mpq_class>> region,
-                                        std::span<const Quantity> quantities,
-                                        std::span<const size_t> which,
-                                        const FragmentValues& device);
+// Whether one place explains all inputs that are decorated alike, of candidate `index` of a set;
+// `blamed`: one that it does not. Each of them alone has been found to fit somewhere; with a single
+// one that is enough. Polygons are cut in rationals: unknown of Balls that are no exact set's.
+template <class T>
+Answer has_one_point(const CandidateSet<T>& set, size_t index, const OnePoint& where,
+                     const Asked& asked, size_t& blamed);
 
 }  // namespace ref::value

@@ -208,36 +208,17 @@ class Prober {
     }
 
     std::vector<Accepted<T>> alternatives(const Quantity& q, const Quad& quad) const {
-        std::vector<Accepted<T>> out;
-        const std::optional<Derivative> derivative = derivative_of(q.probe);
-        if (!derivative) {
-            for (const Spots& spots : probe_spots(q, place_)) {
-                std::vector<Point<T>> points;
-                for (const auto& spot : spots) {
-                    points.push_back({T(spot[0]), T(spot[1])});
-                }
-                out.push_back(at(q, q.plane, points));
+        const auto at_spots = [&](const Spots& spots, std::vector<Accepted<T>>& out) {
+            std::vector<Point<T>> points;
+            for (const auto& spot : spots) {
+                points.push_back({T(spot[0]), T(spot[1])});
             }
-            return out;
-        }
-        const bool is_coarse = derivative->fineness == Fineness::coarse ||
-                               (derivative->fineness == Fineness::plain && quad.is_coarse);
-        std::vector<Accepted<T>> xs, ys;
-        if (derivative->has_x) {
-            xs = along(q, q.plane, quad, 0, is_coarse);
-        }
-        if (derivative->has_y) {
-            ys = along(q, q.plane, quad, 1, is_coarse);
-        }
-        if (!derivative->has_x || !derivative->has_y) {
-            return derivative->has_x ? xs : ys;
-        }
-        for (const Accepted<T>& x : xs) {
-            for (const Accepted<T>& y : ys) {
-                out.push_back(width(x, y));
-            }
-        }
-        return out;
+            out.push_back(at(q, q.plane, points));
+        };
+        return alternatives_of<Accepted<T>>(
+            q, quad, place_, at_spots,
+            [&](int axis, bool is_coarse) { return along(q, q.plane, quad, axis, is_coarse); },
+            width<T>);
     }
 
     static Result fit(const Accepted<T>& accepted, double device) {

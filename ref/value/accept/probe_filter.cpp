@@ -68,31 +68,15 @@ class FilterProber {
 
   private:
     std::vector<Inner> alternatives(const Quantity& q, const Quad& quad) const {
-        std::vector<Inner> out;
-        const std::optional<Derivative> derivative = derivative_of(q.probe);
-        if (!derivative) {
-            for (const Spots& spots : probe_spots(q, place_)) {
-                for (const auto& spot : spots) {
-                    out.push_back(value(q, q.plane, spot));
-                }
+        const auto at_spots = [&](const Spots& spots, std::vector<Inner>& out) {
+            for (const auto& spot : spots) {
+                out.push_back(value(q, q.plane, spot));
             }
-            return out;
-        }
-        const bool is_coarse = derivative->fineness == Fineness::coarse ||
-                               (derivative->fineness == Fineness::plain && quad.is_coarse);
-        if (!derivative->has_y) {
-            return along(q, q.plane, quad, 0, is_coarse);
-        }
-        const std::vector<Inner> ys = along(q, q.plane, quad, 1, is_coarse);
-        if (!derivative->has_x) {
-            return ys;
-        }
-        for (const Inner& x : along(q, q.plane, quad, 0, is_coarse)) {
-            for (const Inner& y : ys) {
-                out.push_back(width_of(x, y));
-            }
-        }
-        return out;
+        };
+        return alternatives_of<Inner>(
+            q, quad, place_, at_spots,
+            [&](int axis, bool is_coarse) { return along(q, q.plane, quad, axis, is_coarse); },
+            width_of);
     }
 
     // K budgets around the value, of a budget that is never too large; what the value itself may be

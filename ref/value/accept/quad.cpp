@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// Where probes look, and what the reference expects them to see first.
+#include "ref/value/accept/quad.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
 #include "ref/number/fixed_point.hpp"
-#include "ref/value/accept/probe.hpp"
 
 namespace ref::value {
 

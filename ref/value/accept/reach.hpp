@@ -30,12 +30,14 @@ void widen(Range<T>& range, bool& is_first, const T& low, const T& high) {
     is_first = false;
 }
 
-// Whether a point is inside a piece's triangle or at most `margin` outside of each edge's line.
+// Whether a candidate explains a point: a clipped piece those inside of its triangle, and at most
+// `margin` outside of each edge's line.
 template <class T>
-Answer is_near(const Basis<T>& basis, const Point<T>& p, const T& margin) {
+Answer is_near(const CandidateSet<T>& set, const Candidate<T>& candidate, const Point<T>& p) {
     Answer all = Answer::yes;
-    for (const Form<T>& b : basis.bary) {
-        const T slack = margin * (magnitude(b.x) + magnitude(b.y));
+    for (size_t k = 0; candidate.is_piece && k < 3; ++k) {
+        const Form<T>& b = candidate.bases.front().bary[k];
+        const T slack = set.margin * (magnitude(b.x) + magnitude(b.y));
         all = both(all, is_at_most(T(-slack), b.at(p)));
     }
     return all;

@@ -98,27 +98,12 @@ Points pixel_region(const TriangleSetup& setup, const cases::PixelBlock& block) 
 FragmentCoverage::FragmentCoverage(const cases::Case& c, const Limits& limits,
                                    cases::Profile profile,
                                    const std::vector<cases::Triangle>& triangles)
-    : case_(c),
-      limits_(limits),
-      profile_(profile),
-      triangles_(triangles),
-      boxes_(c, limits, profile),
-      setups_(triangles.size()) {}
-
-const TriangleSetup& FragmentCoverage::setup(uint32_t t) {
-    if (!setups_[t]) {
-        const cases::Draw& draw = case_.draws[triangles_[t].draw];
-        Window window = window_of(case_, draw, profile_);
-        window.alpha = cases::AlphaCoverage::all;  // it comes after the shader
-        setups_[t] = set_up(case_, triangles_[t], limits_, profile_, boxes_, window);
-    }
-    return *setups_[t];
-}
+    : case_(c), triangles_(triangles), setups_(c, triangles, limits, profile, false, false) {}
 
 const PixelCoverage& FragmentCoverage::of(uint32_t t, uint32_t x, uint32_t y) {
     const cases::PixelBlock block = block_of(t, x, y);
     if (!last_ || !last_->is_of(t, block)) {
-        last_ = {t, block, coverage_of(case_.target, setup(t), block, fast::classify)};
+        last_ = {t, block, coverage_of(case_.target, setups_[t], block, fast::classify)};
     }
     return last_->answer;
 }
@@ -126,13 +111,13 @@ const PixelCoverage& FragmentCoverage::of(uint32_t t, uint32_t x, uint32_t y) {
 const Points& FragmentCoverage::region(uint32_t t, uint32_t x, uint32_t y) {
     const cases::PixelBlock block = block_of(t, x, y);
     if (!last_region_ || !last_region_->is_of(t, block)) {
-        last_region_ = {t, block, pixel_region(setup(t), block)};
+        last_region_ = {t, block, pixel_region(setups_[t], block)};
     }
     return last_region_->answer;
 }
 
 PixelCoverage FragmentCoverage::exact(uint32_t t, uint32_t x, uint32_t y) {
-    return coverage_of(case_.target, setup(t), block_of(t, x, y), exact::classify);
+    return coverage_of(case_.target, setups_[t], block_of(t, x, y), exact::classify);
 }
 
 }  // namespace ref

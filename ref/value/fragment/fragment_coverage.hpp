@@ -16,7 +16,7 @@
 #include "cases/model/profile.hpp"
 #include "cases/model/sample.hpp"
 #include "cases/model/triangle.hpp"
-#include "ref/coverage/setup.hpp"
+#include "ref/coverage/triangle_setups.hpp"
 #include "ref/number/plane_budget.hpp"
 #include "ref/position/limits.hpp"
 
@@ -63,15 +63,12 @@ class FragmentCoverage {
     const std::vector<value::Point<mpq_class>>& region(uint32_t t, uint32_t x, uint32_t y);
     // As of(), from rationals alone.
     PixelCoverage exact(uint32_t t, uint32_t x, uint32_t y);
-    const TriangleSetup& setup(uint32_t t);
+    const TriangleSetup& setup(uint32_t t) { return setups_[t]; }
 
   private:
     const cases::Case& case_;
-    Limits limits_;
-    cases::Profile profile_;
     const std::vector<cases::Triangle>& triangles_;
-    VertexBoxes boxes_;
-    std::vector<std::optional<TriangleSetup>> setups_;
+    TriangleSetups setups_;  // without alpha to coverage, which comes after the shader
     cases::PixelBlock block_of(uint32_t t, uint32_t x, uint32_t y) const {
         return cases::fragment_block(case_.draws[triangles_[t].draw], x, y);
     }

@@ -10,6 +10,7 @@
 #include "ref/number/fixed_point.hpp"
 #include "ref/number/rational.hpp"
 #include "ref/position/clip.hpp"
+#include "ref/position/position_detail.hpp"
 #include "ref/value/fragment/shading_rate.hpp"
 
 namespace ref::value {
@@ -119,28 +120,24 @@ std::optional<int64_t> snap_fast(float c, float w, float origin, float extent, i
 
 // The quantity of an attribute whose source is a sample built-in.
 bool set_sample_source(cases::Source source, Quantity& q) {
-    switch (source) {
-        case cases::Source::sample_mask_in:
-            q.kind = Kind::sample_mask;
-            q.rule = cases::rule::sample_mask_in;
-            return true;
-        case cases::Source::sample_id:
-            q.kind = Kind::sample_id;
-            q.rule = cases::rule::sample_id;
-            return true;
-        case cases::Source::sample_position:
-            q.kind = Kind::sample_position;
-            q.rule = cases::rule::sample_id;
-            return true;
-        case cases::Source::shading_rate:
-            q.kind = Kind::shading_rate;
-            q.rule = cases::rule::fragment_size_rate;
-            return true;
-        case cases::Source::vertex:
-        case cases::Source::barycentric:
-            break;
+    struct Row {
+        cases::Source source;
+        Kind kind;
+        std::string_view rule;
+    };
+    using enum cases::Source;
+    static constexpr Row kRows[] = {
+        {sample_mask_in, Kind::sample_mask, cases::rule::sample_mask_in},
+        {sample_id, Kind::sample_id, cases::rule::sample_id},
+        {sample_position, Kind::sample_position, cases::rule::sample_id},
+        {shading_rate, Kind::shading_rate, cases::rule::fragment_size_rate}};
+    const Row* const row = std::ranges::find(kRows, source, &Row::source);
+    if (row == std::end(kRows)) {
+        return false;
     }
-    return false;
+    q.kind = row->kind;
+    q.rule = row->rule;
+    return true;
 }
 
 // at-centroid is an input that is evaluated elsewhere, all others are functions of their own.
@@ -157,6 +154,47 @@ void set_probe(const cases::Attribute& attribute, bool multisampled, Quantity& q
     q.is_perspective = q.kind == Kind::perspective;
     q.kind = Kind::probe;
     q.probe = attribute.probe;
+}
+
+// `plane`: the next one that is free.
+Quantity attribute_quantity(const cases::Draw& draw, size_t a, uint32_t c, bool multisampled,
+                            uint32_t& plane) {
+    const cases::Attribute& attribute = draw.attributes[a];
+    Quantity q;
+    q.id = QuantityId::of_attribute(a, c);
+    if (set_sample_source(attribute.source, q)) {
+        return q;
+    }
+    switch (attribute.interpolation) {
+        case cases::Interpolation::smooth:
+            q.kind = Kind::perspective;
+            q.rule = cases::rule::interp_perspective;
+            q.plane = plane++;
+            break;
+        case cases::Interpolation::noperspective:
+            q.kind = Kind::linear;
+            q.rule = cases::rule::interp_linear;
+            q.plane = plane++;
+            break;
+        case cases::Interpolation::flat:
+            q.kind = Kind::flat;
+            q.rule = cases::rule::interp_flat;
+            break;
+    }
+    if (multisampled && q.kind != Kind::flat) {
+        q.at_sample = attribute.auxiliary == cases::Auxiliary::sample;
+        q.at_centroid = attribute.auxiliary == cases::Auxiliary::centroid;
+        q.rule = q.at_sample     ? cases::rule::interp_sample
+                 : q.at_centroid ? cases::rule::interp_centroid
+                                 : q.rule;
+    }
+    if (q.kind != Kind::flat) {
+        set_probe(attribute, multisampled, q);
+    }
+    if (attribute.source == cases::Source::barycentric) {
+        q.rule = cases::rule::barycentric_value;
+    }
+    return q;
 }
 
 }  // namespace
@@ -191,44 +229,8 @@ std::vector<Quantity> quantities(const cases::Draw& draw, const cases::Target& t
     }
     uint32_t plane = kPlaneDepth + 1;
     for (size_t a = 0; a < draw.attributes.size(); ++a) {
-        const cases::Attribute& attribute = draw.attributes[a];
-        for (uint32_t c = 0; c < attribute.components; ++c) {
-            Quantity q;
-            q.id = QuantityId::of_attribute(a, c);
-            if (set_sample_source(attribute.source, q)) {
-                all.push_back(q);
-                continue;
-            }
-            switch (attribute.interpolation) {
-                case cases::Interpolation::smooth:
-                    q.kind = Kind::perspective;
-                    q.rule = cases::rule::interp_perspective;
-                    q.plane = plane++;
-                    break;
-                case cases::Interpolation::noperspective:
-                    q.kind = Kind::linear;
-                    q.rule = cases::rule::interp_linear;
-                    q.plane = plane++;
-                    break;
-                case cases::Interpolation::flat:
-                    q.kind = Kind::flat;
-                    q.rule = cases::rule::interp_flat;
-                    break;
-            }
-            if (multisampled && q.kind != Kind::flat) {
-                q.at_sample = attribute.auxiliary == cases::Auxiliary::sample;
-                q.at_centroid = attribute.auxiliary == cases::Auxiliary::centroid;
-                q.rule = q.at_sample     ? cases::rule::interp_sample
-                         : q.at_centroid ? cases::rule::interp_centroid
-                                         : q.rule;
-            }
-            if (q.kind != Kind::flat) {
-                set_probe(attribute, multisampled, q);
-            }
-            if (attribute.source == cases::Source::barycentric) {
-                q.rule = cases::rule::barycentric_value;
-            }
-            all.push_back(q);
+        for (uint32_t c = 0; c < draw.attributes[a].components; ++c) {
+            all.push_back(attribute_quantity(draw, a, c, multisampled, plane));
         }
     }
     return all;
@@ -303,12 +305,10 @@ T coordinate_error(float c, float w, float origin, float extent) {
     if (is_transform_exact(c, w, origin, extent)) {
         return T(0.0);
     }
-    const T u(kUnitRoundoff);
     const T half(static_cast<double>(extent) / 2);
     const T offset = T(static_cast<double>(origin)) + half;
     const T t = from_float<T>(c) / from_float<T>(w) * half;
-    const T sum = T(4.0) * magnitude(t) + magnitude(offset) + T(2.0) * magnitude(T(t + offset));
-    T error = u * T(sum + T(1.0)) * T(T(1.0) + T(8.0) * u);
+    T error = rounding_bound(t, offset, T(t + offset), T(kUnitRoundoff));
     error =
         error + T(0x1p-120) * T(T(1.0) + magnitude(half)) * T(T(1.0) + magnitude(from_float<T>(c)));
     return std::abs(w) > 0x1p125F ? T(error + magnitude(t)) : error;

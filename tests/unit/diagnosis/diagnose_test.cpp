@@ -73,7 +73,7 @@ report::Run run_of(const Hypothesis& h, cases::Profile profile = cases::Profile:
     run.device.sample_locations = locations;
     Hypothesis right;
     for (const cases::Case& c : small_suite()) {
-        report::CaseRecord record = run::make_record(c);
+        report::CaseRecord record = run::planned_case(c);
         const cases::Case placed = ref::as_drawn(c, limits).value_or(c);
         std::optional<capture::Capture> drawn = diagnosis::draw(h, placed);
         if (!drawn) {
@@ -184,7 +184,7 @@ TEST(Diagnose, ComparesOnlyWhatWasDelivered) {
             if (c.blit || !c.target.has_instruments || c.target.color) {
                 continue;
             }
-            report::CaseRecord record = run::make_record(c);
+            report::CaseRecord record = run::planned_case(c);
             std::optional<capture::Capture> drawn = diagnosis::draw(fault, c);
             drawn = drawn ? drawn : diagnosis::draw(Hypothesis{}, c);
             record.drawn.not_judged = words;
@@ -212,7 +212,7 @@ TEST(Diagnose, ComparesPlanesThatADriverWouldNotDraw) {
         whole.target.has_instruments = true;
         const std::optional<capture::Capture> drawn = diagnosis::draw(fault, whole);
         ASSERT_TRUE(drawn);
-        report::CaseRecord record = run::make_record(c);
+        report::CaseRecord record = run::planned_case(c);
         run::judge_delivered(record, c, diff::judged_planes(c, *drawn, {"stencil"}), {kBits},
                              run.profile, run::KeepPictures::failed);
         run.cases.push_back(std::move(record));
@@ -307,7 +307,8 @@ TEST(Hypotheses, NoTwoAreOneThing) {
     // draw, in masked draws without a logical operation, in alpha to one with several samples, in
     // masks of the first draw where a later one has none, in triangles that a negated cull distance
     // culls, in viewports that begin elsewhere than scissors do, in pixels that an extra size adds
-    // beyond a bounding box.
+    // beyond a bounding box, in inputs that are evaluated at samples, in bits of the stencil that
+    // no draw may write.
     const std::set<std::pair<std::string, std::string>> other = {
         {"alpha-to-one-ignored", "alpha-to-one-multisampled"},
         {"floor-snapping", "snaps-toward-zero"},
@@ -318,6 +319,8 @@ TEST(Hypotheses, NoTwoAreOneThing) {
         {"fragment-grid-at-scissor", "fragment-grid-at-viewport"},
         {"layer-ignored", "layer-of-viewport"},
         {"logic-mask-ignored", "write-mask-ignored"},
+        {"samples-at-centre", "samples-in-pixel-centres"},
+        {"stencil-compare-unmasked", "stencil-masks-ignored"},
         {"stencil-faces-exchanged", "stencil-own-facing"},
         {"stencil-reference-unmasked", "stencil-stored-unmasked"},
         {"stencil-saturates", "stencil-wrap-stops-at-zero"},
@@ -358,7 +361,7 @@ report::Run run_of_part(const Spoil& spoil, const std::vector<cases::Case>& more
                 continue;
             }
             all.push_back(&c);
-            report::CaseRecord record = run::make_record(c);
+            report::CaseRecord record = run::planned_case(c);
             capture::Capture drawn = *diagnosis::draw(Hypothesis{}, c);
             spoil(c, drawn);
             run::judge(record, c, drawn, {}, {kBits}, run.profile, run::KeepPictures::failed);
@@ -605,7 +608,7 @@ TEST(Diagnose, NothingIsToldOfWrongSamplesHereAndThere) {
             seed = seed * 1664525U + 1013904223U;
             drawn.hits[(seed >> 8U) % drawn.hits.size()] += glm::vec4(1, 0, 0, 1);
         }
-        run.cases[k] = run::make_record(c);
+        run.cases[k] = run::planned_case(c);
         run::judge(run.cases[k], c, drawn, {}, {kBits}, run.profile, run::KeepPictures::failed);
         failed += run.cases[k].status == report::Status::fail ? 1U : 0U;
     }

@@ -102,10 +102,10 @@ vertices = [[0, 0], [8, 0], [0, 8]]
 )");
     const ref::Expectation e = ref::expect(c, {}, cases::Profile::vulkan);
     capture::Capture drawn = rasterizers::draw_by_reference(c);
-    EXPECT_TRUE(compare_to_first(c, e, drawn).ok());
+    EXPECT_TRUE(compare(c, e, drawn, Wanted::first_finding).ok());
     drawn.color[5] = {0, 0, 0, 0};
     drawn.hits = decltype(drawn.hits)();  // no memory is left of them
-    const Verdict verdict = compare_to_first(c, e, drawn);
+    const Verdict verdict = compare(c, e, drawn, Wanted::first_finding);
     EXPECT_EQ(verdict.error, "");
     ASSERT_EQ(verdict.findings.size(), 1U);
     EXPECT_EQ(verdict.findings[0].x, 1U);

@@ -198,15 +198,16 @@ void expect_same_of_shorter(const cases::Case& c, const ref::Expectation& e,
     for (diff::Finding& f : whole.findings) {
         f.ratio = 0;
     }
-    diff::Verdict bare = diff::compare_without_ratios(c, e, capture);
+    diff::Verdict bare = diff::compare(c, e, capture, diff::Wanted::findings_without_ratios);
     for (diff::Finding& f : bare.findings) {
         f.ratio = 0;
     }
     ASSERT_EQ(text_of(bare), text_of(whole)) << n;
     ASSERT_EQ(bare.groups, whole.groups) << n;
     ASSERT_EQ(bare.marks, whole.marks) << n;
-    ASSERT_EQ(symptoms_of(diff::compare_symptoms(c, e, capture)), symptoms_of(whole)) << n;
-    diff::Verdict first = diff::compare_to_first(c, e, capture);
+    ASSERT_EQ(symptoms_of(diff::compare(c, e, capture, diff::Wanted::symptoms)), symptoms_of(whole))
+        << n;
+    diff::Verdict first = diff::compare(c, e, capture, diff::Wanted::first_finding);
     ASSERT_EQ(first.findings.empty(), whole.findings.empty()) << n;
     whole.findings.resize(std::min(whole.findings.size(), size_t{1}));
     first.findings.resize(whole.findings.size());
@@ -237,7 +238,7 @@ TEST(ExhaustiveRunJudge, SymptomsAreThoseOfTheWholeComparison) {
             }
         }
         const diff::Verdict whole = diff::compare(c, e, capture);
-        const diff::Verdict symptoms = diff::compare_symptoms(c, e, capture);
+        const diff::Verdict symptoms = diff::compare(c, e, capture, diff::Wanted::symptoms);
         ASSERT_EQ(symptoms_of(symptoms), symptoms_of(whole)) << n;
         ASSERT_EQ(symptoms.marks, whole.marks) << n;
         wrong += whole.ok() ? 0U : 1U;

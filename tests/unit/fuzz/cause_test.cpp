@@ -64,7 +64,21 @@ TEST(Symptom, TextsAreReadBack) {
 }
 
 std::set<std::string> words(const char* text) {
-    return essentials(*cases::read_toml(text, "f"));
+    return to_texts(essentials(*cases::read_toml(text, "f")));
+}
+
+TEST(Essentials, AreReadFromTheirTexts) {
+    for (const char* text : {"several draws", "several colours", "several samples", "thin triangle",
+                             "several triangles", "behind the eye", "unequal w", "sloping depth",
+                             "relation doors", "draw.topology=triangle-fan", "draw.scissor",
+                             "draw.scissor beyond 32767", "stencil=true"}) {
+        EXPECT_EQ(to_text(parse_essential(text)), text);
+    }
+    EXPECT_EQ(parse_essential("several draws"), Essential{Trait::several_draws});
+    EXPECT_EQ(parse_essential("relation doors"), (Essential{Trait::relation, "doors"}));
+    EXPECT_EQ(parse_essential("draw.scissor beyond 32767"),
+              (Essential{Trait::far, "draw.scissor"}));
+    EXPECT_EQ(parse_essential("draw.cull=back"), (Essential{Trait::key, "draw.cull", "back"}));
 }
 
 TEST(Essentials, AreWhatAPlainCaseHasNot) {
@@ -131,10 +145,11 @@ TEST_F(LedgerTest, IsReadBack) {
     ledger.counts.missing = 3;
     Entry entry;
     entry.symptom = *parse_symptom("value of interp.hull [vulkan]");
-    entry.essentials = {"several samples"};
+    entry.essentials = {{Trait::several_samples}};
     entry.also = {{FindingKind::value, "interp.hull"}, {FindingKind::extra, "cover.outside"}};
     entry.text = "format = 1\n";
-    entry.needs = {"not with 1 sample"};
+    entry.needs = {"not with 1 sample", "not with the format rgba8-unorm"};
+    entry.needs_format = true;
     entry.undrawn = {"with 8 samples"};
     entry.passes = {"with 2 samples in place of 4"};
     entry.file = "found/001-interp.hull.toml";
@@ -154,6 +169,7 @@ TEST_F(LedgerTest, IsReadBack) {
     EXPECT_EQ(read->entries.front().also, entry.also);
     EXPECT_TRUE(read->entries.front().text.ends_with(
         "# It passes, or fails otherwise, with 1 sample.\n"
+        "# It passes, or fails otherwise, with the format rgba8-unorm.\n"
         "# The device draws nothing with 8 samples.\n"
         "# It passes with 2 samples in place of 4.\n"
         "# The reduction ended early: it may be larger than it has to be.\nformat = 1\n"));
@@ -167,8 +183,9 @@ TEST_F(LedgerTest, IsReadBack) {
     EXPECT_TRUE(read->entries.back().is_known);
     // What an older ledger lacks is nothing.
     std::string older = to_json(ledger);
-    for (const char* key : {"selectors", "suite", "cases_checksum", "expectations", "passes", "bug",
-                            "undrawn", "refused_changes", "numbers_without_case"}) {
+    for (const char* key :
+         {"selectors", "suite", "cases_checksum", "expectations", "passes", "bug", "undrawn",
+          "needs_format", "overflows", "refused_changes", "numbers_without_case"}) {
         const std::string name = "\"" + std::string(key) + "\":";
         for (size_t at = older.find(name); at != std::string::npos; at = older.find(name)) {
             older.replace(at, name.size(), "\"x\":");
@@ -179,6 +196,7 @@ TEST_F(LedgerTest, IsReadBack) {
     ASSERT_TRUE(read_older) << read_older.error().message;
     EXPECT_TRUE(read_older->selectors.empty());
     EXPECT_EQ(read_older->counts.refused, 0U);
+    EXPECT_TRUE(read_older->entries.front().needs_format);  // as the words of its needs say
 }
 
 TEST_F(LedgerTest, SaysWhatIsWrong) {

@@ -178,7 +178,7 @@ TEST(ChangedSource, ChangesReachStatesAndGeometries) {
         // The first of a group has its state alone, and a few others have geometries.
         for (uint64_t k = 0; k < (group % 32 == 0 ? 8U : 1U); ++k) {
             const std::set<std::string> more =
-                essentials_of(source.make(group * source.group_size() + k).text);
+                to_texts(facts_of(source.make(group * source.group_size() + k).text).essentials);
             words.insert(more.begin(), more.end());
         }
     }

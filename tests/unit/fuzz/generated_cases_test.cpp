@@ -116,7 +116,7 @@ TEST(GeneratedCases, BoundsHoldWhatIsAccepted) {
                     const size_t count = c.draws[triangle.draw].attributes.size();
                     for (size_t a = 0; a < count; ++a) {
                         const auto exact = values.ranges(hit.triangle, id, a);
-                        const auto outer = values.outer_ranges(hit.triangle, id, a);
+                        const auto outer = values.ranges(hit.triangle, id, a, true);
                         for (size_t n = 0; n < 4; ++n) {
                             const bool holds =
                                 !outer[n].is_promised ||

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "run/judge.hpp"
@@ -40,6 +41,7 @@ struct Device {
     std::multiset<uint64_t> drawn;
     size_t interrupted_at = SIZE_MAX;
     std::set<uint64_t> failing;
+    std::map<uint64_t, report::ErrorKind> errors;
 
     Clock::time_point now() const { return Clock::time_point(std::chrono::seconds(drawn.size())); }
     run::Session::Results draw(std::vector<cases::Case> cases,
@@ -47,7 +49,7 @@ struct Device {
         run::Session::Results results;
         bool goes_on = true;
         for (const cases::Case& c : cases) {
-            results.records.push_back(run::make_record(c));
+            results.records.push_back(run::planned_case(c));
         }
         for (size_t k = cases.size(); k-- > 0;) {
             results.interrupted = drawn.size() >= interrupted_at;
@@ -60,6 +62,11 @@ struct Device {
             const uint64_t number = std::stoull(cases[k].id);
             drawn.insert(number);
             record.status = report::Status::pass;
+            if (const auto error = errors.find(number); error != errors.end()) {
+                record.status = report::Status::error;
+                record.error_kind = error->second;
+                record.reason = "in any words";
+            }
             // Candidates of a reduction have small numbers, too.
             if (failing.contains(number)) {
                 record.status = report::Status::fail;
@@ -170,6 +177,25 @@ TEST(Hunt, WhatWaitsThroughABrokenDoorIsKnown) {
         EXPECT_THAT(hunt.waiting(), SizeIs(is_broken ? 1 : 2));
         EXPECT_EQ(hunt.counts().through_broken_doors, is_broken ? 1U : 0U);
     }
+}
+
+TEST(Hunt, CountsErrorsByTheirKindWhateverTheySay) {
+    Device device;
+    device.errors = {{1, report::ErrorKind::shows_nothing},
+                     {2, report::ErrorKind::shows_nothing},
+                     {3, report::ErrorKind::not_built},
+                     {4, report::ErrorKind::other}};
+    HuntOptions options;
+    options.most_cases = 16;
+    Hunt hunt = hunt_on(device, options);
+    while (hunt.step() == Hunt::State::goes_on) {
+    }
+    EXPECT_EQ(hunt.counts().empty, 2U);
+    EXPECT_EQ(hunt.counts().unsupported, 1U);
+    EXPECT_EQ(hunt.counts().unjudged, 1U);
+    EXPECT_EQ(hunt.counts().drawn, 12U);
+    ASSERT_THAT(hunt.unjudged(), SizeIs(1));
+    EXPECT_EQ(hunt.unjudged()[0].second, "in any words");
 }
 
 TEST(Hunt, EndsWithinAChunkWhenItsTimeIsOver) {

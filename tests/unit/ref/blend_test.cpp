@@ -85,6 +85,31 @@ TEST(Store, HalvesAndFloats) {
     });
 }
 
+// What a hunt tells colours by that a format of 16-bit floats cannot hold.
+TEST(Store, KnowsWhatMayOverflow) {
+    const Unit unit{ColorFormat::rgba16_float, Profile::vulkan};
+    const auto may_overflow = [&](double low, double high) {
+        Color color = color_of({0, 0, 0, 0});
+        color[3] = {mpq_class(low), mpq_class(high)};
+        return unit.may_overflow(color);
+    };
+    EXPECT_TRUE(may_overflow(65504, 131072));
+    EXPECT_TRUE(may_overflow(65504, 81920));
+    EXPECT_TRUE(may_overflow(-81920, -65504));
+    // Blending may end within the range, or far beyond it.
+    EXPECT_TRUE(may_overflow(-4514752, -65472));
+    EXPECT_FALSE(may_overflow(-4514752, 65472));
+    EXPECT_FALSE(may_overflow(-4514752, -1));
+    EXPECT_FALSE(may_overflow(0, 70000));
+    EXPECT_FALSE(may_overflow(1, 1));
+    EXPECT_FALSE(may_overflow(-65504, -65472));
+    for (const uint32_t code : {0x7fffU, 0x7d00U, 0xfd00U, 0x7c00U}) {
+        EXPECT_TRUE(unit.has_overflown({0, 0, code, 0})) << code;
+    }
+    EXPECT_FALSE(unit.has_overflown({0, 0x7bff, 0x3c00, 0}));
+    EXPECT_FALSE((Unit{ColorFormat::rgba8_unorm, Profile::vulkan}.has_overflown({255, 0, 0, 0})));
+}
+
 // Beyond the largest half, 65504 = (2 - 2^-10) 2^15: that one, or infinity, of the value's sign.
 // The exponent of a device that adds 15 and forgets the limit runs into NaN or back to small
 // numbers.

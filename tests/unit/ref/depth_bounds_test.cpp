@@ -10,6 +10,7 @@
 
 #include "cases/model/sample.hpp"
 #include "ref/expectation/expectation.hpp"
+#include "ref/stencil/exact.hpp"
 #include "tests/unit/ref/same_expectations.hpp"
 #include "tests/unit/ref/value_case.hpp"
 

@@ -9,6 +9,7 @@
 #include <array>
 #include <optional>
 
+#include "ref/value/accept/failing.hpp"
 #include "ref/value/accept/probe.hpp"
 #include "ref/value/accept/reach.hpp"
 #include "ref/value/accept/set_bounds.hpp"

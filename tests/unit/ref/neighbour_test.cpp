@@ -3,7 +3,7 @@
 //
 // What a device would draw that takes something of another colour target, and the rule that it then
 // breaks.
-#include "ref/color/neighbour.hpp"
+#include "cases/fault/neighbour.hpp"
 
 #include <gtest/gtest.h>
 
@@ -54,24 +54,24 @@ struct JudgedNeighbour {
 
 TEST(Neighbour, OnlyWhatDiffersIsAChange) {
     cases::Case c = three_targets(0);
-    EXPECT_TRUE(color::take_from(c, 1, color::Taken::state));
+    EXPECT_TRUE(cases::take_from(c, 1, cases::Taken::state));
     EXPECT_FALSE(c.draws[0].color.blend);
     EXPECT_EQ(c.draws[0].color.write_mask, 2);
-    EXPECT_FALSE(color::take_from(c, 1, color::Taken::state));
-    EXPECT_TRUE(color::take_from(c, 1, color::Taken::color));
+    EXPECT_FALSE(cases::take_from(c, 1, cases::Taken::state));
+    EXPECT_TRUE(cases::take_from(c, 1, cases::Taken::color));
     EXPECT_EQ(c.draws[0].color.value.x, 5);
-    EXPECT_TRUE(color::take_from(c, 1, color::Taken::clear));
+    EXPECT_TRUE(cases::take_from(c, 1, cases::Taken::clear));
     EXPECT_EQ(c.target.color->clear.x, 8);
-    EXPECT_FALSE(color::take_from(c, 1, color::Taken::all));
+    EXPECT_FALSE(cases::take_from(c, 1, cases::Taken::all));
 }
 
 TEST(Neighbour, ClassesAreKeptApart) {
     cases::Case c = three_targets(2);
-    EXPECT_FALSE(color::take_from(c, 0, color::Taken::color));
-    EXPECT_FALSE(color::take_from(c, 0, color::Taken::clear));
-    EXPECT_FALSE(color::take_from(c, 0, color::Taken::all));
-    EXPECT_FALSE(color::take_from(c, 0, color::Taken::state));  // which blends, as integers do not
-    EXPECT_TRUE(color::take_from(c, 1, color::Taken::state));   // which masks
+    EXPECT_FALSE(cases::take_from(c, 0, cases::Taken::color));
+    EXPECT_FALSE(cases::take_from(c, 0, cases::Taken::clear));
+    EXPECT_FALSE(cases::take_from(c, 0, cases::Taken::all));
+    EXPECT_FALSE(cases::take_from(c, 0, cases::Taken::state));  // which blends, as integers do not
+    EXPECT_TRUE(cases::take_from(c, 1, cases::Taken::state));   // which masks
     EXPECT_FALSE(c.draws[0].color.blend);
 }
 

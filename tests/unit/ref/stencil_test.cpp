@@ -9,6 +9,7 @@
 #include <random>
 
 #include "ref/expectation/expectation.hpp"
+#include "ref/stencil/exact.hpp"
 #include "ref/stencil/outcome.hpp"
 #include "tests/unit/ref/same_expectations.hpp"
 #include "tests/unit/ref/value_case.hpp"

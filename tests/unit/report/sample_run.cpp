@@ -92,8 +92,7 @@ Geometry make_geometry() {
 
 SampleEvidence make_evidence() {
     SampleEvidence e;
-    e.x = 2;
-    e.y = 4;
+    e.at = {2, 4, 0};
     e.writer = "triangle 0 of draw 0";
     e.allowed = "1";
     e.hits = "1 front, 0 back";

@@ -28,7 +28,7 @@ report::CaseRecord drawn_with(const std::string& file, const std::string& leaf,
         if (c.id.ends_with(leaf)) {
             software::Device device;
             device.fault = fault;
-            report::CaseRecord record = make_record(c);
+            report::CaseRecord record = planned_case(c);
             judge(record, c, software::captured(c, device), {}, {8}, cases::Profile::direct3d,
                   KeepPictures::failed);
             return record;
@@ -97,7 +97,7 @@ TEST(Evidence, HasNoDepthThatTheDrawDoesNotWrite) {
         for (size_t k = 0; k < wrong.hits.size(); ++k) {
             wrong.frag_coord[k].z += wrong.hits[k].x + wrong.hits[k].y > 0 ? 0.125F : 0.0F;
         }
-        report::CaseRecord record = make_record(c);
+        report::CaseRecord record = planned_case(c);
         judge(record, c, wrong, {}, {8}, cases::Profile::direct3d, KeepPictures::failed);
         ASSERT_FALSE(record.evidence.samples.empty());
         bool has_depth = false;

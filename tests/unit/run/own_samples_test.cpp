@@ -31,7 +31,7 @@ report::CaseRecord judged(const cases::Case& c, const ref::Limits& limits) {
     placed.target.sample_locations = kOwn;
     capture::Capture drawn = software::captured(placed, {});
     drawn.target = c.target;
-    report::CaseRecord record = make_record(c);
+    report::CaseRecord record = planned_case(c);
     judge(record, c, drawn, {}, limits, cases::Profile::direct3d, KeepPictures::failed);
     return record;
 }
@@ -80,7 +80,7 @@ TEST(OwnSamples, OfAnotherRenderer) {
     const auto status_at = [&](const cases::SampleLocations& locations) {
         ref::Limits limits;
         limits.sample_locations = {locations};
-        report::CaseRecord record = make_record(c);
+        report::CaseRecord record = planned_case(c);
         judge_delivered(record, c, planes, limits, cases::Profile::direct3d, KeepPictures::failed);
         return record.status;
     };
@@ -137,7 +137,7 @@ TEST(OwnDepth, IsJudgedAsItIsDrawn) {
             capture::Capture drawn = software::captured(*own, {});
             drawn.target = c.target;
             const auto status = [&](const ref::Limits& of) {
-                report::CaseRecord record = make_record(c);
+                report::CaseRecord record = planned_case(c);
                 judge(record, c, drawn, {}, of, cases::Profile::direct3d, KeepPictures::failed);
                 return record.status;
             };

@@ -477,7 +477,7 @@ TEST(CaseCheck, Attribute) {
     m.limits.maxImageDimension2D = 4096;
     c.draws[0].attributes.push_back(cases::Attribute{});
     c.draws[0].attributes[1].source = cases::Source::sample_id;
-    expect_rejected(m, c, error,
+    expect_rejected(m, c, Rendered::Status::not_built,
                     "a draw asks for a combination of shader features that no shader was built "
                     "for; put them into different draws");
 }
