@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "fuzz/document/document.hpp"
-#include "fuzz/reduce/step.hpp"
+#include "fuzz/reduce/steps.hpp"
 
 namespace fuzz {
 

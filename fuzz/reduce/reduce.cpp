@@ -17,7 +17,7 @@
 #include "cases/base/parallel.hpp"
 #include "cases/load/loader.hpp"
 #include "fuzz/reduce/measure.hpp"
-#include "fuzz/reduce/step.hpp"
+#include "fuzz/reduce/steps.hpp"
 
 namespace fuzz {
 

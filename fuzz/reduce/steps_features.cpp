@@ -9,7 +9,7 @@
 
 #include "cases/base/counted.hpp"
 #include "fuzz/reduce/measure.hpp"
-#include "fuzz/reduce/step.hpp"
+#include "fuzz/reduce/steps.hpp"
 
 namespace fuzz {
 

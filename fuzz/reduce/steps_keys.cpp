@@ -10,7 +10,7 @@
 #include <array>
 
 #include "fuzz/reduce/path.hpp"
-#include "fuzz/reduce/step.hpp"
+#include "fuzz/reduce/steps.hpp"
 
 namespace fuzz {
 

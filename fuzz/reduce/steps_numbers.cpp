@@ -13,7 +13,7 @@
 
 #include "fuzz/reduce/measure.hpp"
 #include "fuzz/reduce/path.hpp"
-#include "fuzz/reduce/step.hpp"
+#include "fuzz/reduce/steps.hpp"
 
 namespace fuzz {
 

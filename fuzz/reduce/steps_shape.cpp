@@ -8,7 +8,7 @@
 #include <set>
 
 #include "fuzz/reduce/draw_shape.hpp"
-#include "fuzz/reduce/step.hpp"
+#include "fuzz/reduce/steps.hpp"
 
 namespace fuzz {
 

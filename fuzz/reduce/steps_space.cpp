@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "fuzz/reduce/measure.hpp"
-#include "fuzz/reduce/step.hpp"
+#include "fuzz/reduce/steps.hpp"
 #include "fuzz/reduce/viewport.hpp"
 
 namespace fuzz {

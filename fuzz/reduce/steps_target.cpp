@@ -13,7 +13,7 @@
 #include "cases/load/loader.hpp"
 #include "cases/model/triangle.hpp"
 #include "fuzz/reduce/measure.hpp"
-#include "fuzz/reduce/step.hpp"
+#include "fuzz/reduce/steps.hpp"
 #include "fuzz/reduce/viewport.hpp"
 
 namespace fuzz {

@@ -34,7 +34,7 @@ Interval point_of_lacking(uint32_t k) {
     return color::point(k == 3 ? 1 : 0);
 }
 
-mpq_class rational(const BlitCoordinate& u) {
+mpq_class ratio_of(const BlitCoordinate& u) {
     return fraction(mpz_class(u.numerator), mpz_class(u.denominator));
 }
 
@@ -100,7 +100,7 @@ std::vector<BlitReference::TexelRange> BlitReference::spans_of(const Axis& axis,
                                                                const mpq_class& error) const {
     std::vector<TexelRange> spans;
     for (uint32_t i = 0; i < size; ++i) {
-        const mpq_class u = rational(axis.at(i));
+        const mpq_class u = ratio_of(axis.at(i));
         spans.push_back({floor_of(u - error).get_si(), floor_of(u + error).get_si()});
     }
     return spans;
@@ -203,7 +203,7 @@ bool BlitReference::allows_linear(uint32_t x, uint32_t y, const TexelCodes& got,
                                   bool by_region) const {
     const auto corners = [&](const Axis& axis, uint32_t i) {
         const mpq_class step(1, 1U << kSubTexelBits);
-        return corners_of(rational(axis.at(i)) - mpq_class(1, 2), error_of(axis, profile) + step);
+        return corners_of(ratio_of(axis.at(i)) - mpq_class(1, 2), error_of(axis, profile) + step);
     };
     const std::vector<mpq_class> columns = corners(across_, x);
     const std::vector<mpq_class> rows = corners(down_, y);
@@ -362,8 +362,8 @@ TexelCodes BlitReference::nominal(uint32_t x, uint32_t y) const {
     }
     const bool linear = blit_.filter == BlitFilter::linear;
     const mpq_class shift(linear ? 1 : 0, 2);
-    const mpq_class column = rational(across_.at(x)) - shift;
-    const mpq_class row = rational(down_.at(y)) - shift;
+    const mpq_class column = ratio_of(across_.at(x)) - shift;
+    const mpq_class row = ratio_of(down_.at(y)) - shift;
     const int64_t i = floor_of(column).get_si();
     const int64_t j = floor_of(row).get_si();
     const TexelCodes& source = texel(i, j, false);
@@ -401,8 +401,8 @@ std::string BlitReference::explain(uint32_t x, uint32_t y) const {
     const BlitCoordinate u = across_.at(x);
     const BlitCoordinate v = down_.at(y);
     return fmt::format("u = {}/{} = {}, v = {}/{} = {} in texels of the source, filter {}",
-                       u.numerator, u.denominator, rational(u).get_d(), v.numerator, v.denominator,
-                       rational(v).get_d(), cases::word_of(blit_.filter));
+                       u.numerator, u.denominator, ratio_of(u).get_d(), v.numerator, v.denominator,
+                       ratio_of(v).get_d(), cases::word_of(blit_.filter));
 }
 
 }  // namespace ref
