@@ -58,8 +58,7 @@ TEST(ColorTargets, HaveStatesOfTheirOwn) {
     const cases::Case c = three_colors("attachments = \"color\"");
     const PipelineKey key = pipeline_key(c, c.draws[0], {});
     EXPECT_EQ(key.color, shaders::ColorKind::several);
-    ColorState state;
-    color_state(key, state);
+    const ColorState state(key);
     ASSERT_EQ(state.info.attachmentCount, 3U);
     EXPECT_EQ(state.blends[0].blendEnable, VK_TRUE);
     EXPECT_EQ(state.blends[0].srcColorBlendFactor, VK_BLEND_FACTOR_CONSTANT_COLOR);

@@ -23,15 +23,13 @@ const VkPipelineRasterizationConservativeStateCreateInfoEXT* conservative_of(
 
 TEST(ConservativeState, IsThatOfTheDraw) {
     PipelineKey key;
-    RasterizationState plain;
-    rasterization_state(key, plain);
+    const RasterizationState plain(key);
     EXPECT_EQ(conservative_of(plain), nullptr);
     key.conservative = cases::Conservative::overestimate;
     key.extra_bits = 0x3e800000U;  // 0.25
     key.provoking = cases::ProvokingVertex::last;
     key.depth_clip = true;
-    RasterizationState over;
-    rasterization_state(key, over);
+    const RasterizationState over(key);
     const auto* state = conservative_of(over);
     ASSERT_NE(state, nullptr);
     EXPECT_EQ(state->conservativeRasterizationMode,
@@ -39,8 +37,7 @@ TEST(ConservativeState, IsThatOfTheDraw) {
     EXPECT_EQ(state->extraPrimitiveOverestimationSize, 0.25F);
     key.conservative = cases::Conservative::underestimate;
     key.extra_bits = 0;
-    RasterizationState under;
-    rasterization_state(key, under);
+    const RasterizationState under(key);
     ASSERT_NE(conservative_of(under), nullptr);
     EXPECT_EQ(conservative_of(under)->conservativeRasterizationMode,
               VK_CONSERVATIVE_RASTERIZATION_MODE_UNDERESTIMATE_EXT);
