@@ -51,7 +51,7 @@ struct Finding {
     std::string door = {};               // of a picture through a door that differs: its word
     // Of what the whole case gave, as a query's count: no sample is wrong, and the place is (0, 0).
     bool of_case = false;
-    // Of a colour: it may lie beyond the range of binary16, and is no number. No journal holds it.
+    // Of a colour: it may lie beyond the range of binary16, and is no number.
     bool overflows = false;
     static void fields(auto&& visit, auto&... f) {
         visit("kind", f.kind...);
@@ -68,6 +68,7 @@ struct Finding {
         visit("ratio", f.ratio...);
         visit({"door", cases::kLeftOutIfEmpty}, f.door...);
         visit({"of_case", cases::kLeftOutIfEmpty}, f.of_case...);
+        visit({"overflows", cases::kNotReported}, f.overflows...);
     }
 };
 
