@@ -36,7 +36,7 @@ enum Mark : unsigned {
     kNotExported = 2,     // it does not alter what a case draws
     kOlderLackIt = 4,     // journals of earlier versions do not hold it
     kLeftOutIfEmpty = 8,  // journals hold it only where it is not as constructed
-    kNotReported = 16,    // of a renderer: neither journal nor results hold it
+    kNotReported = 16,    // neither journal nor results hold it
 };
 
 struct Field {
