@@ -209,10 +209,10 @@ TEST(SameCause, WhatAReducedCaseTellsFirstIsItsCause) {
         entry("value of depth.linear [practice]", {"draw.depth.bias.constant", "sloping depth"});
     Entry fresh = entry("value of stencil.operation [direct3d]",
                         {"draw.depth.bias.constant", "draw.stencil.front.pass=increment-wrap"});
-    fresh.text =
+    fresh.set_text(
         "format = 1\ndescription = \"d\"\nrules = [\"cover.inside\"]\n[target]\nsize = [4, 4]\n"
         "stencil = true\n[[draw]]\nstencil = { front = { pass = \"increment-wrap\" } }\n"
-        "depth = { bias = { constant = -65536 } }\nvertices = [[0, 0, 0.25], [4, 0], [0, 4]]\n";
+        "depth = { bias = { constant = -65536 } }\nvertices = [[0, 0, 0.25], [4, 0], [0, 4]]\n");
     EXPECT_FALSE(is_same_cause(known, fresh));
     fresh.shown_first = parse_symptom("value of depth.linear [practice]");
     EXPECT_TRUE(is_same_cause(known, fresh));
