@@ -545,6 +545,8 @@ void declare(CLI::App& app, FuzzOptions& o) {
 // A hunt that goes on has the seed, shard and profile that it began with; where it ends, which
 // device of that name draws and what else is known may be said anew.
 void check(const CLI::App& fuzz, const FuzzOptions& o, const Words& words) {
+    check_alternatives(fuzz, "--print",
+                       {"--cases", "--time", "--shard", "--known", "--resume", "--output"});
     const auto refused = [](const std::string& what) {
         throw usage_error(
             "--resume goes on with the cases, seed, shard, profile and folder of the hunt, so " +
@@ -563,8 +565,6 @@ void check(const CLI::App& fuzz, const FuzzOptions& o, const Words& words) {
     if (o.run.no_expect && !o.run.expect.empty()) {
         throw usage_error("--expect and --no-expect exclude each other", "fuzz");
     }
-    check_alternatives(fuzz, "--print",
-                       {"--cases", "--time", "--shard", "--known", "--resume", "--output"});
 }
 
 }  // namespace
