@@ -281,18 +281,19 @@ int run_worker(capture::RendererKinds renderers) {
         return report::kExitUsage;
     }
     const char* list = std::getenv("EDGECASE_FAULT");
-    const cases::Expected<std::vector<Fault>> faults = parse_faults(list != nullptr ? list : "");
-    if (!faults) {
-        send(FrameType::no_device,
-             encode(capture::Failure{capture::Stage::loader, faults.error().message, {}, {}}));
-        return report::kExitUsage;
-    }
-    if (has_fault(*faults, FaultKind::segv_at_start, "")) {
+    const auto parsed = parse_faults(list != nullptr ? list : "");
+    const std::vector<Fault> faults = parsed.value_or(std::vector<Fault>());
+    if (has_fault(faults, FaultKind::segv_at_start, "")) {
         commit(FaultKind::segv);
     }
-    if (has_fault(*faults, FaultKind::hang_at_start, "")) {
+    if (has_fault(faults, FaultKind::hang_at_start, "")) {
         commit(FaultKind::hang);
     }
+    // A worker answers what it was asked; one that ended first would look like one that died.
+    const std::string refused = !parsed ? parsed.error().message
+                                : has_fault(faults, FaultKind::no_device, "")
+                                    ? "no device, on purpose (EDGECASE_FAULT)"
+                                    : "";
     WorkerOptions options;
     SharedWriter shared(kSharedFd);
     if (const Fd null(::open("/dev/null", O_RDONLY | O_CLOEXEC));
@@ -310,14 +311,13 @@ int run_worker(capture::RendererKinds renderers) {
             }
             options = *decoded;
         } else if (frame->type == FrameType::list_devices) {
-            const auto devices = list_devices(renderers, options.device);
+            const auto devices =
+                parsed ? list_devices(renderers, options.device) : no_device(refused);
             send(devices ? FrameType::devices : FrameType::no_device,
                  devices ? encode(*devices) : encode(devices.error()));
         } else if (frame->type == FrameType::hello) {
-            auto made = make_renderer(renderers, options.device);
-            if (has_fault(*faults, FaultKind::no_device, "")) {
-                made = no_device("no device, on purpose (EDGECASE_FAULT)");
-            }
+            auto made =
+                refused.empty() ? make_renderer(renderers, options.device) : no_device(refused);
             if (!made) {
                 send(FrameType::no_device, encode(made.error()));
                 continue;
@@ -332,7 +332,7 @@ int run_worker(capture::RendererKinds renderers) {
             if (options.only_asks) {
                 answer_what_is_lacking(*renderer, *request);
             } else {
-                render_batch(*renderer, *request, *faults, shared);
+                render_batch(*renderer, *request, faults, shared);
             }
         } else {
             return report::kExitInternal;

@@ -6,7 +6,8 @@ import unittest
 
 from support import CASE, SOURCE, ProgramTest
 
-COMMANDS = ["run", "gtest", "list", "lint", "explain", "render", "export", "diff", "doctor", "bench", "report", "compare", "expect", "completion", "man", "version"]
+COMMANDS = ["run", "gtest", "list", "lint", "explain", "render", "export", "diff", "diagnose", "doctor", "doors", "bench", "fuzz", "reduce", "probe", "report",
+            "compare", "expect", "completion", "man", "version"]
 
 
 class Usage(ProgramTest):

@@ -469,7 +469,7 @@ class Known(FuzzTest):
         self.assertEqual(len([c for c in self.ledger("next")["causes"] if c["is_known"]]), len(ledger["causes"]))
         # A fault beside them that breaks the same rule in the same way, but needs neither several samples nor a scissor
         # that is far away, is told.
-        self.layered(*start, "--cases=2048", "--known", "known", "-o", "faulty", fault="scissor-wider", check=1)
+        self.layered(*start, "--cases=2048", "--seed=3", "--known", "known", "-o", "faulty", fault="scissor-wider", check=1)
         alike = {c["symptom"] for c in known if "of scissor.half-open" in c["symptom"]}
         told = [c for c in self.ledger("faulty")["causes"] if not c["is_known"] and c["symptom"] in alike]
         self.assertTrue(told, self.ledger("faulty")["causes"])

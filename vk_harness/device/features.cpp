@@ -3,7 +3,6 @@
 #include "vk_harness/device/features.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "vk_harness/limits/required_limits.hpp"
 
@@ -74,13 +73,13 @@ struct EnabledFeatures::Table {
         bool* has;
         std::vector<VkBool32*> all;
     };
-    static constexpr uint32_t kNever = std::numeric_limits<uint32_t>::max();
+    static constexpr uint64_t kNever = uint64_t{1} << 32U;  // beyond every version
     struct Row {
         std::vector<Base*> structures;  // none: what VkPhysicalDeviceFeatures has
         std::vector<const char*> extensions;
         std::vector<Feature> features;
-        uint32_t core_since = kNever;    // without the extensions
-        uint32_t from = 0, to = kNever;  // versions in which they are looked at
+        uint64_t core_since = kNever;    // without the extensions
+        uint64_t from = 0, to = kNever;  // versions in which they are looked at
 
         bool is_offered(const Capabilities& c) const {
             return c.api_version >= from && c.api_version < to &&
