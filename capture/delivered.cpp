@@ -8,7 +8,7 @@ namespace capture {
 
 bool Delivered::is_empty() const {
     return detail == HitDetail::none && draws.empty() && frag_coord.empty() && depth.empty() &&
-           color.empty() &&
+           color.empty() && stencil.empty() &&
            std::all_of(attributes.begin(), attributes.end(),
                        [](const auto& plane) { return plane.empty(); });
 }

@@ -33,6 +33,7 @@ struct Delivered {
     std::vector<float> depth;
     std::array<std::vector<glm::vec4>, cases::kMaxAttributes> attributes;
     std::vector<ColorCodes> color;  // stored codes, Target::color
+    std::vector<uint32_t> stencil;  // stored values
 
     bool is_empty() const;
 };

@@ -218,19 +218,11 @@ std::string number_text(const ref::CountBounds& bounds) {
 // What the queries count of a sample.
 std::string counted_text(const cases::Case& c, const ref::Expectation& expectation, size_t index) {
     std::string text;
-    const ref::SampleExpectation& sample = expectation.samples[index];
-    const std::span<const ref::CountedDraw> counted = expectation.counted_of(sample);
     for (uint32_t draw = 0; draw < c.draws.size(); ++draw) {
         if (!cases::is_occlusion(c.draws[draw].query)) {
             continue;
         }
-        const auto found = std::ranges::find(counted, draw, &ref::CountedDraw::draw);
-        ref::CountBounds bounds;
-        if (found != counted.end()) {
-            bounds =
-                ref::counted_at(counted, static_cast<size_t>(found - counted.begin()),
-                                sample.hits.total_min, sample.hits.total_max, expectation.profile);
-        }
+        const ref::CountBounds bounds = ref::counted_at(expectation, c, index, draw, {});
         text += fmt::format("the query of draw {} counts {} here\n", draw, number_text(bounds));
     }
     return text;
@@ -239,7 +231,7 @@ std::string counted_text(const cases::Case& c, const ref::Expectation& expectati
 // What the queries give in the end.
 std::string queries_text(const cases::Case& c, const ref::Expectation& expectation) {
     std::string text;
-    const std::vector<ref::CountBounds> all = ref::query_bounds(c, expectation, ref::HitsAt());
+    const std::vector<ref::CountBounds> all = ref::query_bounds(c, expectation, ref::ShownAt());
     for (size_t draw = 0; draw < all.size(); ++draw) {
         const std::string number = number_text(all[draw]);
         const std::string_view statistic = cases::word_of(c.draws[draw].query);

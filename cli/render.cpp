@@ -125,7 +125,7 @@ Json triangles_json(const ref::Expectation& e) {
 // bound.
 Json queries_json(const Reference& r) {
     Json list = Json::array();
-    const std::vector<ref::CountBounds> all = ref::query_bounds(r.c, r.expectation, ref::HitsAt());
+    const std::vector<ref::CountBounds> all = ref::query_bounds(r.c, r.expectation, ref::ShownAt());
     for (size_t draw = 0; draw < all.size(); ++draw) {
         const cases::Query query = r.c.draws[draw].query;
         if (query == cases::Query::none) {

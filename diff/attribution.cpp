@@ -23,13 +23,16 @@ std::string range(uint32_t low, uint32_t high) {
                            : fmt::format("{} to {}", low, high);
 }
 
+using Detail = ref::path::SeenHits::Detail;
+
 std::string hits_text(uint32_t front, uint32_t back, bool by_face) {
     return by_face ? fmt::format("{} front, {} back", front, back)
                    : fmt::format("{}", front + back);
 }
 
-bool faces_matter(const ref::HitBounds& b, uint32_t front, uint32_t back) {
-    return (b.front_max > 0 || front > 0) && (b.back_max > 0 || back > 0);
+bool faces_matter(const ref::HitBounds& b, const ref::path::SeenHits& seen) {
+    return seen.detail == Detail::faces && (b.front_max > 0 || seen.front > 0) &&
+           (b.back_max > 0 || seen.back > 0);
 }
 
 }  // namespace
@@ -73,13 +76,6 @@ size_t Attribution::index_of(const Finding& finding) const {
     return cases::index_of(case_.target, sample_of(finding));
 }
 
-void Attribution::level_hits(Finding& finding, uint32_t front, uint32_t back) {
-    const size_t index = index_of(finding);
-    finding.level = loosest_wrong(expectation_.profile, [&](cases::Profile profile) {
-        return !at(profile, index).samples[index].hits.allows(front, back);
-    });
-}
-
 void Attribution::attribute_writer(Finding& finding,
                                    const std::function<bool(const cases::Triangle&)>& wrote) {
     const size_t index = index_of(finding);
@@ -112,10 +108,13 @@ void Attribution::attribute_writer(Finding& finding,
     like_writer_.insert_or_assign(finding.level, finding);
 }
 
-void Attribution::attribute_hits(Finding& finding, uint32_t front, uint32_t back,
+void Attribution::attribute_hits(Finding& finding, const ref::path::SeenHits& seen,
                                  const LastHit& last) {
-    level_hits(finding, front, back);
-    attribute_at_level(finding, front, back, last);
+    const size_t index = index_of(finding);
+    finding.level = loosest_wrong(expectation_.profile, [&](cases::Profile profile) {
+        return !at(profile, index).samples[index].hits.allows(seen);
+    });
+    attribute_at_level(finding, seen, last);
 }
 
 void Attribution::attribute_color(Finding& finding, uint32_t hits, cases::Profile level,
@@ -126,7 +125,7 @@ void Attribution::attribute_color(Finding& finding, uint32_t hits, cases::Profil
     const ref::HitBounds asked = at(level, index).samples[index].hits;
     if (hits < asked.total_min || hits > asked.total_max) {
         const uint32_t front = std::min(hits, most);
-        attribute_at_level(finding, front, hits - front, {});
+        attribute_at_level(finding, {Detail::faces, front, hits - front}, {});
     } else if (triangle) {
         attribute_triangle(finding, *triangle);
     } else {
@@ -155,21 +154,25 @@ void Attribution::attribute_triangle(Finding& finding, uint32_t triangle) {
     like_triangle_.insert_or_assign(like, finding);
 }
 
-void Attribution::attribute_at_level(Finding& finding, uint32_t front, uint32_t back,
+void Attribution::attribute_at_level(Finding& finding, const ref::path::SeenHits& seen,
                                      const LastHit& last) {
     const size_t index = index_of(finding);
     const ref::HitBounds asked = at(finding.level, index).samples[index].hits;
-    const bool by_face = faces_matter(asked, front, back);
-    finding.expected = to_text(asked);
+    const bool by_face = faces_matter(asked, seen);
+    finding.expected =
+        seen.detail == Detail::faces ? to_text(asked) : range(asked.total_min, asked.total_max);
     if (by_face && asked.is_decided()) {
         finding.expected = hits_text(asked.front_min, asked.back_min, true);
     }
-    finding.got = hits_text(front, back, by_face);
+    finding.got = hits_text(seen.front, seen.back, by_face);
+    if (seen.detail == Detail::any) {
+        finding.got = seen.front > 0 ? "some" : "none";
+    }
 
     // The writer is asked where there is a hit too many. The case bounds how many draws there are,
     // not what a broken device says.
     const bool is_blamed =
-        front + back > asked.total_max && last.wrote && last.draw < case_.draws.size();
+        seen.total() > asked.total_max && last.wrote && last.draw < case_.draws.size();
     const uint32_t draw = is_blamed ? last.draw : ~uint32_t{0};
     const std::string key =
         fmt::format("{} {} {} {}|{}", static_cast<int>(finding.kind),
@@ -188,7 +191,7 @@ void Attribution::attribute_at_level(Finding& finding, uint32_t front, uint32_t 
         finding.why = "as at " + cases::pixel_text(case_.target, sample_of(*earlier));
         return;
     }
-    explain_hits(finding, asked, front + back, is_blamed ? last : LastHit{});
+    explain_hits(finding, asked, seen.total(), is_blamed ? last : LastHit{});
     ++explained_;
     like_.insert_or_assign(key, finding);
     alike_.insert_or_assign(rough, finding);
@@ -225,6 +228,32 @@ void Attribution::explain_hits(Finding& finding, const ref::HitBounds& asked, ui
     tell(finding, cause                  ? *cause
                   : asked.total_max == 0 ? causes.of_extra()
                                          : causes.of_count(total, is_few));
+}
+
+FindingKind kind_of(const ref::HitBounds& bounds, const ref::path::SeenHits& seen) {
+    const auto [detail, front, back] = seen;
+    const uint32_t total = front + back;
+    const int32_t sign = static_cast<int32_t>(front) - static_cast<int32_t>(back);
+    if (total < bounds.total_min) {
+        return FindingKind::missing;
+    }
+    if (total > bounds.total_max) {
+        return bounds.total_max == 0 ? FindingKind::extra : FindingKind::double_hit;
+    }
+    const bool too_few_front = front < bounds.front_min, too_few_back = back < bounds.back_min;
+    const bool too_many_front = front > bounds.front_max, too_many_back = back > bounds.back_max;
+    if ((too_few_front && too_many_back) || (too_few_back && too_many_front)) {
+        return FindingKind::value;  // the right number of hits, by the wrong face
+    }
+    if (too_few_front || too_few_back) {
+        return FindingKind::missing;
+    }
+    if (too_many_front || too_many_back) {
+        return FindingKind::double_hit;
+    }
+    // Only the signed sum of a closed mesh is wrong: a gap pulls it towards zero.
+    return std::abs(sign) < std::abs(bounds.signed_min) ? FindingKind::missing
+                                                        : FindingKind::double_hit;
 }
 
 void tell(Finding& finding, const Cause& cause) {

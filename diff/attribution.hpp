@@ -39,16 +39,14 @@ class Attribution {
                                size_t{2}, kExplained)) {}
 
     // Fills rule, level, expected, got and why of a finding whose kind and sample are set, for a
-    // sample where the device counted `front` and `back` hits.
-    void attribute_hits(Finding& finding, uint32_t front, uint32_t back, const LastHit& last = {});
+    // sample whose hits are wrong, as far as they are known.
+    void attribute_hits(Finding& finding, const ref::path::SeenHits& seen,
+                        const LastHit& last = {});
     // The same of a sample whose colour is wrong at `level` at the loosest, and tells of so many
     // fragments, whichever faces they are of; `triangle`: of which it lacks one, or has one more.
     // Where so many are allowed, that one is what is wrong. An empty rule where nothing says why.
     void attribute_color(Finding& finding, uint32_t hits, cases::Profile level,
                          const std::optional<uint32_t>& triangle);
-
-    // Fills the level alone, which is cheap enough for every wrong sample of a broken device.
-    void level_hits(Finding& finding, uint32_t front, uint32_t back);
 
     // Finds the loosest profile at which no triangle for which `wrote` holds may have written a
     // sample last, and sets level; rule and why as well where a looser profile allows it (a tie's
@@ -67,7 +65,7 @@ class Attribution {
     size_t index_of(const Finding& finding) const;
     ref::Explainer& explainer(cases::Profile level);
     // attribute_hits() of a finding whose level is set.
-    void attribute_at_level(Finding& finding, uint32_t front, uint32_t back, const LastHit& last);
+    void attribute_at_level(Finding& finding, const ref::path::SeenHits& seen, const LastHit& last);
     // Rule and why of a fragment of this triangle that is missing, or of one more that looks so.
     void attribute_triangle(Finding& finding, uint32_t triangle);
     // Fills rule and why from the story of the sample.
@@ -102,5 +100,7 @@ void tell(Finding& finding, ref::ReasonKind why);
 
 // Writes "1", "0 or 1" or "1 to 3", and "1 front, 0 back" if both faces play a part.
 std::string to_text(const ref::HitBounds& bounds);
+// The kind of a wrong number of hits.
+FindingKind kind_of(const ref::HitBounds& bounds, const ref::path::SeenHits& seen);
 
 }  // namespace diff

@@ -9,10 +9,10 @@
 #include <optional>
 #include <vector>
 
-#include "cases/base/number_text.hpp"
 #include "ref/coverage/fast/fast.hpp"
 #include "ref/expectation/on_demand.hpp"
 #include "ref/expectation/scene.hpp"
+#include "ref/expectation/stored_depths.hpp"
 
 namespace diff {
 
@@ -27,62 +27,28 @@ ref::ColorReference& ColorComparison::at(cases::Profile profile, size_t index) {
     return *slot;
 }
 
-std::optional<ref::ColorWitness> ColorComparison::witness_of(size_t index,
-                                                             std::optional<uint32_t> writer) const {
-    if (!case_.target.has_instruments) {
-        return witnesses_.empty() ? std::nullopt : std::optional(witnesses_[index]);
-    }
-    ref::ColorWitness witness;
-    witness.hits = static_cast<uint32_t>(capture_.hits[index].x) +
-                   static_cast<uint32_t>(capture_.hits[index].y);
-    if (witness.hits > 0 && writer) {
-        witness.writer = *writer;
-        const int32_t attribute = case_.draws[expectation_.triangles[*writer].draw].color.attribute;
-        if (attribute >= 0) {
-            witness.written = &capture_.attributes[static_cast<size_t>(attribute)][index];
-        }
-    }
-    return witness;
-}
-
 std::optional<Finding> ColorComparison::judge(size_t index, cases::SampleId id,
-                                              std::optional<uint32_t> writer) {
-    const std::optional<ref::ColorWitness> witness = witness_of(index, writer);
-    ref::ColorReference& reference = at(expectation_.profile, index);
-    const ref::ColorVerdict verdict = reference.judge(index, id, capture_.color[index], witness);
-    if (verdict.kind != Kind::ok && verdict.kind != Kind::open) {
-        return finding_of(index, id, verdict, witness);
-    }
-    if (!case_.target.has_instruments && case_.target.has_depth &&
-        !reference.explains_depth(index, id, capture_.depth[index], case_.target.depth_clear)) {
-        Finding finding = finding_at(FindingKind::value, case_.target, id);
-        tell(finding, ref::ReasonKind::depth_of_none);
-        finding.quantity = "depth";
-        finding.level = loosest_wrong(index, [&](ref::ColorReference& at) {
-            return !at.explains_depth(index, id, capture_.depth[index], case_.target.depth_clear);
-        });
-        finding.expected = "the depth of a fragment that the colour allows";
-        finding.got = cases::number_text(capture_.depth[index]);
-        return finding;
-    }
-    return std::nullopt;
-}
-
-cases::Profile ColorComparison::loosest_wrong(
-    size_t index, const std::function<bool(ref::ColorReference&)>& is_wrong) {
-    return diff::loosest_wrong(
-        expectation_.profile, [&](cases::Profile profile) { return is_wrong(at(profile, index)); });
+                                              const WitnessAt& witness) {
+    const ref::ColorVerdict verdict =
+        at(expectation_.profile, index)
+            .judge(index, id, capture_.color[index], witness(expectation_.profile));
+    return verdict.kind == Kind::ok || verdict.kind == Kind::open
+               ? std::nullopt
+               : std::optional(finding_of(index, id, verdict, witness));
 }
 
 Finding ColorComparison::finding_of(size_t index, cases::SampleId id,
-                                    const ref::ColorVerdict& verdict,
-                                    const std::optional<ref::ColorWitness>& witness) {
+                                    const ref::ColorVerdict& verdict, const WitnessAt& witness) {
     Finding finding;
     set_sample(finding, case_.target, id);
-    const cases::Profile level = loosest_wrong(index, [&](ref::ColorReference& at) {
+    // The loosest are asked first: what is wrong there needs no expectation of the profiles in
+    // between.
+    const cases::Profile level = loosest_wrong(expectation_.profile, [&](cases::Profile profile) {
         const std::array<uint32_t, 4>& codes = capture_.color[index];
-        return !at.may_explain(index, id, codes, witness) ||
-               !at.explains(index, id, codes, witness);
+        ref::ColorReference& reference = at(profile, index);
+        const ref::ColorWitness told = witness(profile);
+        return !reference.may_explain(index, id, codes, told) ||
+               !reference.explains(index, id, codes, told);
     });
     switch (verdict.kind) {
         case Kind::missing:
@@ -133,21 +99,28 @@ namespace {
 class EmptyPicture {
   public:
     EmptyPicture(const cases::Case& c, const ref::Expectation& expectation)
-        : target_(c.target), reference_(c, expectation) {
+        : target_(c.target),
+          expectation_(expectation),
+          reference_(c, expectation),
+          values_(c, expectation.limits, expectation.profile) {
         const ref::color::Unit unit{c.target.color->format, expectation.profile};
         clear_ = unit.codes_of(unit.cleared(*c.target.color));
     }
 
     bool is_allowed(size_t index) {
         const cases::SampleId id = cases::sample_at(target_, index);
-        return reference_.explains(index, id, clear_, std::nullopt) &&
+        return reference_.explains(index, id, clear_) &&
                (!target_.has_depth ||
-                reference_.explains_depth(index, id, target_.depth_clear, target_.depth_clear));
+                ref::StoredDepths(expectation_, values_)
+                    .allows(expectation_.samples[index], id,
+                            cases::nearest_depth(target_.depth_clear, target_.depth_format), true));
     }
 
   private:
     const cases::Target& target_;
+    const ref::Expectation& expectation_;
     ref::ColorReference reference_;
+    ref::ValueReference values_;
     std::array<uint32_t, 4> clear_{};
 };
 

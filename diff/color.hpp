@@ -17,22 +17,24 @@ namespace diff {
 
 class ColorComparison {
   public:
-    // All must outlive this object; the case has a colour target. `witnesses`: of targets without
-    // instruments, as compare_colors() has them.
+    // What the other planes tell of a sample at a profile.
+    using WitnessAt = std::function<ref::ColorWitness(cases::Profile profile)>;
+
+    // All must outlive this object; the case has a colour target.
     ColorComparison(const cases::Case& c, const ref::Expectation& expectation,
-                    const capture::CaptureView& capture, Attribution& attribution,
-                    std::span<const ref::ColorWitness> witnesses)
+                    const capture::CaptureView& capture, Attribution& attribution)
         : case_(c),
           expectation_(expectation),
           capture_(capture),
           attribution_(attribution),
-          witnesses_(witnesses),
           unit_{c.target.color->format, expectation.profile},
           cleared_(unit_.cleared(*c.target.color)) {}
 
-    // The finding at a sample that was drawn, if any. `writer`: with instruments, the triangle that
-    // wrote last (any value if there are no hits).
-    std::optional<Finding> judge(size_t index, cases::SampleId id, std::optional<uint32_t> writer);
+    // The finding at a sample, if any.
+    std::optional<Finding> judge(size_t index, cases::SampleId id, const WitnessAt& witness);
+
+    // The reference at the asked profile.
+    ref::ColorReference& reference(size_t index) { return at(expectation_.profile, index); }
 
     // How often a sample was hit, as far as its colour tells: 0 if it holds what it was cleared to.
     // Pictures of targets without instruments show it.
@@ -45,19 +47,13 @@ class ColorComparison {
     // The reference at a profile; a looser one knows this sample and those that were asked for
     // before.
     ref::ColorReference& at(cases::Profile profile, size_t index);
-    // The loosest profile at which a sample is wrong that is wrong at the asked one. The loosest
-    // are asked first: what is wrong there needs no expectation of the profiles in between.
-    cases::Profile loosest_wrong(size_t index,
-                                 const std::function<bool(ref::ColorReference&)>& is_wrong);
-    std::optional<ref::ColorWitness> witness_of(size_t index, std::optional<uint32_t> writer) const;
     Finding finding_of(size_t index, cases::SampleId id, const ref::ColorVerdict& verdict,
-                       const std::optional<ref::ColorWitness>& witness);
+                       const WitnessAt& witness);
 
     const cases::Case& case_;
     const ref::Expectation& expectation_;
     const capture::CaptureView& capture_;
     Attribution& attribution_;
-    std::span<const ref::ColorWitness> witnesses_;
     ref::color::Unit unit_;
     ref::color::Color cleared_;
     std::array<std::unique_ptr<ref::ColorReference>, 3> references_;  // by profile

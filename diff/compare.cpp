@@ -3,19 +3,28 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include "capture/runs.hpp"
 #include "cases/base/counted.hpp"
 #include "cases/model/derive.hpp"
+#include "cases/model/rule.hpp"
+#include "cases/model/rule_ids.hpp"
 #include "diff/attribution.hpp"
 #include "diff/color.hpp"
+#include "diff/delivered/delivered.hpp"
+#include "diff/delivered/delivery.hpp"
 #include "diff/fragment_check.hpp"
 #include "diff/last_fragment.hpp"
 #include "diff/pixel_check.hpp"
 #include "diff/resolve.hpp"
 #include "diff/sample/contradiction.hpp"
+#include "diff/sample/observers.hpp"
 #include "diff/sample/run_judge.hpp"
+#include "diff/sample/shared_decisions.hpp"
 #include "diff/stencil.hpp"
 #include "diff/verdict.hpp"
 #include "diff/whole_case.hpp"
@@ -24,40 +33,45 @@ namespace diff {
 
 namespace {
 
+using Detail = ref::path::SeenHits::Detail;
+
 // One comparison's state; the phases of a sample stand in judge_sample().
 class Comparison {
   public:
     Comparison(const cases::Case& c, const ref::Expectation& expectation,
-               const capture::CaptureView& capture, const ref::ValueSelection& selection,
-               bool is_by_sample, std::span<const SampleMark> marks = {},
-               std::span<const ref::ColorWitness> witnesses = {}, Wanted wanted = Wanted::all)
+               const capture::CaptureView& capture, const Delivery& delivery, bool is_by_sample,
+               Wanted wanted = Wanted::all)
         : case_(c),
           expectation_(expectation),
           capture_(capture),
+          delivery_(delivery),
           attribution_(c, expectation),
           values_(c, expectation.limits, expectation.profile),
-          selection_(selection),
-          marks_(marks),
-          last_fragment_(c, expectation, capture_, selection_, attribution_, values_),
-          has_pixel_rules_(selection.is_all() && c.target.has_instruments && has_pixel_rules(c)),
+          last_fragment_(c, expectation, capture_, delivery_, attribution_, values_),
+          observers_(c, expectation, capture_, delivery_, last_fragment_, attribution_, values_),
+          decisions_(c, expectation, capture_, observers_),
+          has_decisions_(SharedDecisions::are_in(c, expectation.profile)),
+          has_pixel_rules_(delivery.has_all_fragments() && has_pixel_rules(c)),
           has_discards_(std::ranges::any_of(
               c.draws,
               [](const cases::Draw& draw) { return draw.discard != cases::Discard::none; })),
           stores_discarded_(cases::stores_discarded(c)),
           stops_at_first_(wanted == Wanted::first_finding),
-          has_runs_(!is_by_sample && !has_pixel_rules_ && selection.is_all() && !stores_discarded_),
+          has_runs_(!is_by_sample && !has_pixel_rules_ && !has_decisions_ && !stores_discarded_ &&
+                    (delivery.has_instruments || delivery.has_color_alone())),
           run_judge_(c, expectation, capture_, values_) {
-        values_.judge_only(selection);
+        values_.judge_only(delivery.values);
         last_fragment_.need_ratios(wanted == Wanted::all);
         if (wanted == Wanted::symptoms) {
             values_.tell_loosest_levels();
         }
-        values_.tell_only(
-            [this](const ref::ValueMismatch& m) { return last_fragment_.is_told(m, verdict_); });
-        if (c.target.color) {
-            color_.emplace(c, expectation, capture_, attribution_, witnesses);
+        values_.tell_only([this](const ref::ValueMismatch& m) {
+            return !observers_.is_asking() && last_fragment_.is_told(m, verdict_);
+        });
+        if (delivery.has_color) {
+            color_.emplace(c, expectation, capture_, attribution_);
         }
-        if (ref::stencil::is_needed(c)) {
+        if (delivery.has_stencil && ref::stencil::is_needed(c)) {
             stencil_.emplace(c, expectation, capture_, attribution_);
         }
         verdict_.profile = expectation.profile;
@@ -81,9 +95,9 @@ class Comparison {
         const size_t count = capture_.sample_count();
         verdict_.expected_hits.resize(count);
         verdict_.device_hits.resize(count);
-        verdict_.has_counted = case_.target.has_instruments;
+        verdict_.has_counted = delivery_.tells_hits();
         verdict_.marks.assign(count, SampleMark::ok);
-        if (case_.target.has_instruments) {
+        if (delivery_.has_instruments || delivery_.is_of_planes) {
             verdict_.error_ratios.assign(count, -1.0F);
         }
         const cases::Target& target = case_.target;
@@ -94,6 +108,9 @@ class Comparison {
                 break;
             }
             if (const size_t judged = judge_run(index, index - index % row + row); judged > 0) {
+                if (!verdict_.error.empty()) {
+                    return std::move(verdict_);
+                }
                 index += judged;
                 continue;
             }
@@ -101,6 +118,9 @@ class Comparison {
             judge_sample(index, id);
             if (!verdict_.error.empty()) {
                 return std::move(verdict_);
+            }
+            if (has_decisions_ && id.sample + 1 == target.samples) {
+                judge_decisions(id);
             }
             if (has_pixel_rules_ && id.sample + 1 == target.samples) {
                 for (Finding& finding :
@@ -113,19 +133,24 @@ class Comparison {
         if (!verdict_.error.empty()) {
             return std::move(verdict_);
         }
-        verdict_.error = is_enough()
-                             ? judge_dependent_planes(
-                                   capture_, expectation_.profile, [](const Finding&) {}, nullptr)
-                             : judge_dependent_planes(
-                                   capture_, expectation_.profile,
-                                   [this](Finding finding) { add(std::move(finding)); },
-                                   stencil_ ? &*stencil_ : nullptr);
-        if (!is_enough() && selection_.is_all() && has_fragment_rules(case_, expectation_)) {
+        verdict_.error =
+            judge_dependent_planes(capture_, expectation_.profile, [this](Finding finding) {
+                if (!is_enough()) {
+                    add(std::move(finding));
+                }
+            });
+        if (!is_enough() && delivery_.has_all_fragments() &&
+            has_fragment_rules(case_, expectation_)) {
             check_fragments(case_, expectation_, capture_,
                             [this](Finding finding) { add(std::move(finding)); });
         }
-        if (!is_enough()) {
-            judge_queries(case_, capture_, attribution_, verdict_);
+        if (!is_enough() && !delivery_.is_of_planes) {
+            judge_queries(
+                case_, capture_, attribution_,
+                [this](cases::Profile profile) {
+                    return [this, profile](size_t index) { return shown_at(profile, index); };
+                },
+                verdict_);
         }
         return std::move(verdict_);
     }
@@ -151,6 +176,9 @@ class Comparison {
 
     // Why there is nothing to judge; empty if there is.
     std::string unusable() const {
+        if (delivery_.is_of_planes) {
+            return {};  // whoever read them has seen their sizes
+        }
         if (capture_.target != case_.target || !capture::has_all_planes(capture_)) {
             return fmt::format(
                 "the capture has another size than the case's {}x{} target with {}{}",
@@ -173,8 +201,8 @@ class Comparison {
     // Judges the samples from `index` to `row_end` that share an expectation as long as they are
     // plainly right; returns how many they are.
     size_t judge_run(size_t index, size_t row_end) {
-        const bool is_colour_alone = !case_.target.has_instruments && color_;
-        if (!has_runs_ || (is_colour_alone && (case_.target.has_depth || !color_->is_uniform()))) {
+        const bool is_colour_alone = !delivery_.has_instruments;
+        if (!has_runs_ || (is_colour_alone && !color_->is_uniform())) {
             return 0;
         }
         const uint32_t number = expectation_.samples.number(index);
@@ -201,7 +229,7 @@ class Comparison {
     size_t judge_color_run(size_t index, const RunJudge::Right& right) {
         note_expected(index, 1);
         const uint64_t before = verdict_.finding_total();
-        judge_color(index, cases::sample_at(case_.target, index), right.triangle);
+        judge_color(index, cases::sample_at(case_.target, index), all_of(index));
         if (verdict_.finding_total() != before || !color_->is_uniform()) {
             return 1;
         }
@@ -213,7 +241,16 @@ class Comparison {
     void note_run(size_t index, const RunJudge::Right& right) {
         note_expected(index, right.count);
         verdict_.compared_samples += right.count;
-        if (!case_.target.has_instruments) {
+        for (size_t k = index; delivery_.has_stencil && k < index + right.count; ++k) {
+            const cases::SampleId id = cases::sample_at(case_.target, k);
+            if (is_stencil_missing(k)) {
+                verdict_.error = not_copied(id);
+                return;
+            }
+            SeenPlanes seen = all_of(k);
+            judge_stencil(k, id, seen);
+        }
+        if (!delivery_.has_instruments) {
             std::fill_n(verdict_.device_hits.begin() + static_cast<std::ptrdiff_t>(index),
                         right.count, color_->hits_for_pictures(index));
         }
@@ -262,143 +299,267 @@ class Comparison {
 
     void judge_sample(size_t index, cases::SampleId id) {
         const ref::SampleExpectation& expected = expectation_.samples[index];
-        const ref::HitBounds& bounds = expected.hits;
-        const capture::SampleState state = capture::sample_state(capture_, index);
-        if (state == capture::SampleState::clear && bounds == ref::HitBounds{} && !color_ &&
-            !stores_discarded_) {
+        const capture::SampleState state = delivery_.is_of_planes
+                                               ? capture::SampleState::drawn
+                                               : capture::sample_state(capture_, index);
+        if (state == capture::SampleState::clear && expected.hits == ref::HitBounds{} && !color_ &&
+            !stores_discarded_ && !delivery_.has_stencil) {
             ++verdict_.compared_samples;  // marks and hits are zero already
             return;
         }
         note_expected(index, 1);
         ++verdict_.compared_samples;
-
-        if (!case_.target.has_instruments && state == capture::SampleState::drawn) {
-            verdict_.device_hits[index] = color_->hits_for_pictures(index);
-            judge_color(index, id, std::nullopt);
+        if (state == capture::SampleState::not_copied || is_stencil_missing(index)) {
+            verdict_.error = not_copied(id);
             return;
         }
-        switch (state) {
-            case capture::SampleState::not_copied:
-                verdict_.error = not_copied(id);
-                return;
-            case capture::SampleState::inconsistent:
-                add_contradiction(index, id, ref::ReasonKind::planes_contradict);
-                return;
-            case capture::SampleState::depth_only:
-                if (!stores_discarded_ || expected.depth_count == 0) {
-                    add_contradiction(index, id,
-                                      has_discards_ ? ref::ReasonKind::depth_of_taken
-                                      : cases::tests_bounds(case_) && expected.depth_may_be_clear
-                                          ? ref::ReasonKind::depth_of_bounded
-                                          : ref::ReasonKind::planes_contradict);
-                    return;
-                }
-                break;
-            case capture::SampleState::clear:
-            case capture::SampleState::drawn:
-                break;
-        }
-
-        const auto front = static_cast<uint32_t>(capture_.hits[index].x);
-        const auto back = static_cast<uint32_t>(capture_.hits[index].y);
-        verdict_.device_hits[index] = static_cast<uint8_t>(std::min(front + back, 255U));
-        if (!bounds.allows(front, back)) {
-            Finding finding = finding_at(kind_of(bounds, front, back), case_.target, id);
-            attribution_.attribute_hits(finding, front, back, last_fragment_.last_hit(index));
-            add(std::move(finding));
+        SeenPlanes seen = all_of(index);
+        if (state == capture::SampleState::inconsistent) {
+            add_contradiction(index, id, seen, ref::ReasonKind::planes_contradict);
             return;
         }
-        if (front + back > 0) {
-            judge_fragment(index, id);
-        } else {
-            judge_color(index, id, std::nullopt);
-            if (std::optional<Finding> finding =
-                    stores_discarded_ ? last_fragment_.judge_unhit(index, id) : std::nullopt) {
-                add(std::move(*finding));
-            }
+        note_hits(index, seen.hits);
+        const bool is_hit = seen.hits.total() > 0;
+        if (seen.writer && is_hit == (capture_.writers[index].draw == capture::kClearId)) {
+            add_contradiction(index, id, seen, ref::ReasonKind::planes_contradict);
+            return;
+        }
+        if (!expected.hits.allows(seen.hits)) {
+            Finding finding = finding_at(kind_of(expected.hits, seen.hits), case_.target, id);
+            attribution_.attribute_hits(finding, seen.hits, last_fragment_.last_hit(index));
+            add_last(std::move(finding), index, id);
+            judge_stencil(index, id, seen);
+            return;
+        }
+        judge_planes(index, id, seen);
+    }
+
+    SeenPlanes all_of(size_t index) {
+        return {observers_.hits_at(index), delivery_.has_writers, delivery_.has_values(),
+                delivery_.values.depth, delivery_.has_stencil};
+    }
+
+    // What the planes of a sample say of its fragments, whose hits may be as they are.
+    void judge_planes(size_t index, cases::SampleId id, SeenPlanes seen) {
+        const bool is_known = seen.hits.detail != Detail::none;
+        const bool is_hit = is_known && seen.hits.total() > 0;
+        if (is_hit && delivery_.has_fragments()) {
+            judge_fragment(index, id, seen);
+        } else if (!seen.depth || judge_depth_alone(index, id, seen, is_known)) {
+            judge_together(index, id, seen);
         }
     }
 
-    void add_contradiction(size_t index, cases::SampleId id, ref::ReasonKind why) {
+    // The depth of a sample of which no fragment is known; false if nothing more is asked of it.
+    bool judge_depth_alone(size_t index, cases::SampleId id, SeenPlanes& seen, bool is_unhit) {
+        const ref::SampleExpectation& expected = expectation_.samples[index];
+        const bool is_clear = capture::is_clear_depth(case_.target, capture_.depth[index]);
+        if (is_unhit && !is_clear && (!stores_discarded_ || expected.depth_count == 0)) {
+            add_contradiction(index, id, seen,
+                              has_discards_ ? ref::ReasonKind::depth_of_taken
+                              : cases::tests_bounds(case_) && expected.depth_may_be_clear
+                                  ? ref::ReasonKind::depth_of_bounded
+                                  : ref::ReasonKind::planes_contradict);
+            return false;
+        }
+        const bool is_asked = is_unhit ? stores_discarded_ && expected.depth_count > 0 : true;
+        if (std::optional<Finding> finding =
+                is_asked ? last_fragment_.judge_depth_alone(index, id) : std::nullopt) {
+            if (!is_unhit) {
+                tell(*finding, ref::ReasonKind::depth_of_none);
+            }
+            add(std::move(*finding));
+            seen.depth = false;
+        }
+        return true;
+    }
+
+    // Whether the planes that are right one by one are so together, and then the colour.
+    void judge_together(size_t index, cases::SampleId id, SeenPlanes& seen) {
+        judge_stencil(index, id, seen);
+        if (std::optional<Finding> finding = observers_.judge(index, id, seen)) {
+            add(std::move(*finding));
+        }
+        judge_color(index, id, seen);
+    }
+
+    // What the planes of a sample show its queries.
+    ref::ShownSample shown_at(cases::Profile profile, size_t index) {
+        if (capture::sample_state(capture_, index) == capture::SampleState::inconsistent) {
+            return {false, {}, {}};
+        }
+        SeenPlanes seen = all_of(index);
+        const ref::SampleExpectation& expected = attribution_.at(profile, index).samples[index];
+        const bool is_right = expected.hits.allows(seen.hits);
+        // What is wrong is a finding of its own, and values cost too much to be asked again.
+        const bool has_finding = verdict_.marks[index] > SampleMark::either;
+        seen.writer = seen.writer && !has_finding;
+        seen.depth = seen.depth && !has_finding;
+        seen.values = seen.stencil = false;
+        ref::ShownSample out{is_right, {}, seen.hits.total()};
+        if (is_right && expected.is_open) {
+            out.paths =
+                observers_.observe(profile, index, cases::sample_at(case_.target, index), seen);
+        }
+        return out;
+    }
+
+    // The samples of a pixel together, as far as they are right.
+    void judge_decisions(const cases::SampleId& pixel) {
+        const auto seen = [this](size_t index) {
+            const bool is_right = verdict_.marks[index] <= SampleMark::either;
+            SeenPlanes all = all_of(index);
+            all.stencil = all.stencil && (stencil_.has_value() || all.hits.detail != Detail::faces);
+            return is_right ? std::optional(all) : std::nullopt;
+        };
+        const size_t index = cases::index_of(case_.target, pixel);
+        if (std::optional<Finding> finding =
+                decisions_.judge(pixel, seen, color_ ? &color_->reference(index) : nullptr)) {
+            add(std::move(*finding));
+        }
+    }
+
+    void note_hits(size_t index, const ref::path::SeenHits& hits) {
+        verdict_.device_hits[index] = hits.detail == Detail::none && color_
+                                          ? color_->hits_for_pictures(index)
+                                          : static_cast<uint8_t>(std::min(hits.total(), 255U));
+    }
+
+    bool is_stencil_missing(size_t index) const {
+        return delivery_.has_stencil && capture_.stencil[index] == capture::kPoison;
+    }
+
+    // The stencil alone: what draws test, or a count of the hits, if their faces are known.
+    void judge_stencil(size_t index, cases::SampleId id, SeenPlanes& seen) {
+        if (!seen.stencil) {
+            return;
+        }
+        const ref::HitBounds& bounds = expectation_.samples[index].hits;
+        const bool is_counted = seen.hits.detail == Detail::faces;
+        const ref::path::SeenHits hits =
+            is_counted || !bounds.is_decided()
+                ? seen.hits
+                : ref::path::SeenHits{Detail::faces, bounds.front_min, bounds.back_min};
+        if (std::optional<Finding> finding = stencil_ ? stencil_->judge(index, id, seen.hits)
+                                                      : judge_count(capture_, index, hits)) {
+            add(std::move(*finding));
+            seen.stencil = false;
+        }
+        // A count follows from the hits.
+        seen.stencil = seen.stencil && (stencil_ || !is_counted);
+    }
+
+    void add_contradiction(size_t index, cases::SampleId id, const SeenPlanes& seen,
+                           ref::ReasonKind why) {
         Finding finding = finding_at(FindingKind::value, case_.target, id);
         tell(finding, why);
         finding.level = cases::Profile::vulkan;
         finding.quantity = "attachments";
         finding.expected = "all attachments written by the same fragments";
-        finding.got = contradiction_text(capture_, index);
+        finding.got = delivery_.has_instruments ? contradiction_text(capture_, index)
+                                                : observers_.text_of(index, seen);
         verdict_.device_hits[index] = 255;
         add(std::move(finding));
     }
 
-    void judge_fragment(size_t index, cases::SampleId id) {
+    void judge_fragment(size_t index, cases::SampleId id, SeenPlanes& seen) {
         LastFragment::Outcome outcome = last_fragment_.judge(index, id);
-        if (outcome.finding) {
-            add(std::move(*outcome.finding));
-        }
         if (!outcome.triangle) {
+            add_last(std::move(*outcome.finding), index, id);
+            judge_stencil(index, id, seen);
             return;
+        }
+        if (outcome.finding) {
+            seen.depth = false;
+            add(std::move(*outcome.finding));
         }
         verdict_.compared_values += outcome.compared_values;
         note_worst(outcome.worst_ratio, outcome.worst_quantity, id);
         verdict_.raise_error(index, outcome.worst_ratio);
-        judge_color(index, id, outcome.triangle);
+        for (const Finding& finding : outcome.values) {
+            (finding.quantity == "depth" ? seen.depth : seen.values) = false;
+        }
+        judge_together(index, id, seen);
         for (Finding& finding : outcome.values) {
             add(std::move(finding));
         }
     }
 
-    void judge_color(size_t index, cases::SampleId id, std::optional<uint32_t> writer) {
-        if (!color_ || has_wrong_hits(index)) {
+    void judge_color(size_t index, cases::SampleId id, const SeenPlanes& seen) {
+        if (!color_) {
             return;
         }
         ++verdict_.compared_values;
-        if (std::optional<Finding> finding = color_->judge(index, id, writer)) {
+        if (std::optional<Finding> finding = color_->judge(index, id, [&](cases::Profile profile) {
+                return observers_.witness(profile, index, id, seen);
+            })) {
             add(std::move(*finding));
         }
     }
 
-    // By the marks of the verdict on other planes.
-    bool has_wrong_hits(size_t index) const {
-        return index < marks_.size() && marks_[index] > SampleMark::either &&
-               marks_[index] != SampleMark::value;
+    void add(Finding finding) {
+        if (sink_ != nullptr) {
+            sink_->push_back(std::move(finding));
+        } else {
+            verdict_.add(std::move(finding), case_.target);
+        }
     }
 
-    static FindingKind kind_of(const ref::HitBounds& bounds, uint32_t front, uint32_t back) {
-        const uint32_t total = front + back;
-        const int32_t sign = static_cast<int32_t>(front) - static_cast<int32_t>(back);
-        if (total < bounds.total_min) {
-            return FindingKind::missing;
+    // Adds a finding after which a sample's other planes are not asked. Where looser profiles allow
+    // what it tells, they may deny the others: then that is what is wrong.
+    void add_last(Finding finding, size_t index, cases::SampleId id) {
+        for (const cases::Profile profile : cases::kProfiles) {
+            if (profile >= finding.level) {
+                break;
+            }
+            std::vector<Finding> found = found_at(profile, index, id);
+            if (found.empty()) {
+                continue;
+            }
+            // Planes that contradict each other tell less than the rule that one of them breaks, if
+            // that profile has it.
+            const bool is_contradiction = found.front().rule == cases::rule::write_consistent;
+            const cases::Rule* const rule = cases::find_rule(finding.rule);
+            if (is_contradiction && rule != nullptr && rule->profile <= profile) {
+                finding.level = profile;
+                break;
+            }
+            for (Finding& f : found) {
+                add(std::move(f));
+            }
+            return;
         }
-        if (total > bounds.total_max) {
-            return bounds.total_max == 0 ? FindingKind::extra : FindingKind::double_hit;
-        }
-        const bool too_few_front = front < bounds.front_min, too_few_back = back < bounds.back_min;
-        const bool too_many_front = front > bounds.front_max,
-                   too_many_back = back > bounds.back_max;
-        if ((too_few_front && too_many_back) || (too_few_back && too_many_front)) {
-            return FindingKind::value;  // the right number of hits, by the wrong face
-        }
-        if (too_few_front || too_few_back) {
-            return FindingKind::missing;
-        }
-        if (too_many_front || too_many_back) {
-            return FindingKind::double_hit;
-        }
-        // Only the signed sum of a closed mesh is wrong: a gap pulls it towards zero.
-        return std::abs(sign) < std::abs(bounds.signed_min) ? FindingKind::missing
-                                                            : FindingKind::double_hit;
+        add(std::move(finding));
     }
 
-    void add(Finding finding) { verdict_.add(std::move(finding), case_.target); }
+    // What is wrong with a sample at a looser profile.
+    std::vector<Finding> found_at(cases::Profile profile, size_t index, cases::SampleId id) {
+        const ref::Expectation& expectation = attribution_.at(profile, index);
+        std::unique_ptr<Comparison>& looser = looser_.at(static_cast<size_t>(profile));
+        if (!looser) {
+            looser = std::make_unique<Comparison>(case_, expectation, capture_, delivery_, true,
+                                                  Wanted::all);
+            looser->verdict_.expected_hits.resize(capture_.sample_count());
+            looser->verdict_.device_hits.resize(capture_.sample_count());
+            looser->verdict_.marks.resize(capture_.sample_count());
+            looser->verdict_.error_ratios.resize(capture_.sample_count());
+        }
+        std::vector<Finding> found;
+        looser->sink_ = &found;
+        looser->judge_sample(index, id);
+        return found;
+    }
 
     const cases::Case& case_;
     const ref::Expectation& expectation_;
     const capture::CaptureView& capture_;
+    const Delivery delivery_;
     Attribution attribution_;
     ref::ValueReference values_;
-    ref::ValueSelection selection_;
-    std::span<const SampleMark> marks_;
     LastFragment last_fragment_;
+    Observers observers_;
+    SharedDecisions decisions_;
+    bool has_decisions_ = false;
     bool has_pixel_rules_ = false;
     bool has_discards_ = false;
     bool stores_discarded_ = false;
@@ -408,29 +569,73 @@ class Comparison {
     std::optional<ColorComparison> color_;
     std::optional<StencilComparison> stencil_;
     Verdict verdict_;
+    std::array<std::unique_ptr<Comparison>, 3> looser_;  // by profile
+    std::vector<Finding>* sink_ =
+        nullptr;  // of a looser one: takes findings instead of the verdict
 };
+
+// The same planes of a picture in which nothing is drawn.
+capture::Delivered cleared(const cases::Case& c, const capture::Delivered& planes) {
+    capture::Delivered out = planes;
+    std::ranges::fill(out.depth, cases::nearest_depth(c.target.depth_clear, c.target.depth_format));
+    std::ranges::fill(out.frag_coord, glm::vec4(capture::kClearValue));
+    for (auto& attribute : out.attributes) {
+        std::ranges::fill(attribute, glm::vec4(capture::kClearValue));
+    }
+    std::ranges::fill(out.stencil, c.target.stencil_clear);
+    if (!out.color.empty()) {
+        const ref::color::Unit unit{c.target.color->format, cases::Profile::direct3d};
+        std::ranges::fill(out.color, unit.codes_of(unit.cleared(*c.target.color)));
+    }
+    return out;
+}
+
+Verdict compare_planes(const cases::Case& c, const ref::Expectation& expectation,
+                       const capture::Delivered& planes, Wanted wanted) {
+    const capture::Capture capture = capture_of(c, expectation, planes);
+    const capture::CaptureView view(capture);
+    return Comparison(c, expectation, view, delivery_of(c, planes), false, wanted).run();
+}
+
+std::string names_of(const capture::Delivered& planes) {
+    std::string names;
+    const auto add = [&names](bool is_there, const std::string& name) {
+        names += is_there ? (names.empty() ? "" : ", ") + name : "";
+    };
+    add(!planes.frag_coord.empty(), "fragcoord");
+    add(!planes.depth.empty(), "depth");
+    for (size_t a = 0; a < planes.attributes.size(); ++a) {
+        add(!planes.attributes.at(a).empty(), fmt::format("attribute{}", a));
+    }
+    add(!planes.color.empty(), "color");
+    add(!planes.stencil.empty(), "stencil");
+    return names;
+}
 
 }  // namespace
 
 Verdict compare(const cases::Case& c, const ref::Expectation& expectation,
-                const capture::CaptureView& capture, Wanted wanted,
-                const ref::ValueSelection& selection) {
-    return Comparison(c, expectation, capture, selection, false, {}, {}, wanted).run();
-}
-
-Verdict compare_colors(const cases::Case& c, const ref::Expectation& expectation,
-                       const capture::CaptureView& capture, std::span<const SampleMark> marks,
-                       std::span<const ref::ColorWitness> witnesses) {
-    const bool has_wrong = std::ranges::any_of(
-        marks, [](SampleMark mark) { return mark > SampleMark::either; });  // in no run of samples
-    return Comparison(c, expectation, capture, {}, has_wrong || !witnesses.empty(), marks,
-                      witnesses)
-        .run();
+                const capture::CaptureView& capture, Wanted wanted) {
+    return Comparison(c, expectation, capture, delivery_of(c), false, wanted).run();
 }
 
 Verdict compare_by_sample(const cases::Case& c, const ref::Expectation& expectation,
                           const capture::CaptureView& capture) {
-    return Comparison(c, expectation, capture, {}, true).run();
+    return Comparison(c, expectation, capture, delivery_of(c), true).run();
+}
+
+Verdict compare_delivered(const cases::Case& c, const ref::Expectation& expectation,
+                          const capture::Delivered& planes) {
+    Verdict verdict = compare_planes(c, expectation, planes, Wanted::all);
+    // Coverage, hits and writers say themselves what is covered.
+    if (verdict.ok() && planes.detail == capture::HitDetail::none && planes.draws.empty() &&
+        compare_planes(c, expectation, cleared(c, planes), Wanted::first_finding).ok()) {
+        verdict.error = fmt::format(
+            "of the delivered planes ({}) a picture in which nothing is drawn would pass too; "
+            "deliver coverage or hits",
+            names_of(planes));
+    }
+    return verdict;
 }
 
 }  // namespace diff

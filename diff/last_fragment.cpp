@@ -10,21 +10,23 @@
 
 #include "cases/base/number_text.hpp"
 #include "cases/model/rule_ids.hpp"
+#include "ref/expectation/stored_depths.hpp"
 
 namespace diff {
 
 ref::FragmentValues values_at(const capture::CaptureView& capture, size_t index) {
     ref::FragmentValues values;
-    values.frag_coord = capture.frag_coord[index];
+    values.frag_coord = capture.frag_coord.empty() ? glm::vec4(0) : capture.frag_coord[index];
     values.depth = capture.depth.empty() ? 0.0F : capture.depth[index];
     for (uint32_t a = 0; a < capture.attribute_count; ++a) {
-        values.attributes[a] = capture.attributes[a][index];
+        values.attributes[a] =
+            capture.attributes[a].empty() ? glm::vec4(0) : capture.attributes[a][index];
     }
     return values;
 }
 
 LastHit LastFragment::last_hit(size_t index) const {
-    if (index >= capture_.writers.size()) {
+    if (!has_writers_) {
         return {};
     }
     const capture::Writer writer = capture_.writers[index];
@@ -36,11 +38,11 @@ LastFragment::Outcome LastFragment::judge(size_t index, cases::SampleId id) {
     const capture::Writer& writer = capture_.writers[index];
     const ref::FragmentValues device = values_at(capture_, index);
     Outcome out;
-    // Without gl_PrimitiveID several triangles may have the writer's provoking vertex: one that
-    // explains the fragment is enough.
+    // Without gl_PrimitiveID several triangles may have the writer's provoking vertex, and without
+    // writers any triangle may be the one: one that explains the fragment is enough.
     ref::FragmentVerdict best;
     const std::span<const uint32_t> writers = expectation_.writers_of(expected);
-    const auto is_it = [&](uint32_t t) { return wrote(writer, expectation_.triangles[t]); };
+    const auto is_it = [&](uint32_t t) { return wrote(index, t); };
     values_.tell_ratios(needs_ratios_ || std::ranges::count_if(writers, is_it) > 1);
     for (const uint32_t t : writers) {
         if (!is_it(t)) {
@@ -71,12 +73,8 @@ LastFragment::Outcome LastFragment::judge(size_t index, cases::SampleId id) {
     return out;
 }
 
-std::optional<Finding> LastFragment::judge_unhit(size_t index, cases::SampleId id) {
-    const ref::SampleExpectation& expected = expectation_.samples[index];
-    if (!case_.target.has_depth || !selection_.depth || expected.depth_count == 0) {
-        return std::nullopt;
-    }
-    return judge_older_depth(id, expected, values_at(capture_, index));
+std::optional<Finding> LastFragment::judge_depth_alone(size_t index, cases::SampleId id) {
+    return judge_older_depth(id, expectation_.samples[index], values_at(capture_, index));
 }
 
 uint64_t LastFragment::values_of(uint32_t t) const {
@@ -111,18 +109,20 @@ Finding LastFragment::value_finding(cases::SampleId id, ref::ValueMismatch misma
 std::optional<Finding> LastFragment::judge_older_depth(cases::SampleId id,
                                                        const ref::SampleExpectation& expected,
                                                        const ref::FragmentValues& device) {
-    if (expected.depth_may_be_clear && capture::is_clear_depth(case_.target, device.depth)) {
+    const ref::StoredDepths depths(expectation_, values_);
+    const bool may_be_clear = ref::StoredDepths::may_be_clear(expected);
+    if (may_be_clear && capture::is_clear_depth(case_.target, device.depth)) {
         return std::nullopt;
     }
     Finding finding = finding_at(FindingKind::value, case_.target, id);
     finding.level = cases::Profile::vulkan;
     finding.quantity = "depth";
     std::vector<std::string> allowed;  // each once, though two planes may have it
-    if (expected.depth_may_be_clear) {
+    if (may_be_clear) {
         allowed.emplace_back("the clear value");
     }
-    for (uint32_t k = 0; k < expected.depth_count; ++k) {
-        const uint32_t t = expectation_.depth_writers[expected.depth_begin + k];
+    bool is_first = !may_be_clear;
+    for (const uint32_t t : depths.writers_of(expected)) {
         judges_older_depth_ = true;
         values_.tell_ratios(needs_ratios_);
         const ref::FragmentVerdict v = values_.judge(t, id, device, ref::FragmentPart::depth);
@@ -131,8 +131,8 @@ std::optional<Finding> LastFragment::judge_older_depth(cases::SampleId id,
             return std::nullopt;
         }
         const ref::ValueMismatch& m = v.mismatches.front();
-        finding.level =
-            k == 0 && !expected.depth_may_be_clear ? m.level : std::max(finding.level, m.level);
+        finding.level = is_first ? m.level : std::max(finding.level, m.level);
+        is_first = false;
         if (std::ranges::find(allowed, m.expected) == allowed.end()) {
             allowed.push_back(m.expected);
         }

@@ -15,6 +15,7 @@
 #include "cases/model/case.hpp"
 #include "cases/model/sample.hpp"
 #include "diff/attribution.hpp"
+#include "diff/delivered/delivery.hpp"
 #include "diff/sample/fragment_part.hpp"
 #include "diff/verdict.hpp"
 #include "ref/expectation/expectation.hpp"
@@ -27,14 +28,15 @@ ref::FragmentValues values_at(const capture::CaptureView& capture, size_t index)
 
 class LastFragment {
   public:
-    // All must outlive this object; `values` judges what `selection` says.
+    // All must outlive this object; `values` judges what was delivered.
     LastFragment(const cases::Case& c, const ref::Expectation& expectation,
-                 const capture::CaptureView& capture, const ref::ValueSelection& selection,
+                 const capture::CaptureView& capture, const Delivery& delivery,
                  Attribution& attribution, ref::ValueReference& values)
         : case_(c),
           expectation_(expectation),
           capture_(capture),
-          selection_(selection),
+          selection_(delivery.values),
+          has_writers_(delivery.has_writers),
           attribution_(attribution),
           values_(values) {}
 
@@ -55,9 +57,9 @@ class LastFragment {
     // Judges a sample that was hit as often as it may be; `index` is that of `id`.
     Outcome judge(size_t index, cases::SampleId id);
 
-    // Judges the depth of a sample that nothing hit, if fragments that are discarded may have
-    // stored theirs (cases/model/sample.hpp).
-    std::optional<Finding> judge_unhit(size_t index, cases::SampleId id);
+    // Judges the depth of a sample of which no fragment is asked: none hits it, or nothing is known
+    // of that.
+    std::optional<Finding> judge_depth_alone(size_t index, cases::SampleId id);
 
     // Whether anybody will read the texts of a wrong value that is judged now, given what has been
     // found before.
@@ -70,6 +72,11 @@ class LastFragment {
     void need_ratios(bool are_needed) { needs_ratios_ = are_needed; }
     // How many numbers of a fragment of triangle t are compared.
     uint64_t values_of(uint32_t t) const;
+
+    // Whether a sample's writer, if that was delivered, is a triangle.
+    bool wrote(size_t index, uint32_t t) const {
+        return !has_writers_ || wrote(capture_.writers[index], expectation_.triangles[t]);
+    }
 
   private:
     bool wrote(const capture::Writer& writer, const cases::Triangle& t) const;
@@ -86,6 +93,7 @@ class LastFragment {
     const ref::Expectation& expectation_;
     const capture::CaptureView& capture_;
     const ref::ValueSelection& selection_;
+    const bool has_writers_;  // else any of the triangles may be the one
     Attribution& attribution_;
     ref::ValueReference& values_;
     bool needs_ratios_ = true;

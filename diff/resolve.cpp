@@ -160,19 +160,15 @@ capture::ColorCodes average_codes(std::span<const capture::ColorCodes> samples,
 class Judge {
   public:
     Judge(const capture::CaptureView& capture, Profile profile,
-          const std::function<void(Finding)>& add, StencilComparison* stencil)
-        : capture_(capture),
-          target_(capture.target),
-          profile_(profile),
-          add_(add),
-          stencil_(stencil) {}
+          const std::function<void(Finding)>& add)
+        : capture_(capture), target_(capture.target), profile_(profile), add_(add) {}
 
     std::string run() {
         const size_t pixels = size_t{target_.width} * target_.rows();
         for (size_t pixel = 0; pixel < pixels; ++pixel) {
             if (!judge_pixel(pixel)) {
                 return fmt::format(
-                    "the stencil or resolved pixel ({}, {}) was not copied from the device: it "
+                    "the resolved pixel ({}, {}) was not copied from the device: it "
                     "still holds the read-back memory's fill pattern",
                     pixel % target_.width, pixel / target_.width);
             }
@@ -184,21 +180,6 @@ class Judge {
     // False if it was not copied.
     bool judge_pixel(size_t pixel) {
         const size_t first = pixel * target_.samples;
-        if (target_.has_stencil) {
-            for (uint32_t s = 0; s < target_.samples; ++s) {
-                if (capture_.stencil[first + s] == capture::kPoison) {
-                    return false;
-                }
-                if (stencil_ == nullptr) {
-                    if (target_.has_instruments) {
-                        judge_stencil(pixel, s);
-                    }
-                } else if (auto finding =
-                               stencil_->judge(first + s, cases::sample_at(target_, first + s))) {
-                    add_(std::move(*finding));
-                }
-            }
-        }
         if (capture::resolves_color(target_)) {
             const capture::ColorCodes& resolved = capture_.resolved_color[pixel];
             if (resolved == capture::ColorCodes{capture::kPoison, capture::kPoison,
@@ -258,35 +239,10 @@ class Judge {
         }
     }
 
-    void judge_stencil(size_t pixel, uint32_t sample) {
-        const size_t index = pixel * target_.samples + sample;
-        const capture::SampleState state = capture::sample_state(capture_, index);
-        if (state != capture::SampleState::clear && state != capture::SampleState::drawn) {
-            return;
-        }
-        const glm::vec4& hits = capture_.hits[index];
-        const uint32_t expected = stencil_of(hits);
-        const uint32_t got = capture_.stencil[index];
-        if (got == expected) {
-            return;
-        }
-        Finding finding;
-        finding.kind = FindingKind::value;
-        finding.rule = cases::rule::stencil_count;
-        finding.level = Profile::vulkan;
-        finding.sample = sample;
-        finding.expected = fmt::format("{}", expected);
-        finding.got = fmt::format("{}", got);
-        finding.why = fmt::format("at this sample the hit counter saw {} front and {} back faces",
-                                  hits.x, hits.y);
-        report(std::move(finding), pixel, "stencil");
-    }
-
     const capture::CaptureView& capture_;
     const cases::Target& target_;
     Profile profile_;
     const std::function<void(Finding)>& add_;
-    StencilComparison* stencil_;
 };
 
 }  // namespace
@@ -296,15 +252,31 @@ uint32_t stencil_of(const glm::vec4& hits) {
     return (static_cast<uint32_t>(hits.x) - static_cast<uint32_t>(hits.y)) & 0xffU;
 }
 
-std::string judge_dependent_planes(const capture::CaptureView& capture, Profile profile,
-                                   const std::function<void(Finding)>& add,
-                                   StencilComparison* stencil) {
-    const cases::Target& target = capture.target;
-    if (!target.has_stencil && !capture::resolves_color(target) &&
-        !capture::resolves_depth(target)) {
-        return {};
+std::optional<Finding> judge_count(const capture::CaptureView& capture, size_t index,
+                                   const ref::path::SeenHits& seen) {
+    const uint32_t got = capture.stencil[index];
+    const uint32_t expected = (seen.front - seen.back) & 0xffU;
+    if (seen.detail != ref::path::SeenHits::Detail::faces || got == expected) {
+        return std::nullopt;
     }
-    return Judge(capture, profile, add, stencil).run();
+    Finding finding =
+        finding_at(FindingKind::value, capture.target, cases::sample_at(capture.target, index));
+    finding.rule = cases::rule::stencil_count;
+    finding.level = Profile::vulkan;
+    finding.quantity = "stencil";
+    finding.expected = fmt::format("{}", expected);
+    finding.got = fmt::format("{}", got);
+    finding.why = fmt::format("at this sample the hit counter saw {} front and {} back faces",
+                              seen.front, seen.back);
+    return finding;
+}
+
+std::string judge_dependent_planes(const capture::CaptureView& capture, Profile profile,
+                                   const std::function<void(Finding)>& add) {
+    const cases::Target& target = capture.target;
+    const bool has_planes = (capture::resolves_color(target) && !capture.resolved_color.empty()) ||
+                            (capture::resolves_depth(target) && !capture.resolved_depth.empty());
+    return has_planes ? Judge(capture, profile, add).run() : std::string();
 }
 
 void add_dependent_planes(capture::Capture& capture) {

@@ -7,9 +7,9 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
-#include "diff/stencil.hpp"
 #include "diff/verdict.hpp"
 
 namespace diff {
@@ -17,13 +17,14 @@ namespace diff {
 // What the hit counter says the stencil is: (front - back) mod 256.
 uint32_t stencil_of(const glm::vec4& hits);
 
-// Judges the stencil (rule stencil.count, or by `stencil`, if that is given) and what was resolved
-// (resolve.select, resolve.average at `profile`) and hands each finding to `add`. Returns why there
-// is nothing to judge, or "": planes that were not copied. Samples whose attachments contradict
-// each other are left out.
+// The finding of a stencil that counts hits, if their faces are known (rule stencil.count).
+std::optional<Finding> judge_count(const capture::CaptureView& capture, size_t index,
+                                   const ref::path::SeenHits& seen);
+
+// Judges what was resolved (resolve.select, resolve.average at `profile`) and hands each finding to
+// `add`. Returns why there is nothing to judge, or "": planes that were not copied.
 std::string judge_dependent_planes(const capture::CaptureView& capture, cases::Profile profile,
-                                   const std::function<void(Finding)>& add,
-                                   StencilComparison* stencil = nullptr);
+                                   const std::function<void(Finding)>& add);
 
 // Fills these planes of a capture from its others, as a device that is right does; averages are
 // rounded to nearest. A stencil that is there already is left as it is.

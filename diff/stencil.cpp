@@ -39,14 +39,6 @@ constexpr size_t kMostTold = 8;  // values of a set
 
 }  // namespace
 
-std::optional<std::pair<uint32_t, uint32_t>> StencilComparison::hits_at(size_t index) const {
-    if (!case_.target.has_instruments) {
-        return std::nullopt;
-    }
-    const glm::vec4& hits = capture_.hits[index];
-    return std::pair(static_cast<uint32_t>(hits.x), static_cast<uint32_t>(hits.y));
-}
-
 ReasonKind StencilComparison::reason_of(size_t index, uint32_t value, cases::Profile level) {
     for (size_t k = 0; k < kFaultReasons.size(); ++k) {
         const auto [at, is_new] = others_.try_emplace({k, level});
@@ -68,14 +60,12 @@ ReasonKind StencilComparison::reason_of(size_t index, uint32_t value, cases::Pro
     return ReasonKind::stencil_operated;
 }
 
-std::optional<Finding> StencilComparison::judge(size_t index, cases::SampleId id) {
-    const capture::SampleState state = capture::sample_state(capture_, index);
-    if (state != capture::SampleState::clear && state != capture::SampleState::drawn &&
-        state != capture::SampleState::depth_only) {
-        return std::nullopt;
-    }
+std::optional<Finding> StencilComparison::judge(size_t index, cases::SampleId id,
+                                                const ref::path::SeenHits& seen) {
     const uint32_t got = capture_.stencil[index];
-    const auto hits = hits_at(index);
+    const auto hits = seen.detail == ref::path::SeenHits::Detail::faces
+                          ? std::optional(std::pair(seen.front, seen.back))
+                          : std::nullopt;
     const auto allowed = [&](const ref::Expectation& e) {
         return stencils_at(e, e.samples[index], hits);
     };

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The stencil of a case whose draws test it (ref/stencil/outcome.hpp), sample by sample.
+// The stencil of a case whose draws test it (ref/path/path.hpp), sample by sample.
 #pragma once
 
 #include <map>
@@ -27,9 +27,9 @@ class StencilComparison {
                       const capture::CaptureView& capture, Attribution& attribution)
         : case_(c), expectation_(expectation), capture_(capture), attribution_(attribution) {}
 
-    // What is wrong with the stencil of a sample; nothing where its planes contradict each other.
-    // Of a sample that is open the stencil must be one that goes with the hits that it shows.
-    std::optional<Finding> judge(size_t index, cases::SampleId id);
+    // What is wrong with the stencil of a sample. Of one that is open it must be one that goes with
+    // the hits that it shows, if their faces are known.
+    std::optional<Finding> judge(size_t index, cases::SampleId id, const ref::path::SeenHits& seen);
 
   private:
     // What a device may leave that is wrong about something.
@@ -41,8 +41,6 @@ class StencilComparison {
         ref::OnDemand expectation;
     };
 
-    // The hits that the device shows at a sample, if it has instruments.
-    std::optional<std::pair<uint32_t, uint32_t>> hits_at(size_t index) const;
     // The rule that a device must be wrong about to leave this value at a sample: of the changes
     // that ref/exercise tells wrong devices by, the first that explains it.
     ref::ReasonKind reason_of(size_t index, uint32_t value, cases::Profile level);

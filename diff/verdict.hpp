@@ -214,18 +214,10 @@ enum class Wanted : uint8_t {
     // `error` and the first finding, but for its ratio; the rest says little.
     first_finding
 };
-// Judges a capture. A case without any sample that must be hit is an error, never a pass. Of the
-// values only those selected are judged; nothing is said of how many invocations a fragment had
-// unless all are.
+// Judges a capture with all planes of the case's target. A case without any sample that must be hit
+// is an error, never a pass.
 Verdict compare(const cases::Case& c, const ref::Expectation& expectation,
-                const capture::CaptureView& capture, Wanted wanted = Wanted::all,
-                const ref::ValueSelection& selection = {});
-// Judges the colours alone of a target without instruments, but for samples whose hits or writer
-// are wrong by the marks of another verdict, as compare() does where it sees both. `witnesses`:
-// what is known of each sample besides; empty if nothing is.
-Verdict compare_colors(const cases::Case& c, const ref::Expectation& expectation,
-                       const capture::CaptureView& capture, std::span<const SampleMark> marks,
-                       std::span<const ref::ColorWitness> witnesses);
+                const capture::CaptureView& capture, Wanted wanted = Wanted::all);
 // Judges one sample after another: the oracle of compare(), which judges runs of samples that
 // are plainly right at once.
 Verdict compare_by_sample(const cases::Case& c, const ref::Expectation& expectation,

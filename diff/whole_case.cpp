@@ -107,17 +107,10 @@ void add_stray_writes(const cases::Case& c, std::span<const capture::StrayWrite>
 }
 
 void judge_queries(const cases::Case& c, const capture::CaptureView& capture,
-                   Attribution& attribution, Verdict& verdict) {
+                   Attribution& attribution, const ShownOf& shown_at, Verdict& verdict) {
     if (!cases::asks_queries(c)) {
         return;
     }
-    const auto hits = [&](size_t index) -> std::optional<uint32_t> {
-        const capture::SampleState state = capture::sample_state(capture, index);
-        if (state == capture::SampleState::inconsistent) {
-            return std::nullopt;
-        }
-        return static_cast<uint32_t>(capture.hits[index].x + capture.hits[index].y);
-    };
     const auto is_right = [&](size_t k, const CountBounds& counted) {
         const CountBounds bounds = given(counted, c.draws[k].query);
         const uint64_t got = capture.counted[k];
@@ -129,7 +122,7 @@ void judge_queries(const cases::Case& c, const capture::CaptureView& capture,
     std::vector<bool> is_settled(c.draws.size(), true);
     const bool is_open = has_wrong_hits(verdict);
     const std::vector<CountBounds> asked =
-        ref::query_bounds(c, attribution.at(verdict.profile), hits);
+        ref::query_bounds(c, attribution.at(verdict.profile), shown_at(verdict.profile));
     for (size_t k = 0; k < c.draws.size(); ++k) {
         is_settled[k] =
             c.draws[k].query == cases::Query::none || (!is_open && is_right(k, asked[k]));
@@ -139,7 +132,7 @@ void judge_queries(const cases::Case& c, const capture::CaptureView& capture,
             break;
         }
         const std::vector<CountBounds> counted =
-            ref::query_bounds(c, attribution.at(profile), hits);
+            ref::query_bounds(c, attribution.at(profile), shown_at(profile));
         for (size_t k = 0; k < c.draws.size(); ++k) {
             if (is_settled[k] || is_right(k, counted[k])) {
                 continue;

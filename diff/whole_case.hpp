@@ -5,10 +5,12 @@
 // (rule write.outside), numbers of its queries (query.occlusion, query.statistics).
 #pragma once
 
+#include <functional>
 #include <span>
 
 #include "diff/attribution.hpp"
 #include "diff/verdict.hpp"
+#include "ref/expectation/counted.hpp"
 
 namespace diff {
 
@@ -20,8 +22,9 @@ void add_stray_writes(const cases::Case& c, std::span<const capture::StrayWrite>
 
 // Adds one finding for each draw whose query is wrong. Such a number belongs to no sample: the
 // finding stands at the first sample of the target. Where hits are wrong, as many may be counted
-// as there are or ought to be, or fewer.
+// as there are or ought to be, or fewer. `shown_at`: what the planes show, at a profile.
+using ShownOf = std::function<ref::ShownAt(cases::Profile profile)>;
 void judge_queries(const cases::Case& c, const capture::CaptureView& capture,
-                   Attribution& attribution, Verdict& verdict);
+                   Attribution& attribution, const ShownOf& shown_at, Verdict& verdict);
 
 }  // namespace diff

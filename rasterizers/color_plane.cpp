@@ -9,7 +9,8 @@
 namespace rasterizers {
 
 void add_color_plane(capture::Capture& capture, const cases::Case& c,
-                     const ref::Expectation& expectation) {
+                     const ref::Expectation& expectation,
+                     const std::map<size_t, std::vector<uint32_t>>& shown) {
     if (!c.target.color) {
         return;
     }
@@ -21,25 +22,34 @@ void add_color_plane(capture::Capture& capture, const cases::Case& c,
     }
     ref::ColorReference reference(c, expectation);
     for (size_t index = 0; index < n; ++index) {
-        ref::ColorWitness witness;
-        witness.hits = static_cast<uint32_t>(capture.hits[index].x + capture.hits[index].y);
-        if (witness.hits == 0) {
+        const auto hits = static_cast<uint32_t>(capture.hits[index].x + capture.hits[index].y);
+        if (hits == 0) {
             continue;
         }
         const capture::Writer& writer = capture.writers[index];
-        const auto wrote = std::find_if(
-            expectation.triangles.begin(), expectation.triangles.end(), [&](const auto& t) {
-                return t.draw == writer.draw && t.primitive == writer.primitive;
-            });
-        if (wrote == expectation.triangles.end()) {
+        const auto wrote = [&](uint32_t t) {
+            const cases::Triangle& triangle = expectation.triangles[t];
+            return triangle.draw == writer.draw && triangle.primitive == writer.primitive;
+        };
+        const ref::SampleExpectation& sample = expectation.samples[index];
+        ref::ColorWitness witness;
+        witness.paths.hits = {ref::path::SeenHits::Detail::total, hits, 0};
+        for (const ref::path::Fragment& f : expectation.fragments_of(sample)) {
+            witness.paths.last.push_back(wrote(f.triangle));
+        }
+        for (size_t a = 0; a < capture.attribute_count; ++a) {
+            witness.written.at(a) = &capture.attributes.at(a)[index];
+        }
+        const bool is_known =
+            std::ranges::find(witness.paths.last, true) != witness.paths.last.end();
+        if (!is_known) {
             continue;
         }
-        witness.writer = static_cast<uint32_t>(wrote - expectation.triangles.begin());
-        const int32_t attribute = c.draws[writer.draw].color.attribute;
-        if (attribute >= 0) {
-            witness.written = &capture.attributes[static_cast<size_t>(attribute)][index];
-        }
-        capture.color[index] = reference.codes(index, cases::sample_at(c.target, index), witness);
+        const cases::SampleId id = cases::sample_at(c.target, index);
+        const auto path = shown.find(index);
+        capture.color[index] = path != shown.end()
+                                   ? reference.codes_after(path->second, id, witness)
+                                   : reference.codes(index, id, witness);
     }
 }
 

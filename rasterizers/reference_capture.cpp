@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,10 +14,11 @@
 #include "rasterizers/captures.hpp"
 #include "rasterizers/color_plane.hpp"
 #include "ref/blit/blit.hpp"
-#include "ref/color/color.hpp"
 #include "ref/expectation/counted.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/expectation/statistics.hpp"
+#include "ref/path/path.hpp"
+#include "ref/stencil/values.hpp"
 #include "ref/value/fragment/shading_rate.hpp"
 #include "ref/value/reference.hpp"
 
@@ -24,43 +26,12 @@ namespace rasterizers {
 
 namespace {
 
-using Hits = std::pair<uint32_t, uint32_t>;  // by front and back faces
-
-// The pairs of hits that a sample may have, fewest first.
-std::vector<Hits> allowed_hits(const ref::Expectation& expectation,
-                               const ref::SampleExpectation& sample) {
-    std::vector<Hits> out;
-    for (const ref::stencil::Outcome& outcome : expectation.stencils_of(sample)) {
-        out.emplace_back(outcome.front, outcome.back);
-    }
-    const ref::HitBounds& bounds = sample.hits;
-    for (uint32_t total = bounds.total_min; out.empty() && total <= bounds.total_max; ++total) {
-        for (uint32_t front = 0; front <= total; ++front) {
-            if (bounds.allows(front, total - front)) {
-                out.emplace_back(front, total - front);
-            }
-        }
-    }
-    return out;
-}
-
 // A triangle and what it writes at a sample. The values are kept beside it, since the reference
 // takes most of its time for them.
 struct Writer {
     uint32_t triangle;
     std::vector<ref::ExpectedValue> values;
 };
-
-// The least stencil that goes with these hits.
-uint32_t pick_stencil(const ref::Expectation& expectation, const ref::SampleExpectation& sample,
-                      const Hits& hits) {
-    const ref::stencil::Values values = stencils_at(expectation, sample, hits);
-    uint32_t value = 0;
-    while (!values[value]) {
-        ++value;
-    }
-    return value;
-}
 
 // Whether the reference knows a nearest value; of a triangle without area it knows bounds only, and
 // need not draw it.
@@ -79,81 +50,152 @@ bool is_discarded(const Writer& writer, const cases::Draw& draw) {
            });
 }
 
-// What became of a sample: its hits, and whose fragment was the last one.
+// What became of a sample: a path of its fragments.
 struct Event {
-    Hits hits{0, 0};
-    std::optional<Writer> writer;  // nothing if there are no hits
+    uint32_t front = 0, back = 0;    // hits
+    std::optional<Writer> writer;    // nothing if there are no hits
+    std::optional<uint32_t> stored;  // the triangle whose depth stays, if that is not the writer's
+    uint32_t stencil = 0;
+    std::vector<uint32_t> shown, passed;  // triangles, where something is open
 };
 
-// One event for a sample that may happen as a whole: a writer that is open is one hit more than
-// those that are certain. `colors`: knows which go together, if the target has a colour.
-Event pick_event(const cases::Case& c, const ref::Expectation& expectation,
-                 const ref::SampleExpectation& sample, size_t index, const cases::SampleId& id,
-                 ref::ValueReference& values, const ref::ColorReference* colors) {
+// The one event of a sample of which nothing is open.
+Event only_event(const ref::Expectation& expectation, const ref::SampleExpectation& sample,
+                 const cases::SampleId& id, ref::ValueReference& values) {
+    Event out{sample.hits.front_min, sample.hits.back_min, {}, {}, 0, {}, {}};
     const std::span<const uint32_t> writers = expectation.writers_of(sample);
-    const std::vector<Hits> all = allowed_hits(expectation, sample);
-    std::vector<Writer> known;  // of `writers`, as far as they were asked for
-    for (const Hits& hits : all) {
-        if (hits.first + hits.second == 0 || writers.empty()) {
-            return {hits, std::nullopt};
-        }
-        // The first writer goes with the fewest hits: all that must hit the sample, and no more.
-        for (size_t k = 0; k < writers.size(); ++k) {
-            if (colors != nullptr &&
-                !colors->may_have_left(index, hits.first + hits.second, writers[k])) {
-                continue;
-            }
-            while (known.size() <= k) {
-                const uint32_t t = writers[known.size()];
-                known.push_back({t, values.expected(t, id)});
-            }
-            const cases::Draw& draw = c.draws[expectation.triangles[writers[k]].draw];
-            if (has_nearest(known[k]) && !is_discarded(known[k], draw)) {
-                return {hits, std::move(known[k])};
-            }
-        }
+    if (out.front + out.back > 0 && !writers.empty()) {
+        out.writer = {writers.back(), values.expected(writers.back(), id)};
     }
-    return {all.front(), Writer{writers.back(), values.expected(writers.back(), id)}};
-}
-
-// What the queries counted where the capture's hits were drawn: of the draws that may have drawn
-// them the first.
-std::vector<uint64_t> counts_of(const cases::Case& c, const ref::Expectation& expectation,
-                                const capture::Capture& capture) {
-    if (!cases::asks_queries(c)) {
-        return {};
+    if (sample.depth_count > 0) {
+        out.stored = expectation.depth_writers_of(sample).back();
     }
-    std::vector<uint64_t> out(c.draws.size(), 0);
-    const auto hits = [&](size_t index) -> std::optional<uint32_t> {
-        return static_cast<uint32_t>(capture.hits[index].x + capture.hits[index].y);
-    };
-    for (size_t index = 0; index < capture.hits.size(); ++index) {
-        const auto draws = expectation.counted_of(expectation.samples[index]);
-        auto left = static_cast<uint32_t>(capture.hits[index].x + capture.hits[index].y);
-        for (const ref::CountedDraw& draw : draws) {
-            left -= draw.shown_least;
-        }
-        for (const ref::CountedDraw& draw : draws) {
-            const uint32_t more = std::min(left, draw.shown_most - draw.shown_least);
-            const uint32_t either = std::min(left - more, draw.either_most);
-            left -= more + either;
-            out[draw.draw] +=
-                draw.shown_least + more + draw.hidden_least + std::max(either, draw.either_least);
-        }
-    }
-    for (size_t k = 0; k < out.size(); ++k) {
-        const cases::Query query = c.draws[k].query;
-        if (cases::is_statistic(query)) {
-            out[k] = ref::statistic_bounds(c, k, expectation, hits).least;
-            continue;
-        }
-        const uint64_t most = query == cases::Query::none        ? 0
-                              : query == cases::Query::occlusion ? 1
-                                                                 : UINT64_MAX;
-        out[k] = std::min(out[k], most);
-    }
+    out.stencil = ref::stencil::least_of(stencils_at(expectation, sample, std::nullopt));
     return out;
 }
+
+// The path with the fewest hits whose last fragment the reference can draw, of the first triangle
+// that may be it; else any path.
+Event pick_event(const cases::Case& c, const ref::Expectation& expectation,
+                 const ref::SampleExpectation& sample, const cases::SampleId& id,
+                 ref::ValueReference& values) {
+    if (!sample.is_open || sample.is_free) {
+        return only_event(expectation, sample, id, values);
+    }
+    const ref::path::Question question = question_of(expectation, c, sample);
+    const auto event_of = [&](const ref::path::History& path, std::optional<Writer> writer) {
+        const auto front = static_cast<uint32_t>(std::ranges::count(path.is_front, true));
+        Event out{front,
+                  static_cast<uint32_t>(path.shown.size()) - front,
+                  std::move(writer),
+                  {},
+                  path.stencil,
+                  {},
+                  {}};
+        if (path.stored != ref::path::kClearDepth) {
+            out.stored = question.fragments[static_cast<size_t>(path.stored)].triangle;
+        }
+        for (const uint32_t m : path.shown) {
+            out.shown.push_back(question.fragments[m].triangle);
+        }
+        out.passed = out.shown;
+        for (const uint32_t m : path.discarded) {
+            out.passed.push_back(question.fragments[m].triangle);
+        }
+        return out;
+    };
+    std::map<uint32_t, Writer> known;  // by triangle
+    for (uint32_t total = sample.hits.total_min; total <= sample.hits.total_max; ++total) {
+        ref::path::Observed observed;
+        observed.hits = {ref::path::SeenHits::Detail::total, total, 0};
+        if (total == 0) {
+            if (const auto path = find_path(question, observed)) {
+                return event_of(*path, std::nullopt);
+            }
+            continue;
+        }
+        for (size_t m = 0; m < question.fragments.size(); ++m) {
+            observed.last.assign(question.fragments.size(), false);
+            observed.last[m] = true;
+            const auto path = find_path(question, observed);
+            if (!path) {
+                continue;
+            }
+            const uint32_t t = question.fragments[m].triangle;
+            if (!known.contains(t)) {
+                known[t] = {t, values.expected(t, id)};
+            }
+            if (has_nearest(known[t]) &&
+                !is_discarded(known[t], c.draws[expectation.triangles[t].draw])) {
+                return event_of(*path, known[t]);
+            }
+        }
+    }
+    const auto path = find_path(question, {});
+    const uint32_t last =
+        path && !path->shown.empty() ? question.fragments[path->shown.back()].triangle : 0;
+    return !path                 ? only_event(expectation, sample, id, values)
+           : path->shown.empty() ? event_of(*path, std::nullopt)
+                                 : event_of(*path, Writer{last, values.expected(last, id)});
+}
+
+// Counts the fragments that pass, by draw.
+class PassedFragments {
+  public:
+    PassedFragments(const cases::Case& c, const ref::Expectation& expectation)
+        : case_(c),
+          expectation_(expectation),
+          samples_(c.draws.size()),
+          pixel_(c.draws.size()),
+          invocations_(c.draws.size()) {}
+
+    // Samples come in their order.
+    void add(size_t index, const Event& event) {
+        std::vector<uint64_t> here(case_.draws.size());
+        for (const uint32_t t : event.passed) {
+            ++here[expectation_.triangles[t].draw];
+        }
+        const uint32_t samples = case_.target.samples;
+        for (size_t k = 0; k < here.size(); ++k) {
+            const bool is_by_sample = ref::value::shading_rate(case_.draws[k], samples) ==
+                                      ref::value::ShadingRate::sample;
+            samples_[k] += here[k];
+            pixel_[k] = is_by_sample ? pixel_[k] + here[k] : std::max(pixel_[k], here[k]);
+            if ((index + 1) % samples == 0) {
+                invocations_[k] += std::exchange(pixel_[k], 0);
+            }
+        }
+    }
+
+    // What the queries give.
+    std::vector<uint64_t> counts() const {
+        std::vector<uint64_t> out;
+        for (uint32_t k = 0; cases::asks_queries(case_) && k < case_.draws.size(); ++k) {
+            switch (case_.draws[k].query) {
+                case cases::Query::none:
+                    out.push_back(0);
+                    break;
+                case cases::Query::occlusion:
+                    out.push_back(std::min(samples_[k], uint64_t{1}));
+                    break;
+                case cases::Query::occlusion_precise:
+                    out.push_back(samples_[k]);
+                    break;
+                case cases::Query::fragment_invocations:
+                    out.push_back(invocations_[k]);
+                    break;
+                default:
+                    out.push_back(ref::statistic_bounds(case_, k, expectation_, {}).least);
+            }
+        }
+        return out;
+    }
+
+  private:
+    const cases::Case& case_;
+    const ref::Expectation& expectation_;
+    std::vector<uint64_t> samples_, pixel_, invocations_;
+};
 
 capture::Capture blit_by_reference(const cases::Case& c) {
     const ref::BlitReference reference(c);
@@ -177,30 +219,27 @@ capture::Capture draw_by_reference(const cases::Case& c) {
     const ref::Expectation expectation = ref::expect(c, limits, cases::Profile::direct3d);
     ref::ValueReference values(c, limits, cases::Profile::direct3d);
 
-    std::optional<ref::ColorReference> colors;
-    if (c.target.color) {
-        colors.emplace(c, expectation);
-    }
-
     const bool stores_discarded = cases::stores_discarded(c);
     capture::Capture capture = capture::blank_capture(c);
     const size_t n = capture.sample_count();
+    PassedFragments passed(c, expectation);
+    std::map<size_t, std::vector<uint32_t>> shown;  // of samples of which something is open
     for (size_t index = 0; index < n; ++index) {
         const ref::SampleExpectation& sample = expectation.samples[index];
         const cases::SampleId id = cases::sample_at(c.target, index);
-        const Event event =
-            pick_event(c, expectation, sample, index, id, values, colors ? &*colors : nullptr);
-        const auto [front, back] = event.hits;
+        const Event event = pick_event(c, expectation, sample, id, values);
         if (ref::stencil::is_needed(c)) {
-            capture.stencil.push_back(pick_stencil(expectation, sample, event.hits));
+            capture.stencil.push_back(event.stencil);
+        }
+        passed.add(index, event);
+        if (!event.shown.empty()) {
+            shown.emplace(index, event.shown);
         }
         const auto leave_older_depth = [&] {
-            if (sample.depth_count == 0) {
+            if (!event.stored) {
                 return;
             }
-            const uint32_t last =
-                expectation.depth_writers[sample.depth_begin + sample.depth_count - 1];
-            for (const ref::ExpectedValue& value : values.expected(last, id)) {
+            for (const ref::ExpectedValue& value : values.expected(*event.stored, id)) {
                 if (value.quantity.is_depth()) {
                     capture.depth[index] = static_cast<float>(value.nearest);
                 }
@@ -212,9 +251,9 @@ capture::Capture draw_by_reference(const cases::Case& c) {
             }
             continue;
         }
-        capture.hits[index].x = static_cast<float>(front);
-        capture.hits[index].y = static_cast<float>(back);
-        capture.hits[index].w += static_cast<float>(front + back);
+        capture.hits[index].x = static_cast<float>(event.front);
+        capture.hits[index].y = static_cast<float>(event.back);
+        capture.hits[index].w += static_cast<float>(event.front + event.back);
         const Writer& writer = *event.writer;
         const cases::Triangle& triangle = expectation.triangles[writer.triangle];
         capture.writers[index] = {triangle.draw, triangle.primitive, triangle.provoking,
@@ -255,8 +294,8 @@ capture::Capture draw_by_reference(const cases::Case& c) {
             leave_older_depth();
         }
     }
-    capture.counted = counts_of(c, expectation, capture);
-    add_color_plane(capture, c, expectation);
+    capture.counted = passed.counts();
+    add_color_plane(capture, c, expectation, shown);
     drop_unattached(capture);
     diff::vary(capture, c.variation);
     return capture;

@@ -12,7 +12,7 @@
 #include "diff/last_fragment.hpp"
 #include "ref/color/color.hpp"
 #include "ref/expectation/explain.hpp"
-#include "ref/stencil/outcome.hpp"
+#include "ref/path/path.hpp"
 #include "ref/stencil/values.hpp"
 #include "ref/value/reference.hpp"
 #include "run/picture.hpp"

@@ -10,7 +10,7 @@
 
 #include "cases/model/sample.hpp"
 #include "diff/resolve.hpp"
-#include "ref/stencil/outcome.hpp"
+#include "ref/path/path.hpp"
 #include "ref/stencil/values.hpp"
 #include "ref/value/reference.hpp"
 

@@ -223,6 +223,8 @@ Json planes_json(const cases::Case& c) {
             clear = number(c.target.depth_clear);
         } else if (spec.kind == PlaneKind::value) {
             clear = number(kClearValue);
+        } else if (spec.kind == PlaneKind::byte) {
+            clear = c.target.stencil_clear;
         } else if (spec.kind == PlaneKind::code) {
             clear = nullptr;
         }

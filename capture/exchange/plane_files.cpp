@@ -75,6 +75,10 @@ std::vector<PlaneSpec> planes_of(const cases::Case& c) {
             add("depth", PlaneKind::value, {"z"}, real,
                 "the stored depth; of UNORM formats code / (2^n - 1)");
         }
+        if (c.target.has_stencil) {
+            add("stencil", PlaneKind::byte, {"value"}, {"u8", "u32"},
+                "the stored stencil, 0 to 255");
+        }
     }
     if (c.target.color) {
         add("color", PlaneKind::code, components(4), {"u32", "png", "tif"},
@@ -237,6 +241,8 @@ class Reader {
                 std::string wrong = keep_whole(from, 0, to.draws, id);
                 return wrong.empty() ? keep_whole(from, 1, to.primitives, id) : wrong;
             }
+            case PlaneKind::byte:
+                return keep_whole(from, 0, to.stencil, byte);
             case PlaneKind::code:
                 return keep_codes(from);
             case PlaneKind::value:
@@ -277,6 +283,11 @@ class Reader {
         const bool fits = v >= 0 && v <= 0x1p22 && is_same(v, std::floor(v));
         return {fits ? static_cast<uint32_t>(v) : 0U,
                 fits ? nullptr : "hits are whole numbers from 0 to 2^22"};
+    }
+    static Meaning byte(double v) {
+        const bool fits = v >= 0 && v <= 255 && is_same(v, std::floor(v));
+        return {fits ? static_cast<uint32_t>(v) : 0U,
+                fits ? nullptr : "stencils are whole numbers from 0 to 255"};
     }
     static Meaning id(double v) {
         const bool is_none = is_same(v, -1) || is_same(v, 0xffffffffU);

@@ -25,7 +25,8 @@ enum class PlaneKind : uint8_t {
     count,  // whole numbers
     id,     // whole numbers; -1, as u32 0xffffffff, where nothing was drawn
     value,  // binary32
-    code    // whole numbers as they are stored
+    code,   // whole numbers as they are stored
+    byte    // whole numbers from 0 to 255
 };
 
 struct PlaneSpec {

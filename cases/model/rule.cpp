@@ -514,25 +514,25 @@ constexpr std::array kRules = {
          "The stencil test compares the reference with the stencil",
          "A fragment passes if (reference & mask) op (stencil & mask), unsigned; one that fails "
          "writes no colour and no depth, and the stencil by the operation for failures alone.",
-         "fragops-stencil", "17.12", "ref/stencil/outcome.hpp"},
+         "fragops-stencil", "17.12", "ref/stencil/operation.hpp"},
     Rule{rule::stencil_operation, Profile::vulkan, "A stencil operation is exact on eight bits",
          "KEEP, ZERO, REPLACE, INVERT, and INCREMENT and DECREMENT that stop at 255 and 0 or go on "
          "modulo 256, each of the whole stored value, once a fragment, in drawing order.",
-         "fragops-stencil", "17.12", "ref/stencil/outcome.hpp"},
+         "fragops-stencil", "17.12", "ref/stencil/operation.hpp"},
     Rule{rule::stencil_mask, Profile::vulkan,
          "The masks choose bits of what is compared and stored",
          "The compare mask is ANDed to both sides of the test and to nothing else; bits outside "
          "the write mask keep what they were. Of each mask the lowest eight bits count.",
-         "fragops-stencil", "17.12", "ref/stencil/outcome.hpp"},
+         "fragops-stencil", "17.12", "ref/stencil/operation.hpp"},
     Rule{rule::stencil_faces, Profile::vulkan, "Front and back faces have a stencil state each",
          "Compare operation, operations, masks and reference are those of the face that the "
          "triangle shows, which is the face that culling and gl_FrontFacing see.",
-         "fragops-stencil", "17.12", "ref/stencil/outcome.hpp"},
+         "fragops-stencil", "17.12", "ref/stencil/operation.hpp"},
     Rule{rule::stencil_depth_outcome, Profile::vulkan,
          "The depth test chooses the operation of what passes the stencil test",
          "What fails the stencil test is not tested for depth; what passes it does depthFailOp or "
          "passOp as it fails or passes the depth test, and passOp where there is no depth.",
-         "fragops-stencil", "17.12", "ref/stencil/outcome.hpp"},
+         "fragops-stencil", "17.12", "ref/stencil/operation.hpp"},
     Rule{rule::query_occlusion, Profile::vulkan,
          "An occlusion query counts the samples that pass all tests",
          "A precise one counts each sample of each fragment of its draw that is left of scissor, "

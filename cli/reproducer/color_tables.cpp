@@ -73,25 +73,25 @@ std::array<int64_t, 2> codes_of(cases::ComponentFormat format, const Interval& s
 
 std::vector<ColorRows::Sequence> ColorRows::sets_at(size_t index) const {
     const ref::SampleExpectation& sample = expectation_.samples[index];
-    const std::span<const ref::PossibleHit> hits = expectation_.fragments_of(sample);
-    const ref::HitBounds& bounds = sample.hits;
-    const auto open = static_cast<size_t>(std::count_if(
-        hits.begin(), hits.end(), [](const ref::PossibleHit& hit) { return !hit.is_certain; }));
-    std::vector<Sequence> out;
-    if (open > ref::ColorReference::kMaxOpen) {
-        return out;
-    }
-    for (uint32_t choice = 0; choice < 1U << open; ++choice) {
-        Sequence sequence;
-        size_t nth = 0;
-        for (const ref::PossibleHit& hit : hits) {
-            if (hit.is_certain || (choice >> nth++ & 1U) != 0) {
-                sequence.push_back(hit.triangle);
-            }
+    const auto fragments = expectation_.fragments_of(sample);
+    if (!sample.is_open) {
+        Sequence only;
+        for (const ref::path::Fragment& f : fragments) {
+            only.push_back(f.triangle);
         }
-        if (case_.target.has_instruments ||
-            (sequence.size() >= bounds.total_min && sequence.size() <= bounds.total_max)) {
-            out.push_back(std::move(sequence));
+        return {std::move(only)};
+    }
+    if (sample.is_free) {
+        return {};
+    }
+    std::vector<Sequence> out =
+        shown_by(question_of(expectation_, case_, sample), ref::path::Observed{}).lists;
+    if (out.size() > kMostSets) {
+        return {};
+    }
+    for (Sequence& sequence : out) {
+        for (uint32_t& m : sequence) {
+            m = fragments[m].triangle;
         }
     }
     return out;

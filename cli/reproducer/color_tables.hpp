@@ -26,11 +26,10 @@ class ColorRows {
           unit_{c.target.color->format, expectation.profile},
           cleared_(unit_.cleared(*c.target.color)) {}
 
-    // Triangles whose fragments may be there, in drawing order. Without instruments as many as the
-    // bounds of the hits allow, with them any number, since the program knows it.
+    // Triangles whose fragments show on a path, in drawing order.
     using Sequence = std::vector<uint32_t>;
-    // Every set that may be there; none where there are more than a run tries out: nothing is
-    // promised then.
+    // Those of every path; none where there are too many for the tables: nothing is promised then.
+    static constexpr size_t kMostSets = 1024;
     std::vector<Sequence> sets_at(size_t index) const;
     // A row a colour, each once.
     std::vector<std::string> rows(size_t index, const std::vector<Sequence>& sets);
@@ -50,7 +49,7 @@ class ColorRows {
 };
 
 // Whether what a draw leaves in the depth of a target without instruments is judged: only what is
-// written as it is interpolated (ref::ColorReference::explains_depth).
+// written as it is interpolated.
 bool judges_bare_depth(const cases::Case& c);
 
 }  // namespace cli

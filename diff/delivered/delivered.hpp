@@ -4,9 +4,8 @@
 // Captures of renderers that deliver only some planes: a mask of what is covered, the triangles
 // that wrote last, the values of one attribute.
 //
-// What is missing is not judged: a sample is wrong if no content of the missing planes could make
-// the delivered ones right. So the missing ones are filled in with what the reference allows, as
-// near to the delivered ones as can be, and the whole is compared as any capture.
+// Nothing is filled in for the others: a sample is right if one path of its fragments satisfies all
+// planes that were delivered (diff/sample/observers.hpp).
 #pragma once
 
 #include <string>
@@ -27,8 +26,8 @@ std::vector<std::string> not_judged(const cases::Case& c, const capture::Deliver
 capture::Delivered judged_planes(const cases::Case& c, const capture::Capture& picture,
                                  const std::vector<std::string>& left_out);
 
-// Judges the delivered planes; at least one. The colour is judged as if it were the only
-// attachment. An error, never a pass, if a picture in which nothing is drawn would pass too.
+// Judges the delivered planes; at least one. An error, never a pass, if a picture in which nothing
+// is drawn would pass too.
 Verdict compare_delivered(const cases::Case& c, const ref::Expectation& expectation,
                           const capture::Delivered& planes);
 

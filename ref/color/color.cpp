@@ -52,43 +52,41 @@ ColorReference::ColorReference(const cases::Case& c, const Expectation& expectat
                                [](const auto& draw) { return draw.color.attribute < 0; });
 }
 
-std::span<const PossibleHit> ColorReference::hits_at(size_t index) const {
+std::span<const path::Fragment> ColorReference::fragments_at(size_t index) const {
     return expectation_.fragments_of(expectation_.samples[index]);
 }
 
-// Every set of fragments that the hit bounds allow; the empty list of sets if there are too many
-// open ones.
 std::vector<ColorReference::Sequence> ColorReference::allowed(
-    size_t index, const std::optional<ColorWitness>& witness) const {
-    const std::span<const PossibleHit> hits = hits_at(index);
-    const HitBounds& bounds = expectation_.samples[index].hits;
-    std::vector<size_t> open;
-    for (size_t k = 0; k < hits.size(); ++k) {
-        if (!hits[k].is_certain) {
-            open.push_back(k);
+    size_t index, const ColorWitness& witness, bool whole, const path::Question* question) const {
+    const std::span<const path::Fragment> fragments = fragments_at(index);
+    const SampleExpectation& expected = expectation_.samples[index];
+    if (!expected.is_open) {
+        Sequence only;
+        for (const path::Fragment& f : fragments) {
+            only.push_back(f.triangle);
+        }
+        return {std::move(only)};
+    }
+    if (expected.is_free) {
+        return {};
+    }
+    path::Kinds kinds;
+    for (uint32_t m = 0; m < fragments.size(); ++m) {
+        const uint32_t draw = expectation_.triangles[fragments[m].triangle].draw;
+        const bool is_like_last = m > 0 && output_of(fragments[m].triangle).attribute < 0 &&
+                                  expectation_.triangles[fragments[m - 1].triangle].draw == draw;
+        kinds.kind.push_back(is_like_last ? kinds.kind.back() : m);
+        kinds.replaces.push_back(replaces(fragments[m].triangle, true));
+    }
+    path::Shown shown =
+        path::shown_by(question != nullptr ? *question : question_of(expectation_, case_, expected),
+                       witness.paths, whole ? nullptr : &kinds);
+    for (Sequence& list : shown.lists) {
+        for (uint32_t& m : list) {
+            m = fragments[m].triangle;
         }
     }
-    std::vector<Sequence> out;
-    if (open.size() > kMaxOpen) {
-        return out;
-    }
-    for (uint32_t choice = 0; choice < 1U << open.size(); ++choice) {
-        Sequence sequence;
-        size_t nth = 0;
-        for (const PossibleHit& hit : hits) {
-            if (hit.is_certain || (choice >> nth++ & 1U) != 0) {
-                sequence.push_back(hit.triangle);
-            }
-        }
-        const bool fits =
-            witness ? sequence.size() == witness->hits &&
-                          (sequence.empty() || sequence.back() == witness->writer)
-                    : sequence.size() >= bounds.total_min && sequence.size() <= bounds.total_max;
-        if (fits) {
-            out.push_back(std::move(sequence));
-        }
-    }
-    return out;
+    return std::move(shown.lists);
 }
 
 const color::Source& ColorReference::source_of(uint32_t triangle, cases::SampleId id) {
@@ -126,9 +124,12 @@ bool ColorReference::replaces(uint32_t triangle, bool masked) const {
 }
 
 color::Source ColorReference::source_of(uint32_t triangle, cases::SampleId id,
-                                        const glm::vec4* written) {
-    const bool is_captured = written != nullptr && output_of(triangle).attribute >= 0 &&
-                             !glm::any(glm::isnan(*written)) && !glm::any(glm::isinf(*written));
+                                        const ColorWitness& witness) {
+    const int32_t attribute = output_of(triangle).attribute;
+    const glm::vec4* const written =
+        attribute < 0 ? nullptr : witness.written.at(static_cast<size_t>(attribute));
+    const bool is_captured =
+        written != nullptr && !glm::any(glm::isnan(*written)) && !glm::any(glm::isinf(*written));
     return is_captured ? point_source(*written) : source_of(triangle, id);
 }
 
@@ -140,7 +141,7 @@ bool ColorReference::is_flat(uint32_t triangle) const {
 }
 
 color::ColorMemory::Node& ColorReference::left_by(const Sequence& sequence, cases::SampleId id,
-                                                  const glm::vec4* last, bool masked) {
+                                                  const ColorWitness& witness, bool masked) {
     // Nothing is left of what a fragment replaces.
     size_t first = sequence.size();
     while (first > 0 && !replaces(sequence[--first], masked)) {
@@ -151,7 +152,7 @@ color::ColorMemory::Node& ColorReference::left_by(const Sequence& sequence, case
     for (size_t k = first; k < sequence.size(); ++k) {
         const uint32_t triangle = sequence[k];
         const color::Source source =
-            source_of(triangle, id, k + 1 == sequence.size() ? last : nullptr);
+            k + 1 == sequence.size() ? source_of(triangle, id, witness) : source_of(triangle, id);
         const auto write = [&] {
             cases::ColorOutput output = output_of(triangle);
             output.write_mask = masked ? output.write_mask : 0xf;
@@ -175,9 +176,9 @@ color::ColorMemory::Node& ColorReference::left_by(const Sequence& sequence, case
 }
 
 std::optional<bool> ColorReference::may_write(uint32_t triangle, cases::SampleId id,
-                                              const glm::vec4* written,
+                                              const ColorWitness& witness,
                                               const std::array<uint32_t, 4>& codes) {
-    const color::Source source = source_of(triangle, id, written);
+    const color::Source source = source_of(triangle, id, witness);
     const bool is_one = color::replaces_alpha(output_of(triangle), unit_.format);
     bool is_known = true;
     for (uint32_t k = 0; k < 4; ++k) {
@@ -196,14 +197,14 @@ std::optional<bool> ColorReference::may_write(uint32_t triangle, cases::SampleId
     return is_known ? std::optional(true) : std::nullopt;
 }
 
-bool ColorReference::leaves(const Sequence& sequence, cases::SampleId id, const glm::vec4* last,
-                            const std::array<uint32_t, 4>& codes) {
+bool ColorReference::leaves(const Sequence& sequence, cases::SampleId id,
+                            const ColorWitness& witness, const std::array<uint32_t, 4>& codes) {
     if (!sequence.empty() && replaces(sequence.back(), true)) {
-        if (const std::optional<bool> may = may_write(sequence.back(), id, last, codes)) {
+        if (const std::optional<bool> may = may_write(sequence.back(), id, witness, codes)) {
             return *may;
         }
     }
-    color::ColorMemory::Node& node = left_by(sequence, id, last);
+    color::ColorMemory::Node& node = left_by(sequence, id, witness);
     if (node.accepted == codes) {
         return true;
     }
@@ -249,7 +250,7 @@ bool ColorReference::is_of_neighbour(const Sequence& sequence, cases::SampleId i
     using cases::Taken;
     // Asked without the value that was written, as below, it may be right: then nothing is mixed
     // up.
-    if (leaves(sequence, id, nullptr, codes)) {
+    if (leaves(sequence, id, {}, codes)) {
         return false;
     }
     const uint32_t count = mistakes_.empty() ? case_.target.color_count() : 0;
@@ -262,45 +263,31 @@ bool ColorReference::is_of_neighbour(const Sequence& sequence, cases::SampleId i
         }
     }
     return std::ranges::any_of(mistakes_, [&](const auto& mistake) {
-        return mistake->reference.leaves(sequence, id, nullptr, codes);
+        return mistake->reference.leaves(sequence, id, {}, codes);
     });
 }
 
 bool ColorReference::explains(size_t index, cases::SampleId id,
-                              const std::array<uint32_t, 4>& codes,
-                              const std::optional<ColorWitness>& witness) {
-    return explains(allowed(index, witness), id, codes, witness);
+                              const std::array<uint32_t, 4>& codes, const ColorWitness& witness,
+                              const path::Question* question) {
+    return explains(allowed(index, witness, false, question), id, codes, witness);
 }
 
 bool ColorReference::may_explain(size_t index, cases::SampleId id,
                                  const std::array<uint32_t, 4>& codes,
-                                 const std::optional<ColorWitness>& witness) {
+                                 const ColorWitness& witness) {
     takes_outer_ = true;
     const std::unique_ptr<bool, void (*)(bool*)> until(&takes_outer_,
                                                        [](bool* takes) { *takes = false; });
     return explains(index, id, codes, witness);
 }
 
-bool ColorReference::explains(const std::vector<Sequence>& sets, cases::SampleId id,
-                              const std::array<uint32_t, 4>& codes,
-                              const std::optional<ColorWitness>& witness) {
-    const glm::vec4* last = witness ? witness->written : nullptr;
-    // A device whose hits are wrong already has a finding of its own.
-    return sets.empty() || std::any_of(sets.begin(), sets.end(), [&](const Sequence& sequence) {
-               return leaves(sequence, id, last, codes);
+bool ColorReference::explains(const std::vector<Sequence>& lists, cases::SampleId id,
+                              const std::array<uint32_t, 4>& codes, const ColorWitness& witness) {
+    // A device whose other planes are wrong already has a finding of its own.
+    return lists.empty() || std::any_of(lists.begin(), lists.end(), [&](const Sequence& sequence) {
+               return leaves(sequence, id, witness, codes);
            });
-}
-
-bool ColorReference::is_as_before(const Accepted& accepted, size_t index,
-                                  const std::array<uint32_t, 4>& codes,
-                                  const std::optional<ColorWitness>& witness) const {
-    const HitBounds& bounds = expectation_.samples[index].hits;
-    const std::span<const PossibleHit> hits = hits_at(index);
-    return accepted.is_set && accepted.codes == codes && accepted.total_min == bounds.total_min &&
-           accepted.total_max == bounds.total_max &&
-           (!witness ||
-            (accepted.witnessed == witness->hits && accepted.writer == witness->writer)) &&
-           std::equal(hits.begin(), hits.end(), accepted.hits.begin(), accepted.hits.end());
 }
 
 void ColorReference::tell_coverage(const Sequence& most, cases::SampleId id,
@@ -308,9 +295,8 @@ void ColorReference::tell_coverage(const Sequence& most, cases::SampleId id,
     using Kind = ColorVerdict::Kind;
     // What leaves anything, as infinity that is blended, tells nothing.
     const auto tells = [&](const Sequence& sequence) {
-        return leaves(sequence, id, nullptr, codes) &&
-               std::ranges::none_of(color_of(sequence, id, nullptr),
-                                    &color::Component::is_anything);
+        return leaves(sequence, id, {}, codes) &&
+               std::ranges::none_of(color_of(sequence, id, {}), &color::Component::is_anything);
     };
     // Whether one fragment less, or one of them twice, tells.
     const auto tells_of_one = [&](Kind kind) {
@@ -347,49 +333,47 @@ void ColorReference::tell_coverage(const Sequence& most, cases::SampleId id,
 
 ColorVerdict ColorReference::judge(size_t index, cases::SampleId id,
                                    const std::array<uint32_t, 4>& codes,
-                                   const std::optional<ColorWitness>& witness) {
+                                   const ColorWitness& witness) {
     ColorVerdict verdict;
-    Accepted& accepted = accepted_[hits_at(index).empty() ? 0 : 1];
-    if (is_constant_ && is_as_before(accepted, index, codes, witness)) {
+    const std::span<const path::Fragment> fragments = fragments_at(index);
+    Accepted& accepted = accepted_[fragments.empty() ? 0 : 1];
+    const bool is_known = is_constant_ && !expectation_.samples[index].is_open;
+    if (is_known && accepted.is_set && accepted.codes == codes &&
+        std::ranges::equal(fragments, accepted.fragments)) {
         return verdict;
     }
-    const std::vector<Sequence> sets = allowed(index, witness);
-    if (sets.empty()) {
+    std::vector<Sequence> lists = allowed(index, witness, false);
+    if (lists.empty()) {
         verdict.kind = ColorVerdict::Kind::open;
         return verdict;
     }
-    if (explains(sets, id, codes, witness)) {
-        if (is_constant_) {
-            const HitBounds& bounds = expectation_.samples[index].hits;
-            const std::span<const PossibleHit> hits = hits_at(index);
-            accepted = {true,
-                        {hits.begin(), hits.end()},
-                        bounds.total_min,
-                        bounds.total_max,
-                        codes,
-                        witness ? witness->hits : 0,
-                        witness ? witness->writer : 0};
+    if (explains(lists, id, codes, witness)) {
+        if (is_known) {
+            accepted = {true, {fragments.begin(), fragments.end()}, codes};
         }
         return verdict;
     }
-    const glm::vec4* last = witness ? witness->written : nullptr;
-    for (size_t k = 0; k < std::min<size_t>(sets.size(), 3); ++k) {
-        const color::Color color = color_of(sets[k], id, last);
+    if (std::vector<Sequence> whole = allowed(index, witness, true); !whole.empty()) {
+        lists = std::move(whole);
+    }
+    for (size_t k = 0; k < std::min<size_t>(lists.size(), 3); ++k) {
+        const color::Color color = color_of(lists[k], id, witness);
         verdict.expected += (k == 0 ? "" : "; or ") + unit_.text_of(color);
         verdict.may_overflow = verdict.may_overflow || unit_.may_overflow(color);
     }
-    verdict.expected += sets.size() > 3 ? "; or others" : "";
+    verdict.expected += lists.size() > 3 ? "; or others" : "";
     verdict.kind = ColorVerdict::Kind::value;
-    const Sequence& most = *std::max_element(
-        sets.begin(), sets.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
+    const Sequence& most =
+        *std::max_element(lists.begin(), lists.end(),
+                          [](const auto& a, const auto& b) { return a.size() < b.size(); });
     verdict.rule = is_of_neighbour(most, id, codes)
                        ? cases::rule::color_location
-                       : rule_of(most, unit_.allows(color_of(most, id, last, false), codes));
-    if (witness) {
+                       : rule_of(most, unit_.allows(color_of(most, id, witness, false), codes));
+    if (witness.knows_fragments) {
         // Who wrote last is known: only those before it may have come in another order.
         Sequence turned = most;
         std::reverse(turned.begin(), turned.end() - std::min<std::ptrdiff_t>(1, std::ssize(most)));
-        verdict.kind = most.size() > 2 && leaves(turned, id, last, codes)
+        verdict.kind = most.size() > 2 && leaves(turned, id, witness, codes)
                            ? ColorVerdict::Kind::order
                            : ColorVerdict::Kind::value;
         return verdict;
@@ -399,70 +383,20 @@ ColorVerdict ColorReference::judge(size_t index, cases::SampleId id,
 }
 
 std::array<uint32_t, 4> ColorReference::codes(size_t index, cases::SampleId id,
-                                              const std::optional<ColorWitness>& witness) {
-    const std::vector<Sequence> sets = allowed(index, witness);
-    const glm::vec4* last = witness ? witness->written : nullptr;
-    return unit_.codes_of(sets.empty() ? cleared_ : color_of(sets.front(), id, last));
-}
-
-bool ColorReference::may_have_left(size_t index, uint32_t hits, uint32_t writer) const {
-    const auto open = std::ranges::count_if(hits_at(index),
-                                            [](const PossibleHit& hit) { return !hit.is_certain; });
-    return static_cast<size_t>(open) > kMaxOpen ||
-           !allowed(index, ColorWitness{hits, writer, nullptr}).empty();
+                                              const ColorWitness& witness) {
+    const std::vector<Sequence> lists = allowed(index, witness, true);
+    return unit_.codes_of(lists.empty() ? cleared_ : color_of(lists.front(), id, witness));
 }
 
 std::vector<uint32_t> ColorReference::drawn(size_t index) const {
-    std::vector<Sequence> sets = allowed(index, std::nullopt);
-    return sets.empty() ? Sequence() : std::move(sets.front());
+    std::vector<Sequence> lists = allowed(index, {}, true);
+    return lists.empty() ? Sequence() : std::move(lists.front());
 }
 
 std::array<uint32_t, 4> ColorReference::codes_after(std::span<const uint32_t> triangles,
-                                                    cases::SampleId id) {
-    return unit_.codes_of(color_of({triangles.begin(), triangles.end()}, id, nullptr));
-}
-
-// Equal z and w = 1 at all vertices, in a viewport of depths 0 to 1: the depth is z itself.
-bool ColorReference::is_constant_depth(uint32_t triangle, float depth) const {
-    const cases::Triangle& t = expectation_.triangles[triangle];
-    const cases::Draw& draw = case_.draws[t.draw];
-    const auto same = [](float a, float b) {
-        return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b);
-    };
-    return same(draw.viewport.min_depth, 0.0F) && same(draw.viewport.max_depth, 1.0F) &&
-           !draw.depth.negative_one_to_one && !replaces_depth(draw) &&
-           std::all_of(t.vertex.begin(), t.vertex.end(), [&](uint32_t v) {
-               return same(draw.positions[v].z, depth) && same(draw.positions[v].w, 1.0F);
-           });
-}
-
-bool ColorReference::explains_depth(size_t index, cases::SampleId id, float depth, float clear) {
-    // Only the plain write is judged here; depth tests, bias and clamping need the instruments.
-    const bool is_plain = std::all_of(case_.draws.begin(), case_.draws.end(),
-                                      [](const auto& d) { return d.depth == cases::DepthState{}; });
-    if (!is_plain || case_.target.depth_format != cases::DepthFormat::d32_float) {
-        return true;
-    }
-    const bool is_clear = std::bit_cast<uint32_t>(depth) == std::bit_cast<uint32_t>(clear);
-    const auto is_left_by = [&](uint32_t triangle) {
-        if (is_constant_depth(triangle, depth)) {
-            return true;
-        }
-        const ValueRange range = values_.range(triangle, id, QuantityId{});
-        const auto value = static_cast<double>(depth);
-        return std::isfinite(depth) &&
-               (!range.is_promised || (value >= range.low && value <= range.high));
-    };
-    // What is discarded once its depth is stored leaves no colour.
-    const SampleExpectation& expected = expectation_.samples[index];
-    if (stores_discarded(case_) && (expected.depth_count > 0 || expected.depth_may_be_clear)) {
-        return (expected.depth_may_be_clear && is_clear) ||
-               std::ranges::any_of(expectation_.depth_writers_of(expected), is_left_by);
-    }
-    const std::vector<Sequence> sets = allowed(index, std::nullopt);
-    return sets.empty() || std::any_of(sets.begin(), sets.end(), [&](const Sequence& sequence) {
-               return sequence.empty() ? is_clear : is_left_by(sequence.back());
-           });
+                                                    cases::SampleId id,
+                                                    const ColorWitness& witness) {
+    return unit_.codes_of(color_of({triangles.begin(), triangles.end()}, id, witness));
 }
 
 std::vector<ColorStep> ColorReference::steps(size_t index, cases::SampleId id) {

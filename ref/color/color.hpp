@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What the colour target may hold at a sample: the fragments in drawing order, each written or
-// blended (ref/color/blend.hpp), for every set of fragments that the coverage rules allow.
+// blended (ref/color/blend.hpp), for every path that the expectation has (ref/path/path.hpp).
 #pragma once
 
 #include <array>
@@ -22,19 +22,21 @@
 
 namespace ref {
 
-// What a device tells of a sample besides its colour, if it has instruments.
+// What other planes tell of a sample.
 struct ColorWitness {
-    uint32_t hits = 0;
-    uint32_t writer = 0;  // the triangle that wrote last, if hits > 0
-    // What its fragment wrote, if that was captured; nothing is concluded from NaN or infinity,
-    // which the attribute's own plane has findings for.
-    const glm::vec4* written = nullptr;
+    path::Observed paths;  // which of its paths they allow
+    // What the last fragment wrote to each attribute, if that was captured; nothing is concluded
+    // from NaN or infinity, which the attribute's own plane has findings for.
+    std::array<const glm::vec4*, cases::kMaxAttributes> written{};
+    // Whether the number of its fragments and the last of them are known: a wrong colour says
+    // nothing of its coverage then.
+    bool knows_fragments = false;
 };
 
 struct ColorVerdict {
     enum class Kind : uint8_t {
         ok,
-        open,     // too many fragments that may or may not be there: nothing is claimed
+        open,     // too many paths, or none that other planes allow: nothing is claimed
         value,    // the right fragments, written wrongly
         order,    // the right fragments in another order
         missing,  // a fragment less
@@ -65,70 +67,66 @@ class ColorReference {
     ColorReference(const cases::Case& c, const Expectation& expectation);
     ~ColorReference();
 
-    // `index`: of the sample. `witness`: nothing if the target has no instruments.
+    // `index`: of the sample.
     ColorVerdict judge(size_t index, cases::SampleId id, const std::array<uint32_t, 4>& codes,
-                       const std::optional<ColorWitness>& witness);
-    // As judge, but says only whether an allowed set of fragments explains the codes.
+                       const ColorWitness& witness = {});
+    // As judge, but says only whether the fragments of an allowed path explain the codes.
+    // `question`: other paths than the sample's own.
     bool explains(size_t index, cases::SampleId id, const std::array<uint32_t, 4>& codes,
-                  const std::optional<ColorWitness>& witness);
+                  const ColorWitness& witness = {}, const path::Question* question = nullptr);
     // False only if explains() is, in less time: interpolated colours may be all that lies between
     // bounds of what is accepted.
     bool may_explain(size_t index, cases::SampleId id, const std::array<uint32_t, 4>& codes,
-                     const std::optional<ColorWitness>& witness);
-    // Codes that are allowed: of the first allowed set of fragments; of the clear colour if there
-    // is none.
+                     const ColorWitness& witness = {});
+    // Codes that are allowed: of the first path that the witness allows; of the clear colour if
+    // there is none.
     std::array<uint32_t, 4> codes(size_t index, cases::SampleId id,
-                                  const std::optional<ColorWitness>& witness);
-    // Whether some allowed set has so many fragments (at least one), the triangle's the last of
-    // them; where there are too many open ones to try out, everything may be.
-    bool may_have_left(size_t index, uint32_t hits, uint32_t writer) const;
-    // The triangles of the first allowed set of fragments, in drawing order; none if there is none.
+                                  const ColorWitness& witness = {});
+    // The triangles whose fragments show on the first path, the one with the fewest late ones, in
+    // drawing order; none if there are too many paths.
     std::vector<uint32_t> drawn(size_t index) const;
-    // How the colour of that set comes about.
+    // How the colour of that path comes about.
     std::vector<ColorStep> steps(size_t index, cases::SampleId id);
     // Codes that the fragments of these triangles leave, whether or not they are allowed there.
-    std::array<uint32_t, 4> codes_after(std::span<const uint32_t> triangles, cases::SampleId id);
-    // Whether depth may be what the last of an allowed set of fragments left, or one that was
-    // discarded once its depth was stored, for targets without instruments; `clear`: what it holds
-    // where nothing was drawn. Only for D32 and draws that write depth without a test, bias or
-    // clamp; true otherwise.
-    bool explains_depth(size_t index, cases::SampleId id, float depth, float clear);
-
+    std::array<uint32_t, 4> codes_after(std::span<const uint32_t> triangles, cases::SampleId id,
+                                        const ColorWitness& witness = {});
     // Whether judge() depends on the sample's expectation, its codes and its witness alone.
     bool is_uniform() const { return is_constant_; }
 
-    // More open fragments at a sample than this are not tried out.
-    static constexpr size_t kMaxOpen = 10;
     // Colours that are remembered at most: some 600 bytes each.
     static constexpr size_t kRemembered = 4096;
 
   private:
     using Sequence = std::vector<uint32_t>;  // triangles in drawing order
-    std::span<const PossibleHit> hits_at(size_t index) const;
-    std::vector<Sequence> allowed(size_t index, const std::optional<ColorWitness>& witness) const;
-    bool explains(const std::vector<Sequence>& sets, cases::SampleId id,
-                  const std::array<uint32_t, 4>& codes, const std::optional<ColorWitness>& witness);
+    std::span<const path::Fragment> fragments_at(size_t index) const;
+    // What shows on the paths that the witness allows: whole lists, or, not `whole`, what a
+    // colour tells of them. None if there are too many paths, or no such one.
+    std::vector<Sequence> allowed(size_t index, const ColorWitness& witness, bool whole,
+                                  const path::Question* question = nullptr) const;
+    bool explains(const std::vector<Sequence>& lists, cases::SampleId id,
+                  const std::array<uint32_t, 4>& codes, const ColorWitness& witness);
     const cases::ColorOutput& output_of(uint32_t triangle) const;
     // Whether the fragment writes all components, whatever was there.
     bool replaces(uint32_t triangle, bool masked) const;
     const color::Source& source_of(uint32_t triangle, cases::SampleId id);
-    // What the fragment wrote; `written`, if that was captured.
-    color::Source source_of(uint32_t triangle, cases::SampleId id, const glm::vec4* written);
+    // What the last fragment wrote: what was captured of it, if that was.
+    color::Source source_of(uint32_t triangle, cases::SampleId id, const ColorWitness& witness);
     // Whether what it writes is one colour, or one for every triangle.
     bool is_flat(uint32_t triangle) const;
     // What the fragments leave, until the next call; `masked` false: with every write mask full.
     color::ColorMemory::Node& left_by(const Sequence& sequence, cases::SampleId id,
-                                      const glm::vec4* last, bool masked = true);
+                                      const ColorWitness& witness, bool masked = true);
     const color::Color& color_of(const Sequence& sequence, cases::SampleId id,
-                                 const glm::vec4* last, bool masked = true) {
-        return left_by(sequence, id, last, masked).color;
+                                 const ColorWitness& witness, bool masked = true) {
+        return left_by(sequence, id, witness, masked).color;
     }
     // Whether the fragments may leave the codes.
-    bool leaves(const Sequence& sequence, cases::SampleId id, const glm::vec4* last,
+    bool leaves(const Sequence& sequence, cases::SampleId id, const ColorWitness& witness,
                 const std::array<uint32_t, 4>& codes);
     // The same where the last fragment replaces what was there, in binary64; nothing where only
     // rationals tell.
-    std::optional<bool> may_write(uint32_t triangle, cases::SampleId id, const glm::vec4* written,
+    std::optional<bool> may_write(uint32_t triangle, cases::SampleId id,
+                                  const ColorWitness& witness,
                                   const std::array<uint32_t, 4>& codes);
     // Without instruments the colour tells what is wrong with the coverage, if anything does;
     // `most`: the allowed set with the most fragments.
@@ -136,7 +134,6 @@ class ColorReference {
                        const std::array<uint32_t, 4>& codes, ColorVerdict& verdict);
     // Which rule is broken by a wrong colour; `is_as_unmasked`: it is right but for a write mask.
     std::string rule_of(const Sequence& sequence, bool is_as_unmasked) const;
-    bool is_constant_depth(uint32_t triangle, float depth) const;
 
     const cases::Case& case_;
     const Expectation& expectation_;
@@ -152,16 +149,12 @@ class ColorReference {
     color::ColorMemory::Node beyond_;  // what it does not remember: computed last
 
     // Neighbours mostly have the same fragments and the same codes: what was accepted last, of
-    // samples without and with fragments. Only where all colours are constant.
+    // samples without and with fragments. Only where all colours are constant and nothing is open.
     struct Accepted {
         bool is_set = false;
-        std::vector<PossibleHit> hits;
-        uint32_t total_min = 0, total_max = 0;
+        std::vector<path::Fragment> fragments;
         std::array<uint32_t, 4> codes{};
-        uint32_t witnessed = 0, writer = 0;
     };
-    bool is_as_before(const Accepted& accepted, size_t index, const std::array<uint32_t, 4>& codes,
-                      const std::optional<ColorWitness>& witness) const;
     std::array<Accepted, 2> accepted_;
 
     // What a device would leave that takes something of another colour target: made when the first

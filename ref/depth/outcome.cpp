@@ -313,20 +313,6 @@ struct DepthTest::Impl {
         }
         return DepthOutcome::open;
     }
-
-    // The last of the candidates before m that is the same triangle, passed and wrote its depth,
-    // and so covers the sample as well: what was stored before that is gone. Not so where a value
-    // may have taken it away, or alpha to coverage.
-    int last_same(std::span<const DepthCandidate> candidates, size_t m,
-                  std::span<const DepthOutcome> outcomes);
-    // Of candidate m against all that may be stored.
-    DepthOutcome outcome_of(std::span<const DepthCandidate> candidates, size_t m,
-                            std::span<const int> stored, int since, const FixedPoint& p,
-                            ReasonKind& reason);
-    // One of a set has written once all of them had their turn and none can have failed: the first
-    // of candidate m's set then, else kClear.
-    int first_of_complete(std::span<const DepthCandidate> candidates, size_t m,
-                          std::span<const DepthOutcome> outcomes) const;
 };
 
 DepthTest::DepthTest(const cases::Case& c, const std::vector<cases::Triangle>& triangles,
@@ -344,107 +330,6 @@ bool DepthTest::is_needed(const cases::Case& c) {
                       draw.depth.bounds ||
                       stores_discarded(draw);  // the last fragment is not the last that shows
            });
-}
-
-namespace {
-
-bool is_of_set(std::span<const DepthCandidate> candidates, int k, int one_of) {
-    return k != kClear && one_of >= 0 && candidates[static_cast<size_t>(k)].one_of == one_of;
-}
-
-}  // namespace
-
-int DepthTest::Impl::last_same(std::span<const DepthCandidate> candidates, size_t m,
-                               std::span<const DepthOutcome> outcomes) {
-    int since = kClear;
-    for (size_t k = 0; k < m; ++k) {
-        const uint32_t before = candidates[k].triangle;
-        if (!may_vanish(before) && !candidates[k].is_absent &&
-            outcomes[k] == DepthOutcome::passes && draw_of(before).depth.write &&
-            relation(before, candidates[m].triangle).is_same) {
-            since = static_cast<int>(k);
-        }
-    }
-    return since;
-}
-
-DepthOutcome DepthTest::Impl::outcome_of(std::span<const DepthCandidate> candidates, size_t m,
-                                         std::span<const int> stored, int since,
-                                         const FixedPoint& p, ReasonKind& reason) {
-    const DepthCandidate& now = candidates[m];
-    bool passes = false, fails = false;
-    for (const int k : stored) {
-        // Of a set of which one covers the sample, that one is here.
-        const bool is_excluded =
-            is_of_set(candidates, k, now.one_of) ||
-            (since != kClear && k != since &&
-             is_of_set(candidates, k, candidates[static_cast<size_t>(since)].one_of));
-        if (k < since || is_excluded) {
-            continue;
-        }
-        const int t =
-            k == kClear ? kClear : static_cast<int>(candidates[static_cast<size_t>(k)].triangle);
-        const DepthOutcome o = outcome(t, now.triangle, p, reason);
-        passes = passes || o != DepthOutcome::fails;
-        fails = fails || o != DepthOutcome::passes;
-    }
-    if (passes == fails) {
-        reason = ReasonKind::depth_ranges;  // one relation does not settle it
-        return DepthOutcome::open;
-    }
-    return passes ? DepthOutcome::passes : DepthOutcome::fails;
-}
-
-int DepthTest::Impl::first_of_complete(std::span<const DepthCandidate> candidates, size_t m,
-                                       std::span<const DepthOutcome> outcomes) const {
-    int first = kClear;
-    for (size_t k = 0; k < candidates.size(); ++k) {
-        if (candidates[k].one_of != candidates[m].one_of) {
-            continue;
-        }
-        if (k > m || outcomes[k] != DepthOutcome::passes ||
-            !draw_of(candidates[k].triangle).depth.write) {
-            return kClear;
-        }
-        first = first == kClear ? static_cast<int>(k) : first;
-    }
-    return first;
-}
-
-DepthResolution DepthTest::resolve(const FixedPoint& p,
-                                   std::span<const DepthCandidate> candidates) {
-    DepthResolution out;
-    std::vector<int> stored{kClear};  // numbers of candidates
-    for (size_t m = 0; m < candidates.size(); ++m) {
-        const DepthCandidate& now = candidates[m];
-        out.outcomes.push_back(DepthOutcome::fails);
-        out.reasons.push_back(ReasonKind::depth_ranges);
-        if (now.is_absent) {
-            continue;
-        }
-        const int since = impl_->last_same(candidates, m, out.outcomes);
-        DepthOutcome& outcome = out.outcomes.back();
-        outcome = impl_->outcome_of(candidates, m, stored, since, p, out.reasons.back());
-        if (outcome == DepthOutcome::fails || !impl_->draw_of(now.triangle).depth.write) {
-            continue;
-        }
-        if (now.is_sure && outcome == DepthOutcome::passes) {
-            stored.clear();
-        }
-        stored.push_back(static_cast<int>(m));
-        if (now.one_of >= 0 && now.is_one_sure) {
-            const int first = impl_->first_of_complete(candidates, m, out.outcomes);
-            std::erase_if(stored, [&](int k) { return k < first; });
-        }
-    }
-    for (const int k : stored) {
-        if (k == kClear) {
-            out.may_be_clear = true;
-        } else {
-            out.stored.push_back(static_cast<uint32_t>(k));
-        }
-    }
-    return out;
 }
 
 DepthOutcome DepthTest::outcome(std::optional<uint32_t> stored, uint32_t fragment,

@@ -13,11 +13,12 @@ bool is_overwritten(const View& view, std::string_view) {
 }
 
 bool is_compared(const View& view, std::string_view rule) {
-    const DepthResolution& depth = view.sample.reasons.depth;
-    for (size_t m = 0; m < depth.outcomes.size(); ++m) {
+    const JudgeReasons& reasons = view.sample.reasons;
+    for (size_t m = 0; DepthTest::is_needed(view.of()) && m < reasons.fates.size(); ++m) {
         const cases::CompareOp op = view.facts.draw_of(view.sample.hits[m].triangle).depth.compare;
-        if (depth.outcomes[m] != DepthOutcome::open && op != cases::CompareOp::always &&
-            op != cases::CompareOp::never && rule_of(depth.reasons[m], Profile::vulkan) == rule &&
+        if (reasons.fates[m].depth() != DepthOutcome::open && op != cases::CompareOp::always &&
+            op != cases::CompareOp::never &&
+            rule_of(reasons.depth_reasons[m], Profile::vulkan) == rule &&
             view.shows(view.sample.hits[m].triangle)) {
             return true;
         }
@@ -26,10 +27,11 @@ bool is_compared(const View& view, std::string_view rule) {
 }
 
 bool is_depth_kept(const View& view, std::string_view) {
-    const DepthResolution& depth = view.sample.reasons.depth;
-    for (size_t m = 0; m < depth.outcomes.size(); ++m) {
+    const JudgeReasons& reasons = view.sample.reasons;
+    for (size_t m = 0; DepthTest::is_needed(view.of()) && m < reasons.fates.size(); ++m) {
         const uint32_t t = view.sample.hits[m].triangle;
-        if ((depth.outcomes[m] == DepthOutcome::fails || !view.facts.draw_of(t).depth.write) &&
+        if ((reasons.fates[m].depth() == DepthOutcome::fails ||
+             !view.facts.draw_of(t).depth.write) &&
             view.shows(t)) {
             return true;
         }
@@ -62,10 +64,22 @@ bool is_counted_by_stencil(const View& view, std::string_view) {
 }
 
 bool is_counted_by_query(const View& view, std::string_view) {
-    return std::ranges::any_of(view.sample.counted, [&](const CountedDraw& counted) {
-        return cases::is_occlusion(view.of().draws[counted.draw].query) &&
-               counted.shown_least + counted.hidden_least + counted.either_least > 0;
-    });
+    const JudgeReasons& reasons = view.sample.reasons;
+    const auto passes = [&](size_t m) {
+        if (reasons.fates.empty()) {  // no test asks
+            return view.sample.hits[m].coverage == Coverage::must;
+        }
+        const path::Fate& fate = reasons.fates[m];
+        return (fate.passes || fate.is_discarded) && !fate.is_absent && !fate.fails &&
+               !fate.fails_depth && !fate.fails_bounds;
+    };
+    for (size_t m = 0; m < view.sample.hits.size(); ++m) {
+        const cases::Draw& draw = view.facts.draw_of(view.sample.hits[m].triangle);
+        if (cases::is_occlusion(draw.query) && passes(m)) {
+            return true;
+        }
+    }
+    return false;
 }
 
 bool is_of_statistics(const View& view, std::string_view) {

@@ -55,20 +55,19 @@ bool are_apart(const HitBounds& right, const HitBounds& wrong) {
 }
 
 // Whether all that `wrong` allows at a sample is a finding, whatever an undecided sample of `right`
-// may show: each course of events of `wrong` has a number of hits that `right` forbids, or a
+// may show: each path of `wrong` has a number of hits that `right` forbids, or a
 // stencil that does not go with that number.
 bool must_break(const Expectation& right, const Expectation& wrong, size_t index) {
     const SampleExpectation& one = right.samples[index];
     const SampleExpectation& other = wrong.samples[index];
-    const std::span<const stencil::Outcome> courses = wrong.stencils_of(other);
-    if (courses.empty()) {
+    const std::span<const path::Outcome> paths = wrong.stencils_of(other);
+    if (paths.empty()) {
         return are_apart(one.hits, other.hits);
     }
-    return !one.is_stencil_free && !other.is_stencil_free &&
-           std::ranges::all_of(courses, [&](const stencil::Outcome& course) {
-               return !one.hits.allows(course.front, course.back) ||
-                      (stencils_at(right, one, std::pair(course.front, course.back)) &
-                       course.values)
+    return !one.is_free && !other.is_free &&
+           std::ranges::all_of(paths, [&](const path::Outcome& path) {
+               return !one.hits.allows(path.front, path.back) ||
+                      (stencils_at(right, one, std::pair(path.front, path.back)) & path.values)
                           .none();
            });
 }

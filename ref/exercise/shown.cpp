@@ -5,12 +5,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/base/float_bits.hpp"
+#include "ref/expectation/stored_depths.hpp"
+
 namespace ref {
 
 using Triangles = std::vector<uint32_t>;
 
 Shown::Shown(const cases::Case& c, const Expectation& expectation)
-    : case_(c), colors_(c, expectation), values_(c, expectation.limits, expectation.profile) {}
+    : case_(c),
+      expectation_(expectation),
+      colors_(c, expectation),
+      values_(c, expectation.limits, expectation.profile) {}
 
 float Shown::depth_of(uint32_t t, cases::SampleId id) {
     for (const ExpectedValue& value : values_.expected(t, id)) {
@@ -23,15 +29,24 @@ float Shown::depth_of(uint32_t t, cases::SampleId id) {
 
 bool Shown::tells_depth(size_t index, cases::SampleId id, std::span<const uint32_t> triangles,
                         Shown& of) {
+    // Whose depth is stored is plain only where every fragment stores its own.
+    const bool is_plain = std::all_of(case_.draws.begin(), case_.draws.end(),
+                                      [](const auto& d) { return d.depth == cases::DepthState{}; });
     const float clear = case_.target.depth_clear;
-    return case_.target.has_depth &&
-           !colors_.explains_depth(
-               index, id, triangles.empty() ? clear : of.depth_of(triangles.back(), id), clear);
+    return is_plain && case_.target.has_depth &&
+           !explains_depth(index, id,
+                           triangles.empty() ? clear : of.depth_of(triangles.back(), id));
+}
+
+bool Shown::explains_depth(size_t index, cases::SampleId id, float depth) {
+    return StoredDepths(expectation_, values_)
+        .allows(expectation_.samples[index], id, depth,
+                cases::same_bits(depth, case_.target.depth_clear));
 }
 
 bool Shown::tells(size_t index, cases::SampleId id, std::span<const uint32_t> theirs,
                   Shown& other) {
-    return !colors_.explains(index, id, other.colors_.codes_after(theirs, id), std::nullopt) ||
+    return !colors_.explains(index, id, other.colors_.codes_after(theirs, id)) ||
            tells_depth(index, id, theirs, other);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a target without instruments shows of the fragments: its colours, and plain depths. What is
+// What a target without instruments shows of the fragments: its colours and depths. What is
 // drawn in the colour that is there already is not seen, nor is the order of two fragments of one
 // colour.
 #pragma once
@@ -41,10 +41,13 @@ class Shown {
   private:
     bool tells_depth(size_t index, cases::SampleId id, std::span<const uint32_t> triangles,
                      Shown& of);
+    // Whether a sample may hold a depth.
+    bool explains_depth(size_t index, cases::SampleId id, float depth);
     // The depth that a triangle most likely has there.
     float depth_of(uint32_t t, cases::SampleId id);
 
     const cases::Case& case_;
+    const Expectation& expectation_;
     ColorReference colors_;
     ValueReference values_;
 };

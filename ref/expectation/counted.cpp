@@ -4,114 +4,63 @@
 
 #include <algorithm>
 
-#include "ref/expectation/narrowing.hpp"
-
 namespace ref {
 
-void add_counted(Expectation& out, const cases::Case& c, std::span<const Hit> hits,
-                 std::span<const stencil::Fate> fates, SampleExpectation& sample) {
+CountBounds passed_at(const Expectation& e, const cases::Case& c, size_t index, uint32_t draw,
+                      const path::Observed& observed, bool with_discarded) {
+    const SampleExpectation& s = e.samples[index];
+    std::vector<bool> of;
+    for (const path::Fragment& f : e.fragments_of(s)) {
+        of.push_back(e.triangles[f.triangle].draw == draw);
+    }
+    const auto most = static_cast<uint64_t>(std::ranges::count(of, true));
+    if (s.is_free || most == 0) {
+        return {0, most};
+    }
+    const auto counted = path::counted_by(question_of(e, c, s), observed, of, with_discarded);
+    return counted ? CountBounds{counted->least, counted->most} : CountBounds{0, most};
+}
+
+CountBounds counted_at(const Expectation& e, const cases::Case& c, size_t index, uint32_t draw,
+                       const path::Observed& observed) {
+    CountBounds out = passed_at(e, c, index, draw, observed, true);
+    // "Fragment shading may be performed before" the counting.
+    if (e.profile == cases::Profile::vulkan && stores_discarded(c.draws[draw])) {
+        out.least = passed_at(e, c, index, draw, observed, false).least;
+    }
+    return out;
+}
+
+std::vector<CountBounds> count_bounds(const Expectation& expectation, const cases::Case& c,
+                                      const ShownAt& shown) {
+    std::vector<CountBounds> out(c.draws.size());
     if (!counts_fragments(c)) {
-        return;
+        return out;
     }
-    sample.counted_begin = static_cast<uint32_t>(out.counted.size());
-    for (size_t k = 0; k < fates.size(); ++k) {
-        const stencil::Fate& fate = fates[k];
-        if (!fate.passes && !fate.is_discarded) {
-            continue;
-        }
-        const uint32_t draw = out.triangles[hits[k].triangle].draw;
-        const bool is_new =
-            out.counted.size() == sample.counted_begin || out.counted.back().draw != draw;
-        if (is_new) {
-            out.counted.push_back({draw});
-        }
-        CountedDraw& counted = out.counted.back();
-        const bool is_sure =
-            !fate.fails && !fate.fails_depth && !fate.fails_bounds && !fate.is_absent;
-        const bool is_either = fate.passes && fate.is_discarded;
-        uint32_t& least = is_either     ? counted.either_least
-                          : fate.passes ? counted.shown_least
-                                        : counted.hidden_least;
-        uint32_t& most = is_either     ? counted.either_most
-                         : fate.passes ? counted.shown_most
-                                       : counted.hidden_most;
-        least += is_sure ? 1 : 0;
-        most += 1;
-    }
-    sample.counted_count = static_cast<uint32_t>(out.counted.size()) - sample.counted_begin;
-}
-
-namespace {
-
-uint32_t beyond(uint32_t n, uint32_t taken) {
-    return n > taken ? n - taken : 0;
-}
-
-// How many fragments of the k-th draw show at least, and at most, where those of all draws are
-// between `least` and `most`.
-CountBounds shown_at(std::span<const CountedDraw> draws, size_t k, uint32_t least, uint32_t most) {
-    uint32_t others_least = 0;
-    uint32_t others_most = 0;
-    for (size_t other = 0; other < draws.size(); ++other) {
-        const CountedDraw& d = draws[other];
-        others_least += other == k ? 0 : d.shown_least;
-        others_most += other == k ? 0 : d.shown_most + d.either_most;
-    }
-    const CountedDraw& d = draws[k];
-    return {std::max(d.shown_least, beyond(least, others_most)),
-            std::min(d.shown_most + d.either_most, beyond(most, others_least))};
-}
-
-}  // namespace
-
-CountBounds counted_at(std::span<const CountedDraw> draws, size_t k, uint32_t least, uint32_t most,
-                       cases::Profile profile) {
-    const CountBounds shown = shown_at(draws, k, least, most);
-    const CountedDraw& d = draws[k];
-    return {profile == cases::Profile::vulkan ? shown.least : passed_least(draws, k, least, most),
-            std::min(uint64_t{d.shown_most}, shown.most) + d.either_most + d.hidden_most};
-}
-
-uint64_t passed_least(std::span<const CountedDraw> draws, size_t k, uint32_t least, uint32_t most) {
-    const uint64_t shown = shown_at(draws, k, least, most).least;
-    const CountedDraw& d = draws[k];
-    // Of those that show some may be fragments that could have been discarded.
-    const uint64_t others = shown > d.either_most ? shown - d.either_most : 0;
-    return std::max(shown, std::max(uint64_t{d.shown_least}, others) + d.either_least) +
-           d.hidden_least;
-}
-
-std::vector<CountBounds> count_bounds(const Expectation& expectation, size_t draws,
-                                      const HitsAt& hits) {
-    std::vector<CountBounds> out(draws);
-    std::vector<uint64_t> triangles(draws);
+    std::vector<uint64_t> triangles(c.draws.size());
     for (const cases::Triangle& triangle : expectation.triangles) {
         ++triangles[triangle.draw];
     }
     for (size_t index = 0; index < expectation.samples.size(); ++index) {
         const SampleExpectation& sample = expectation.samples[index];
-        const std::span<const CountedDraw> counted = expectation.counted_of(sample);
-        const HitBounds& expected = sample.hits;
-        std::optional<uint32_t> shown;
-        if (hits) {
-            shown = hits(index);
-            if (!shown || *shown < expected.total_min || *shown > expected.total_max) {
-                const uint64_t most = shown ? std::max(*shown, expected.total_max) : UINT64_MAX;
-                for (size_t draw = 0; draw < draws; ++draw) {
-                    out[draw].most += std::min(triangles[draw], most);
-                }
-                for (const CountedDraw& d : counted) {
-                    out[d.draw].most += d.hidden_most;
-                }
+        const ShownSample here = shown ? shown(index) : ShownSample{};
+        for (uint32_t draw = 0; draw < c.draws.size(); ++draw) {
+            if (!counts_fragments(c.draws[draw].query)) {
                 continue;
             }
-        }
-        for (size_t k = 0; k < counted.size(); ++k) {
-            const CountBounds bounds =
-                counted_at(counted, k, shown.value_or(expected.total_min),
-                           shown.value_or(expected.total_max), expectation.profile);
-            out[counted[k].draw].least += bounds.least;
-            out[counted[k].draw].most += bounds.most;
+            if (here.is_right) {
+                const CountBounds bounds = counted_at(expectation, c, index, draw, here.paths);
+                out[draw].least += bounds.least;
+                out[draw].most += bounds.most;
+                continue;
+            }
+            const uint64_t most =
+                here.hits ? std::max(*here.hits, sample.hits.total_max) : UINT64_MAX;
+            out[draw].most += std::min(triangles[draw], most);
+            // And what is discarded once it has passed.
+            out[draw].most += stores_discarded(c.draws[draw])
+                                  ? passed_at(expectation, c, index, draw, {}, true).most
+                                  : 0;
         }
     }
     return out;

@@ -9,11 +9,9 @@
 // before" ("Fragment Operations"): what is discarded then may be counted at profile vulkan, and is
 // from practice on.
 //
-// The fragments that show at a sample are as many as its hits. So where the hits of a device are
-// known, the count of each draw has to go with them, and of a sample that is open nothing is left
-// open that one draw alone may have hit. More is left open than need be in two places: the counts
-// of several draws that may own one hit are not held against each other, and of fragments that are
-// discarded after early tests each is open by itself, also where a shared edge has exactly one.
+// What is counted of a sample are fragments of its paths (ref/path/path.hpp), of those that the
+// device's planes allow: so a count has to go with all that the device shows. The counts of several
+// draws are not held against each other, nor those of several samples.
 //
 // Where a device's hits are wrong, or not known, any triangle of a draw may have been counted, but
 // no more than have hit or ought to have: the samples that are right still bound the whole number.
@@ -35,20 +33,25 @@ struct CountBounds {
     friend bool operator==(const CountBounds&, const CountBounds&) = default;
 };
 
-// How many of a sample's fragments of the k-th of these draws are counted, where between `least`
-// and `most` fragments of all draws show.
-CountBounds counted_at(std::span<const CountedDraw> draws, size_t k, uint32_t least, uint32_t most,
-                       cases::Profile profile);
+// How many of a draw's fragments pass all tests at a sample, on the paths that satisfy what was
+// observed: those that show, and, `with_discarded`, those that are discarded then.
+CountBounds passed_at(const Expectation& e, const cases::Case& c, size_t index, uint32_t draw,
+                      const path::Observed& observed, bool with_discarded);
+// How many of them a query counts.
+CountBounds counted_at(const Expectation& e, const cases::Case& c, size_t index, uint32_t draw,
+                       const path::Observed& observed);
 
-// How many of them pass all tests at least, whether they are then discarded or not.
-uint64_t passed_least(std::span<const CountedDraw> draws, size_t k, uint32_t least, uint32_t most);
+// What a device shows at a sample.
+struct ShownSample {
+    bool is_right = true;  // else any of the triangles may have been counted
+    path::Observed paths;
+    std::optional<uint32_t> hits = {};  // how many, if that is known
+};
+using ShownAt = std::function<ShownSample(size_t index)>;
 
-// The hits of a device at a sample; nothing where they are not known.
-using HitsAt = std::function<std::optional<uint32_t>(size_t index)>;
-
-// What the queries of a case may count, one entry a draw, with the hits that a device shows.
-// `hits` empty: whatever a device may show.
-std::vector<CountBounds> count_bounds(const Expectation& expectation, size_t draws,
-                                      const HitsAt& hits);
+// What the queries of a case may count, one entry a draw, with what a device shows. `shown` empty:
+// whatever a device may show.
+std::vector<CountBounds> count_bounds(const Expectation& expectation, const cases::Case& c,
+                                      const ShownAt& shown);
 
 }  // namespace ref

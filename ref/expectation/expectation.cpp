@@ -15,7 +15,6 @@
 #include "ref/expectation/on_demand.hpp"
 #include "ref/expectation/onlooker.hpp"
 #include "ref/expectation/scene.hpp"
-#include "ref/stencil/values.hpp"
 
 namespace ref {
 
@@ -25,6 +24,29 @@ bool HitBounds::allows(uint32_t front, uint32_t back) const {
     return front >= front_min && front <= front_max && back >= back_min && back <= back_max &&
            balance >= signed_min && balance <= signed_max && total >= total_min &&
            total <= total_max;
+}
+
+bool HitBounds::allows(const path::SeenHits& seen) const {
+    using enum path::SeenHits::Detail;
+    const auto allows_total = [&](uint32_t total) {
+        for (uint32_t front = 0; front <= total; ++front) {
+            if (allows(front, total - front)) {
+                return true;
+            }
+        }
+        return false;
+    };
+    switch (seen.detail) {
+        case none:
+            return true;
+        case faces:
+            return allows(seen.front, seen.back);
+        case total:
+            return seen.front <= total_max && allows_total(seen.front);
+        case any:
+            break;
+    }
+    return seen.front == 0 ? allows(0, 0) : total_max > 0;
 }
 
 bool HitBounds::is_decided() const {
@@ -132,14 +154,42 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
 
 stencil::Values stencils_at(const Expectation& e, const SampleExpectation& s,
                             std::optional<std::pair<uint32_t, uint32_t>> hits) {
-    return stencil::values_of(e.stencils_of(s), s.is_stencil_free, e.target.stencil_clear, hits);
+    return path::values_of(e.stencils_of(s), s.is_free, e.target.stencil_clear, hits);
+}
+
+path::Question question_of(const Expectation& e, const cases::Case& c, const SampleExpectation& s) {
+    path::Question out;
+    out.clear = c.target.stencil_clear;
+    const auto fragments = e.fragments_of(s);
+    out.fragments.assign(fragments.begin(), fragments.end());
+    for (path::Fragment& f : out.fragments) {
+        f.state = c.target.has_stencil ? &c.draws[e.triangles[f.triangle].draw].stencil
+                                       : &path::kKeepStencil;
+    }
+    const auto sets = std::span(e.sets).subspan(s.sets_begin, s.sets_count);
+    out.sets.assign(sets.begin(), sets.end());
+    if (const std::span<const TestedDepth> tests = e.tests_of(s); !tests.empty()) {
+        const auto tested = [tests](int stored, uint32_t fragment) {
+            const std::pair key(fragment, stored);
+            const auto at = std::ranges::lower_bound(tests, key, {}, [](const TestedDepth& t) {
+                return std::pair(t.fragment, t.stored);
+            });
+            // What no path gets to is not kept.
+            return at != tests.end() && std::pair(at->fragment, at->stored) == key
+                       ? *at
+                       : TestedDepth{fragment, stored, DepthOutcome::open, DepthOutcome::open};
+        };
+        out.bounds = [tested](int stored, uint32_t m) { return tested(stored, m).bounds; };
+        out.depth = [tested](int stored, uint32_t m) { return tested(stored, m).depth; };
+    }
+    return out;
 }
 
 bool is_same(const Expectation& a, const Expectation& b, size_t index) {
     const SampleExpectation& one = a.samples[index];
     const SampleExpectation& other = b.samples[index];
     return one.hits == other.hits && one.depth_may_be_clear == other.depth_may_be_clear &&
-           one.is_stencil_free == other.is_stencil_free &&
+           one.is_free == other.is_free &&
            std::ranges::equal(a.stencils_of(one), b.stencils_of(other)) &&
            std::ranges::equal(a.writers_of(one), b.writers_of(other)) &&
            std::ranges::equal(a.depth_writers_of(one), b.depth_writers_of(other));
@@ -272,8 +322,7 @@ class RowJudge {
             const Sign sign = takes_away_by_value(draw) ? scene_.discards.at(hit.triangle, id)
                                                         : Sign::not_negative;
             if (sign != Sign::negative && !takes_away_pixel(draw, id.x, id.y)) {
-                left_.push_back(
-                    {hit.triangle, sign == Sign::open ? Coverage::either : hit.coverage});
+                left_.push_back(sign == Sign::open ? but_for_value(hit) : hit);
             }
         }
         return left_;
@@ -287,10 +336,7 @@ class RowJudge {
     }
 
     uint32_t judge(const Place& at, std::span<const Hit> hits, JudgeReasons* reasons = nullptr) {
-        SampleExpectation sample = scene_.narrowing.judge(
-            position(at), at.s, hits, {out_.writers, out_.depth_writers, out_.stencils}, reasons);
-        add_fragments(out_, scene_.c, hits, scene_.narrowing.fates(), sample);
-        add_counted(out_, scene_.c, hits, scene_.narrowing.fates(), sample);
+        SampleExpectation sample = scene_.narrowing.judge(position(at), at.s, hits, out_, reasons);
         return out_.samples.add(sample);
     }
 
@@ -304,8 +350,7 @@ class RowJudge {
                               hits,
                               sample.hits,
                               out_.writers_of(sample),
-                              reasons,
-                              out_.counted_of(sample)},
+                              reasons},
                              scene_.setups)) {
             onlooker_ = nullptr;
         }
@@ -319,11 +364,7 @@ class RowJudge {
         const bool is_alone = hits.size() == 1 && hits[0].coverage == Coverage::must;
         uint32_t& known = is_alone ? alone_[hits[0].triangle] : last_number_;
         const bool is_known =
-            known != SampleExpectations::kNothing &&
-            (is_alone || std::equal(hits.begin(), hits.end(), last_.begin(), last_.end(),
-                                    [](const Hit& a, const Hit& b) {
-                                        return a.triangle == b.triangle && a.coverage == b.coverage;
-                                    }));
+            known != SampleExpectations::kNothing && (is_alone || std::ranges::equal(hits, last_));
         if (!is_known) {
             known = judge({0, 0, 0}, hits);
             if (!is_alone) {

@@ -16,8 +16,8 @@
 #include "cases/model/profile.hpp"
 #include "cases/model/triangle.hpp"
 #include "ref/coverage/coverage.hpp"
+#include "ref/path/path.hpp"
 #include "ref/position/limits.hpp"
-#include "ref/stencil/outcome.hpp"
 
 namespace ref {
 
@@ -30,19 +30,11 @@ struct HitBounds {
     int32_t signed_min = 0, signed_max = 0;
     uint32_t total_min = 0, total_max = 0;
     bool allows(uint32_t front, uint32_t back) const;
+    // Whether some pair that is allowed looks so.
+    bool allows(const path::SeenHits& seen) const;
     // True if exactly one pair (front, back) is allowed.
     bool is_decided() const;
     friend bool operator==(const HitBounds&, const HitBounds&) = default;
-};
-
-// How many fragments of one draw's triangles queries may count at a sample: those that show, those
-// that the shader discards when depth and stencil have been tested, and those that may do either.
-struct CountedDraw {
-    uint32_t draw = 0;
-    uint32_t shown_least = 0, shown_most = 0;
-    uint32_t hidden_least = 0, hidden_most = 0;
-    uint32_t either_least = 0, either_most = 0;
-    friend bool operator==(const CountedDraw&, const CountedDraw&) = default;
 };
 
 struct SampleExpectation {
@@ -54,22 +46,34 @@ struct SampleExpectation {
     // does not write it (DepthTest::is_needed); otherwise it is the last writer's.
     uint32_t depth_begin = 0, depth_count = 0;
     bool depth_may_be_clear = false;  // or no fragment's
-    // Into Expectation::fragments, if the target has a colour: the triangles that must or may cover
-    // the sample, in drawing order.
+    // Into Lists::fragments. Where something is open: all that take part in the paths, with their
+    // sets and tests. Else, if the target has a colour: those that show.
     uint32_t fragments_begin = 0, fragments_count = 0;
-    // Into Expectation::stencils, if the case needs a stencil test (stencil::is_needed); none: the
+    uint32_t sets_begin = 0, sets_count = 0;
+    uint32_t tests_begin = 0, tests_count = 0;
+    bool is_open = false;  // there may be more than one path (ref/path/path.hpp)
+    bool is_free = false;  // there are too many: nothing is claimed
+    // Into Lists::stencils, if the case needs a stencil test (stencil::is_needed); none: the
     // clear value, wherever nothing hits.
     uint32_t stencils_begin = 0, stencils_count = 0;
-    bool is_stencil_free = false;  // nothing is claimed of it
-    // Into Expectation::counted, if a draw has a query: the draws that may cover the sample.
-    uint32_t counted_begin = 0, counted_count = 0;
 };
 
-// Is a triangle that must or may cover a sample.
-struct PossibleHit {
-    uint32_t triangle = 0;
-    bool is_certain = false;
-    friend bool operator==(const PossibleHit&, const PossibleHit&) = default;
+// How a depth that was stored meets the tests of a fragment.
+struct TestedDepth {
+    uint32_t fragment = 0;           // of the sample
+    int stored = path::kClearDepth;  // fragment of the sample, or the clear value
+    DepthOutcome bounds = DepthOutcome::passes, depth = DepthOutcome::passes;
+    friend bool operator==(const TestedDepth&, const TestedDepth&) = default;
+};
+
+// What the expectations of samples point to.
+struct Lists {
+    std::vector<uint32_t> writers;
+    std::vector<uint32_t> depth_writers;
+    std::vector<path::Fragment> fragments;  // without the state of their draws
+    std::vector<path::FragmentSet> sets;
+    std::vector<TestedDepth> tests;  // of a sample by fragment, then by what is stored
+    std::vector<path::Outcome> stencils;
 };
 
 // What is expected of every sample, by index_of (sample.hpp). Of most samples the same is expected
@@ -104,18 +108,12 @@ class SampleExpectations {
     std::vector<SampleExpectation> table_{SampleExpectation{}};  // by number
 };
 
-struct Expectation {
+struct Expectation : Lists {
     Limits limits;
     cases::Profile profile = cases::Profile::direct3d;
     cases::Target target;
     std::vector<cases::Triangle> triangles;  // drawing order
     SampleExpectations samples;
-    // What the samples' expectations point to.
-    std::vector<uint32_t> writers;
-    std::vector<uint32_t> depth_writers;
-    std::vector<PossibleHit> fragments;
-    std::vector<stencil::Outcome> stencils;
-    std::vector<CountedDraw> counted;
     uint64_t must_samples = 0;    // samples that must be hit at least once: the control of the case
     uint64_t either_samples = 0;  // samples where more than one answer is allowed
 
@@ -125,21 +123,25 @@ struct Expectation {
     std::span<const uint32_t> depth_writers_of(const SampleExpectation& s) const {
         return std::span(depth_writers).subspan(s.depth_begin, s.depth_count);
     }
-    std::span<const PossibleHit> fragments_of(const SampleExpectation& s) const {
+    std::span<const path::Fragment> fragments_of(const SampleExpectation& s) const {
         return std::span(fragments).subspan(s.fragments_begin, s.fragments_count);
     }
-    std::span<const stencil::Outcome> stencils_of(const SampleExpectation& s) const {
-        return std::span(stencils).subspan(s.stencils_begin, s.stencils_count);
+    std::span<const TestedDepth> tests_of(const SampleExpectation& s) const {
+        return std::span(tests).subspan(s.tests_begin, s.tests_count);
     }
-    std::span<const CountedDraw> counted_of(const SampleExpectation& s) const {
-        return std::span(counted).subspan(s.counted_begin, s.counted_count);
+    std::span<const path::Outcome> stencils_of(const SampleExpectation& s) const {
+        return std::span(stencils).subspan(s.stencils_begin, s.stencils_count);
     }
 };
 
 // The stencils that a sample of a case with a stencil test may hold: those that go with these hits,
-// front and back; of hits that no course of events has, and of none given, any that it may hold.
+// front and back; of hits that no path has, and of none given, any that it may hold.
 stencil::Values stencils_at(const Expectation& e, const SampleExpectation& s,
                             std::optional<std::pair<uint32_t, uint32_t>> hits);
+
+// The paths of a sample of which something is open, with the tests of the case's draws. Keeps
+// references.
+path::Question question_of(const Expectation& e, const cases::Case& c, const SampleExpectation& s);
 
 // Whether a sample has the same hits, writers, depths and stencils in two expectations of one case.
 bool is_same(const Expectation& a, const Expectation& b, size_t index);

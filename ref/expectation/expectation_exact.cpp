@@ -7,7 +7,7 @@
 #include "ref/coverage/triangle_setups.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/expectation/narrowing.hpp"
-#include "ref/stencil/exact.hpp"
+#include "ref/path/exact.hpp"
 
 namespace ref::exact {
 
@@ -26,7 +26,7 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
     }
     ValueDiscards discards(c, limits, profile, true);
     Narrowing narrowing(c, profile, out.triangles, setups,
-                        {is_in_hull, winding, is_inside_whole, stencil::exact::resolve},
+                        {is_in_hull, winding, is_inside_whole, path::exact::resolve},
                         depth ? &*depth : nullptr, discards);
     for (uint32_t row = 0; row < c.target.rows(); ++row) {
         const uint32_t j = row % c.target.height;
@@ -48,15 +48,12 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
                     const Sign sign = takes_away_by_value(draw) ? discards.at(t, {i, j, s, layer})
                                                                 : Sign::not_negative;
                     if (sign != Sign::negative) {
-                        hits.push_back(
-                            {t, sign == Sign::open ? Coverage::either : decision.coverage});
+                        const Hit hit{t, decision.coverage};
+                        hits.push_back(sign == Sign::open ? but_for_value(hit) : hit);
                         hits.insert(hits.end(), decision.further, {t, Coverage::either});
                     }
                 }
-                SampleExpectation sample =
-                    narrowing.judge(p, s, hits, {out.writers, out.depth_writers, out.stencils});
-                add_fragments(out, c, hits, narrowing.fates(), sample);
-                add_counted(out, c, hits, narrowing.fates(), sample);
+                SampleExpectation sample = narrowing.judge(p, s, hits, out);
                 out.must_samples += sample.hits.total_min > 0 ? 1U : 0U;
                 out.either_samples += sample.hits.is_decided() ? 0U : 1U;
                 out.samples.set(index++, 1, 1, out.samples.add(sample));

@@ -290,7 +290,7 @@ Explainer::HitsAt Explainer::hits_at(cases::SampleId sample, Detail detail,
     return found;
 }
 
-void Explainer::add_fate(TriangleExplanation& t, const stencil::Fate& fate, cases::SampleId sample,
+void Explainer::add_fate(TriangleExplanation& t, const path::Fate& fate, cases::SampleId sample,
                          Detail detail) {
     t.fate = fate;
     const bool is_all = detail == Detail::all;
@@ -316,32 +316,30 @@ SampleExplanation Explainer::explain(cases::SampleId sample, Detail detail) {
     out.position = sample_position(sample.x, sample.y, sample.sample, scene_.c.target);
     out.of_all = reason_of_all(sample, out.position);
     const auto [hits, explained] = hits_at(sample, detail, out);
-    std::vector<uint32_t> writers, depth_writers;
-    std::vector<stencil::Outcome> stencils;
+    Lists lists;
     JudgeReasons reasons;
-    const SampleExpectation judged = scene_.narrowing.judge(
-        out.position, sample.sample, hits, {writers, depth_writers, stencils}, &reasons);
+    const SampleExpectation judged =
+        scene_.narrowing.judge(out.position, sample.sample, hits, lists, &reasons);
     out.hits = judged.hits;
     for (FixedSet& set : reasons.sets) {
         std::string words = detail == Detail::all ? sentence(set) : std::string();
         out.sets.push_back({std::move(set), std::move(words)});
     }
     if (stencil::is_needed(scene_.c)) {
-        out.stencils = stencil::values_of(stencils, judged.is_stencil_free,
-                                          scene_.c.target.stencil_clear, std::nullopt);
+        out.stencils = path::values_of(lists.stencils, judged.is_free,
+                                       scene_.c.target.stencil_clear, std::nullopt);
     }
     for (size_t m = 0; m < hits.size(); ++m) {
         if (explained[m] == kUntold) {
             continue;
         }
         TriangleExplanation& t = out.triangles[explained[m]];
-        if (m < reasons.fates.size()) {
-            add_fate(t, reasons.fates[m], sample, detail);
-        }
-        const bool is_reached = m >= reasons.fates.size() || reasons.fates[m].gets_to_depth();
-        if (m < reasons.depth.outcomes.size() && is_reached) {
-            t.depth = reasons.depth.outcomes[m];
-            t.depth_reason = reasons.depth.reasons[m];
+        const path::Fate& fate = reasons.fates[m];
+        add_fate(t, fate, sample, detail);
+        if (scene_.depth && fate.gets_to_depth()) {
+            t.depth = fate.depth();
+            t.depth_reason = *t.depth == DepthOutcome::open ? ReasonKind::depth_ranges
+                                                            : reasons.depth_reasons[m];
             t.depth_text = detail == Detail::all ? depth_sentence(t, sample) : std::string();
         }
     }

@@ -56,7 +56,7 @@ struct TriangleExplanation {
     ReasonKind depth_reason = ReasonKind::depth_ranges;
     std::string depth_text;  // one sentence
     // The same, if the case needs a stencil test.
-    std::optional<stencil::Fate> fate;
+    std::optional<path::Fate> fate;
     std::string bounds_text, stencil_text;  // of the tests that it gets to
 
     ReasonKind why() const { return decision.reasons.front().kind; }
@@ -129,7 +129,7 @@ class Explainer {
     HitsAt hits_at(cases::SampleId sample, Detail detail, SampleExplanation& out);
     void add_details(TriangleExplanation& e, const FixedPoint& p);
     // What depth bounds, stencil and late discards make of a triangle's fragment.
-    void add_fate(TriangleExplanation& t, const stencil::Fate& fate, cases::SampleId sample,
+    void add_fate(TriangleExplanation& t, const path::Fate& fate, cases::SampleId sample,
                   Detail detail);
 
     Scene scene_;

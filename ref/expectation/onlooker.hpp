@@ -24,7 +24,6 @@ struct JudgedSample {
     const HitBounds& bounds;            // what they may come to
     std::span<const uint32_t> writers;  // triangles that may have written last
     const JudgeReasons& reasons;
-    std::span<const CountedDraw> counted;  // if a draw has a query
 };
 
 class Onlooker {

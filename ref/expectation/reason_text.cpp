@@ -184,7 +184,7 @@ std::string sentence_of(ReasonKind depth_reason, DepthOutcome outcome, cases::Co
                        fmt::arg("depths", depths));
 }
 
-std::string sentence_of(const stencil::Fate& fate, const cases::DepthBounds& bounds) {
+std::string sentence_of(const path::Fate& fate, const cases::DepthBounds& bounds) {
     const bool may_pass = fate.is_tested();
     const auto pick = [&](std::string_view passes, std::string_view fails, std::string_view open) {
         return !fate.fails_bounds ? passes : may_pass ? open : fails;
@@ -195,8 +195,8 @@ std::string sentence_of(const stencil::Fate& fate, const cases::DepthBounds& bou
                        fmt::arg("bounds", fmt::format("{} to {}", bounds.min, bounds.max)));
 }
 
-std::string sentence_of(const stencil::Fate& fate, const cases::StencilState& state,
-                        bool can_be_front, bool can_be_back) {
+std::string sentence_of(const path::Fate& fate, const cases::StencilState& state, bool can_be_front,
+                        bool can_be_back) {
     const bool passes = fate.passes || fate.fails_depth || fate.is_discarded;
     const std::string_view told = passes && !fate.fails   ? "passes"
                                   : fate.fails && !passes ? "fails"

@@ -12,8 +12,8 @@
 #include "cases/model/sample.hpp"
 #include "ref/depth/outcome.hpp"
 #include "ref/expectation/explain.hpp"
+#include "ref/path/path.hpp"
 #include "ref/reason/reason.hpp"
-#include "ref/stencil/outcome.hpp"
 
 namespace ref {
 
@@ -29,10 +29,10 @@ std::string sentence_of(ReasonKind depth_reason, DepthOutcome outcome, cases::Co
                         const std::string& depths);
 
 // How a fragment fares in the depth bounds test.
-std::string sentence_of(const stencil::Fate& fate, const cases::DepthBounds& bounds);
+std::string sentence_of(const path::Fate& fate, const cases::DepthBounds& bounds);
 
 // How a fragment fares in the stencil test of the faces that it may show.
-std::string sentence_of(const stencil::Fate& fate, const cases::StencilState& state,
-                        bool can_be_front, bool can_be_back);
+std::string sentence_of(const path::Fate& fate, const cases::StencilState& state, bool can_be_front,
+                        bool can_be_back);
 
 }  // namespace ref

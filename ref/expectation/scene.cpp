@@ -45,7 +45,7 @@ Scene::Scene(const cases::Case& the_case, const Limits& the_limits, cases::Profi
                 ? std::make_optional<DepthTest>(c, triangles, limits, profile, false)
                 : std::nullopt),
       narrowing(c, profile, triangles, setups,
-                {fast::is_in_hull, fast::winding, fast::is_inside_whole, stencil::resolve},
+                {fast::is_in_hull, fast::winding, fast::is_inside_whole, path::resolve},
                 depth ? &*depth : nullptr, discards) {}
 
 }  // namespace ref

@@ -14,7 +14,7 @@
 #include "ref/coverage/setup.hpp"
 #include "ref/coverage/triangle_setups.hpp"
 #include "ref/expectation/vertex_numbers.hpp"
-#include "ref/stencil/outcome.hpp"
+#include "ref/path/path.hpp"
 
 namespace ref {
 
@@ -23,7 +23,15 @@ namespace ref {
 struct Hit {
     uint32_t triangle = 0;
     Coverage coverage = Coverage::either;
+    // A value may take its fragment away, and may not; but for that it covers the sample.
+    bool is_value_open = false, is_sure_but_for_value = false;
+    friend bool operator==(const Hit&, const Hit&) = default;
 };
+
+// A hit that a value may take away.
+inline Hit but_for_value(const Hit& hit) {
+    return {hit.triangle, Coverage::either, true, hit.coverage == Coverage::must};
+}
 
 // Whether a hit is that of another piece of the triangle before it (ref/coverage/pieces.hpp).
 inline bool is_further(std::span<const Hit> hits, size_t m) {
@@ -39,7 +47,7 @@ struct Predicates {
     int (*winding)(std::span<const FixedPoint>, const FixedPoint&);
     // An outline covers p but for its cuts, whatever positions the device uses.
     bool (*is_inside_whole)(const TriangleSetup&, const Outline&, const FixedPoint&);
-    stencil::Resolve resolve_stencil;
+    path::Resolve resolve_paths;
 };
 
 // Triangles of which exactly `count` cover the sample, or from `least` to `count`.

@@ -263,7 +263,7 @@ std::optional<uint64_t> quads_of(const Draw& draw, size_t number, const Expectat
 }
 
 CountBounds fragment_invocations(const cases::Case& c, size_t number,
-                                 const Expectation& expectation, const HitsAt& hits) {
+                                 const Expectation& expectation, const ShownAt& shown) {
     const Draw& draw = c.draws[number];
     const uint32_t samples = c.target.samples;
     const bool is_vulkan = expectation.profile == Profile::vulkan;
@@ -272,24 +272,13 @@ CountBounds fragment_invocations(const cases::Case& c, size_t number,
     CountBounds out{0, kNoMost};
     uint64_t of_pixel = 0;
     for (size_t index = 0; index < expectation.samples.size(); ++index) {
-        const SampleExpectation& sample = expectation.samples[index];
-        const std::span<const CountedDraw> counted = expectation.counted_of(sample);
-        const auto found =
-            std::ranges::find(counted, static_cast<uint32_t>(number), &CountedDraw::draw);
-        uint64_t of_sample = 0;
-        uint32_t least = sample.hits.total_min;
-        uint32_t most = sample.hits.total_max;
-        bool is_right = true;  // else what the device shows is a finding of its own
-        if (hits) {
-            const auto shown = hits(index);
-            is_right = shown && *shown >= least && *shown <= most;
-            least = most = shown.value_or(0);
-        }
-        if (found != counted.end() && is_right) {
-            const auto k = static_cast<size_t>(found - counted.begin());
-            of_sample = is_vulkan ? counted_at(counted, k, least, most, Profile::vulkan).least
-                                  : passed_least(counted, k, least, most);
-        }
+        const ShownSample here = shown ? shown(index) : ShownSample{};
+        // What the device shows wrong is a finding of its own.
+        const uint64_t of_sample =
+            here.is_right ? passed_at(expectation, c, index, static_cast<uint32_t>(number),
+                                      here.paths, !is_vulkan)
+                                .least
+                          : 0;
         of_pixel = is_by_sample ? of_pixel + of_sample : std::max(of_pixel, of_sample);
         if ((index + 1) % samples == 0) {
             out.least += of_pixel;
@@ -308,7 +297,7 @@ CountBounds fragment_invocations(const cases::Case& c, size_t number,
 }  // namespace
 
 CountBounds statistic_bounds(const cases::Case& c, size_t draw, const Expectation& expectation,
-                             const HitsAt& hits) {
+                             const ShownAt& shown) {
     const Draw& d = c.draws[draw];
     const Assembly a = assembly_of(d);
     const bool is_direct3d = expectation.profile == Profile::direct3d;
@@ -340,7 +329,7 @@ CountBounds statistic_bounds(const cases::Case& c, size_t draw, const Expectatio
             out = clipping_primitives(d, draw, a, expectation);
             break;
         case Query::fragment_invocations:
-            out = fragment_invocations(c, draw, expectation, hits);
+            out = fragment_invocations(c, draw, expectation, shown);
             break;
     }
     out.most = is_direct3d ? out.most : kNoMost;
@@ -348,11 +337,11 @@ CountBounds statistic_bounds(const cases::Case& c, size_t draw, const Expectatio
 }
 
 std::vector<CountBounds> query_bounds(const cases::Case& c, const Expectation& expectation,
-                                      const HitsAt& hits) {
-    std::vector<CountBounds> out = count_bounds(expectation, c.draws.size(), hits);
+                                      const ShownAt& shown) {
+    std::vector<CountBounds> out = count_bounds(expectation, c, shown);
     for (size_t k = 0; k < c.draws.size(); ++k) {
         if (cases::is_statistic(c.draws[k].query)) {
-            out[k] = statistic_bounds(c, k, expectation, hits);
+            out[k] = statistic_bounds(c, k, expectation, shown);
         }
     }
     return out;

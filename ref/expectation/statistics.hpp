@@ -42,14 +42,14 @@ namespace ref {
 // Nothing bounds it.
 inline constexpr uint64_t kNoMost = UINT64_MAX;
 
-// The bounds of the statistic that a draw asks for, with the hits that a device shows. `hits`
+// The bounds of the statistic that a draw asks for, with what a device shows. `shown`
 // empty: whatever a device may show.
 CountBounds statistic_bounds(const cases::Case& c, size_t draw, const Expectation& expectation,
-                             const HitsAt& hits);
+                             const ShownAt& shown);
 
 // What the queries of a case may give, by draw: its statistic, or how many samples, of which a
 // query that is not precise gives 0 or any other number; nothing for a draw without a query.
 std::vector<CountBounds> query_bounds(const cases::Case& c, const Expectation& expectation,
-                                      const HitsAt& hits);
+                                      const ShownAt& shown);
 
 }  // namespace ref

@@ -8,26 +8,6 @@
 
 namespace ref::stencil {
 
-Values values_of(std::span<const Outcome> outcomes, bool is_free, uint32_t clear,
-                 const std::optional<std::pair<uint32_t, uint32_t>>& hits) {
-    Values out;
-    const auto fits = [&](const Outcome& o) {
-        return hits && o.front == hits->first && o.back == hits->second;
-    };
-    const bool is_known = std::ranges::any_of(outcomes, fits);
-    for (const Outcome& o : outcomes) {
-        if (!is_known || fits(o)) {
-            out |= o.values;
-        }
-    }
-    if (is_free) {
-        out.set();
-    } else if (outcomes.empty()) {
-        out.set(clear);
-    }
-    return out;
-}
-
 uint32_t least_of(const Values& values) {
     uint32_t value = 0;
     while (!values[value]) {

@@ -6,21 +6,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
-#include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 
-#include "ref/stencil/outcome.hpp"
+#include "ref/stencil/operation.hpp"
 
 namespace ref::stencil {
-
-// All that a sample may hold: what goes with these hits, front and back; with hits that no course
-// of events has, and with none given, any that it may hold. Without a course it is what it was
-// cleared to; `is_free`: nothing is claimed of it.
-Values values_of(std::span<const Outcome> outcomes, bool is_free, uint32_t clear,
-                 const std::optional<std::pair<uint32_t, uint32_t>>& hits);
 
 // The least of at least one value.
 uint32_t least_of(const Values& values);

@@ -38,7 +38,7 @@ struct Drawn {
         capture.color.resize(capture.sample_count());
         for (uint32_t y = 0; y < 8; ++y) {
             for (uint32_t x = 0; x < 8; ++x) {
-                capture.color[y * 8 + x] = reference.codes(y * 8 + x, {x, y, 0}, std::nullopt);
+                capture.color[y * 8 + x] = reference.codes(y * 8 + x, {x, y, 0});
             }
         }
     }
@@ -135,7 +135,7 @@ TEST(Color, OfEachDrawThatIsMissingItsOwnRuleIsTold) {
     capture.target = c.target;
     capture.color.resize(capture.sample_count());
     for (size_t k = 0; k < capture.color.size(); ++k) {
-        capture.color[k] = reference.codes(k, cases::sample_at(c.target, k), std::nullopt);
+        capture.color[k] = reference.codes(k, cases::sample_at(c.target, k));
     }
     const ref::Expectation expectation = ref::expect(c, ref::Limits{8}, Profile::direct3d);
     const Verdict verdict = compare(c, expectation, capture);
@@ -250,10 +250,11 @@ TEST(ColorJudge, AWriterDeniesAnotherOrder) {
     // Operands exchanged: 51 & ~204 = 51; in another order 204 & ~170 = 68, and then 51.
     const std::array<uint32_t, 4> codes = {51, 0, 0, 0};
     const cases::SampleId id{1, 2, 0};
-    const uint32_t writer = expectation.fragments_of(expectation.samples[17]).back().triangle;
-    EXPECT_EQ(reference.judge(17, id, codes, ref::ColorWitness{2, writer, nullptr}).kind,
-              ref::ColorVerdict::Kind::value);
-    EXPECT_NE(reference.judge(17, id, codes, std::nullopt).kind, ref::ColorVerdict::Kind::value);
+    ref::ColorWitness witness;
+    witness.paths.hits = {ref::path::SeenHits::Detail::total, 2, 0};
+    witness.knows_fragments = true;
+    EXPECT_EQ(reference.judge(17, id, codes, witness).kind, ref::ColorVerdict::Kind::value);
+    EXPECT_NE(reference.judge(17, id, codes).kind, ref::ColorVerdict::Kind::value);
 }
 
 // The story of pixel (1, 2), which both triangles cover.

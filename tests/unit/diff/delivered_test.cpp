@@ -346,6 +346,41 @@ TEST(Delivered, HitsAndWriterTellWhatIsBehindAColour) {
     EXPECT_EQ(kind_of(), diff::FindingKind::value);
 }
 
+// A tie that another choice of owner decides is at most direct3d's, whatever else is known: the
+// samples on the right edge of a triangle that shows its back.
+TEST(Delivered, WithoutFacesATieIsNoWrongFace) {
+    for (const bool is_back : {false, true}) {
+        cases::Case c =
+            is_back
+                ? pixel_case(8, 8, {{1, 1}, {1, 7}, {4.5F, 4.5F}, {4.5F, 4.5F}, {1, 7}, {4.5F, 7}})
+                : pixel_case(8, 8, {{1, 1}, {4.5F, 4.5F}, {1, 7}, {4.5F, 4.5F}, {4.5F, 7}, {1, 7}});
+        const ref::Expectation e = ref::expect(c, ref::Limits{8}, Profile::direct3d);
+        const ref::Expectation loose = ref::expect(c, ref::Limits{8}, Profile::practice);
+        capture::Capture other = perfect_capture(c, e);
+        const capture::Capture any = perfect_capture(c, loose);
+        size_t changed = 0;
+        for (size_t k = 0; k < e.samples.size(); ++k) {
+            if (e.samples[k].hits.total_max == 0 && loose.samples[k].hits.total_max == 1) {
+                ++changed;
+                const cases::Triangle& t = loose.triangles[loose.writers_of(loose.samples[k])[0]];
+                const float back = loose.samples[k].hits.back_max > 0 ? 1 : 0;
+                other.hits[k] = {1 - back, back, capture::kHitGuard, capture::kHitGuard + 1};
+                other.writers[k] = {t.draw, t.primitive, t.provoking, capture::kClearId};
+            }
+        }
+        ASSERT_GT(changed, 0U);
+        for (const uint32_t planes : {kCoverage, kTotal, kFaces, kWriter}) {
+            for (const uint32_t more : {0U, uint32_t{kWriter}}) {
+                const diff::Verdict v = diff::compare_delivered(c, e, take(other, planes | more));
+                EXPECT_EQ(v.finding_total(), changed) << planes << ' ' << is_back;
+                EXPECT_EQ(v.level, Profile::direct3d) << planes << ' ' << is_back;
+                EXPECT_NE(v.findings.at(0).rule, cases::rule::face_area_sign);
+                EXPECT_TRUE(diff::compare_delivered(c, loose, take(other, planes | more)).ok());
+            }
+        }
+    }
+}
+
 TEST(Delivered, ColourAloneIsJudged) {
     Fixture f;
     f.c.target.color = cases::ColorTarget{cases::ColorFormat::rgba8_unorm, {0, 0, 0, 0}};

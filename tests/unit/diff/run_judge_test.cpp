@@ -83,10 +83,11 @@ capture::Capture right_capture(const cases::Case& c, const ref::Expectation& e) 
         ref::ColorReference reference(c, e);
         for (size_t index = 0; index < capture.sample_count(); ++index) {
             ref::ColorWitness witness;
-            witness.hits = static_cast<uint32_t>(capture.hits[index].x + capture.hits[index].y);
-            const ref::SampleExpectation& s = e.samples[index];
-            if (witness.hits > 0) {
-                witness.writer = e.writers_of(s).back();
+            witness.paths.hits = {
+                ref::path::SeenHits::Detail::total,
+                static_cast<uint32_t>(capture.hits[index].x + capture.hits[index].y), 0};
+            for (const ref::path::Fragment& f : e.fragments_of(e.samples[index])) {
+                witness.paths.last.push_back(f.triangle == e.writers_of(e.samples[index]).back());
             }
             capture.color.push_back(
                 reference.codes(index, cases::sample_at(c.target, index), witness));
@@ -292,8 +293,7 @@ TEST(ExhaustiveRunJudge, SaysWhatColoursAloneSayOneByOne) {
         capture::Capture capture;
         capture.target = c.target;
         for (size_t index = 0; index < capture.sample_count(); ++index) {
-            capture.color.push_back(
-                reference.codes(index, cases::sample_at(c.target, index), std::nullopt));
+            capture.color.push_back(reference.codes(index, cases::sample_at(c.target, index)));
         }
         for (uint64_t k = rng() % 3; k > 0; --k) {
             capture::ColorCodes& codes = capture.color[rng() % capture.sample_count()];

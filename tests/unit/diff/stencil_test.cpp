@@ -59,6 +59,9 @@ TEST(StencilJudge, ARightStencilPassesAndEveryWrongOneIsFound) {
                   std::string::npos)
             << expected;
     }
+    capture::Capture missing = right;
+    missing.stencil[5] = capture::kPoison;
+    EXPECT_NE(judged(c, missing).error, "");
 }
 
 // The stencil of a device that is wrong about one thing names that.

@@ -111,7 +111,8 @@ TEST(GeneratedCases, BoundsHoldWhatIsAccepted) {
             ref::ColorReference colors(c, expected);
             for (size_t index = k % 5; index < expected.samples.size(); index += 5) {
                 const cases::SampleId id = cases::sample_at(c.target, index);
-                for (const ref::PossibleHit& hit : expected.fragments_of(expected.samples[index])) {
+                for (const ref::path::Fragment& hit :
+                     expected.fragments_of(expected.samples[index])) {
                     const cases::Triangle& triangle = expected.triangles[hit.triangle];
                     const size_t count = c.draws[triangle.draw].attributes.size();
                     for (size_t a = 0; a < count; ++a) {
@@ -132,11 +133,11 @@ TEST(GeneratedCases, BoundsHoldWhatIsAccepted) {
                         }
                     }
                 }
-                std::array<uint32_t, 4> codes = colors.codes(index, id, std::nullopt);
+                std::array<uint32_t, 4> codes = colors.codes(index, id);
                 codes.at(rng() % 4) ^= 1U << rng() % 8;
-                const bool may = colors.may_explain(index, id, codes, std::nullopt);
+                const bool may = colors.may_explain(index, id, codes);
                 if (!may) {
-                    EXPECT_FALSE(colors.explains(index, id, codes, std::nullopt)) << text;
+                    EXPECT_FALSE(colors.explains(index, id, codes)) << text;
                     ++ruled_out[profile];
                 }
             }

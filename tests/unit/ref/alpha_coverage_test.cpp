@@ -165,7 +165,7 @@ TEST(AlphaCoverage, SaysNothingOfTheSameTriangleAgain) {
         EXPECT_TRUE(s.hits.total_max == 1 || !c.target.has_stencil) << variant;
         if (c.target.has_stencil) {
             // One is counted; a second one that is there fails by its depth and inverts that.
-            EXPECT_EQ(stencil::values_of(e.stencils_of(s), s.is_stencil_free, 0, std::nullopt),
+            EXPECT_EQ(path::values_of(e.stencils_of(s), s.is_free, 0, std::nullopt),
                       stencil::Values().set(1).set(0xfe))
                 << variant;
         }

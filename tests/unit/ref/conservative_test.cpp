@@ -384,7 +384,7 @@ TEST(Conservative, ACornerOnThePlaneMayBeAPieceWithoutArea) {
 TEST(Conservative, DepthsOfPiecesAndOfOtherModesMayDiffer) {
     cases::Case pieces = cut_by_near_plane(Conservative::overestimate);
     pieces.draws[0].depth.write = false;
-    pieces.target.has_stencil = true;  // its courses of events follow each piece
+    pieces.target.has_stencil = true;  // its paths follow each piece
     pieces.draws[0].stencil.front.pass = cases::StencilOp::increment_and_clamp;
     const HitBounds hits = hits_at(expect(pieces, limits_of(0), Profile::direct3d), 9, 2);
     EXPECT_TRUE(hits.allows(0, 1));

@@ -50,7 +50,7 @@ cases::Case random_counted_case(uint64_t seed) {
 }
 
 std::vector<CountBounds> without_hits(const Expectation& e, const cases::Case& c) {
-    return count_bounds(e, c.draws.size(), {});
+    return count_bounds(e, c, {});
 }
 
 TEST(ExhaustiveCounted, ExpectationsAgreeWithTheOracle) {
@@ -66,8 +66,11 @@ TEST(ExhaustiveCounted, ExpectationsAgreeWithTheOracle) {
                 least += bounds.least;
                 open += bounds.most - bounds.least;
             }
-            for (const CountedDraw& counted : fast.counted) {
-                hidden += counted.hidden_most;
+            for (size_t k = 0; k < fast.samples.size(); ++k) {
+                for (uint32_t draw = 0; draw < c.draws.size(); ++draw) {
+                    hidden += passed_at(fast, c, k, draw, {}, true).most -
+                              passed_at(fast, c, k, draw, {}, false).most;
+                }
             }
         }
     }
@@ -87,9 +90,8 @@ TEST(Counted, HitsAreThoseWithoutQueries) {
         for (const Profile profile : cases::kProfiles) {
             const Expectation asked = expect(c, Limits{}, profile);
             const Expectation unasked = expect(plain, Limits{}, profile);
-            ASSERT_TRUE(unasked.counted.empty());
             for (size_t k = 0; k < asked.samples.size(); ++k) {
-                // Courses know together what a list of triangles knows of each.
+                // Paths know together what a list of triangles knows of each.
                 const HitBounds& a = asked.samples[k].hits;
                 const HitBounds& b = unasked.samples[k].hits;
                 EXPECT_GE(a.total_min, b.total_min) << "seed " << seed << " sample " << k;
@@ -97,6 +99,12 @@ TEST(Counted, HitsAreThoseWithoutQueries) {
             }
         }
     }
+}
+
+ShownSample of_hits(uint32_t hits) {
+    ShownSample out{true, {}, hits};
+    out.paths.hits = {path::SeenHits::Detail::total, hits, 0};
+    return out;
 }
 
 cases::Case triangle_of_8() {
@@ -119,12 +127,12 @@ TEST(Counted, TheDiagonalIsOpenWithoutTopLeftRule) {
     const Expectation vulkan = expect(c, Limits{}, Profile::vulkan);
     EXPECT_EQ(without_hits(vulkan, c)[0], (CountBounds{28, 36}));
     // A device that shows every second sample of the diagonal counts 4 more, no others.
-    const auto hits = [&](size_t index) -> std::optional<uint32_t> {
+    const auto shown = [&](size_t index) {
         const size_t x = index % 8;
         const size_t y = index / 8;
-        return x + y < 7 || (x + y == 7 && x % 2 == 0) ? 1 : 0;
+        return of_hits(x + y < 7 || (x + y == 7 && x % 2 == 0) ? 1 : 0);
     };
-    EXPECT_EQ(count_bounds(vulkan, 1, hits)[0], (CountBounds{32, 32}));
+    EXPECT_EQ(count_bounds(vulkan, c, shown)[0], (CountBounds{32, 32}));
 }
 
 TEST(Counted, TwoTrianglesShareTheirEdge) {
@@ -151,27 +159,44 @@ TEST(Counted, WhatIsDiscardedEarlyIsCountedFromPracticeOn) {
     EXPECT_EQ(at(Profile::vulkan).most, 36U);
 }
 
+using Range = std::pair<uint32_t, uint32_t>;
+// How many of some fragments pass where so many show.
+Range passed(const path::Question& question, uint32_t hits, const std::vector<bool>& of,
+             bool with_discarded) {
+    const auto counted = path::counted_by(question, of_hits(hits).paths, of, with_discarded);
+    return counted ? Range(counted->least, counted->most) : Range(~0U, ~0U);
+}
+
 // Two fragments of draw 0 that may show or be discarded once they passed, and one of draw 1.
 TEST(Counted, WhatShowsOrIsDiscardedCountsOnce) {
-    const std::vector<CountedDraw> draws = {{0, 0, 0, 0, 0, 2, 2}, {1, 1, 1, 0, 0, 0, 0}};
+    path::Question question;
+    path::Fragment open{&path::kKeepStencil, true, true, false, true};
+    open.is_discard_open = true;
+    question.fragments = {open, open, {&path::kKeepStencil, true, true, false, true}};
+    const std::vector<bool> first = {true, true, false}, second = {false, false, true};
     for (const uint32_t hits : {1U, 2U, 3U}) {
-        EXPECT_EQ(counted_at(draws, 0, hits, hits, Profile::practice), (CountBounds{2, 2}));
-        EXPECT_EQ(counted_at(draws, 0, hits, hits, Profile::vulkan), (CountBounds{hits - 1, 2}));
-        EXPECT_EQ(passed_least(draws, 0, hits, hits), 2U);
-        EXPECT_EQ(counted_at(draws, 1, hits, hits, Profile::practice), (CountBounds{1, 1}));
+        EXPECT_EQ(passed(question, hits, first, true), Range(2, 2));
+        EXPECT_EQ(passed(question, hits, first, false), Range(hits - 1, hits - 1));
+        EXPECT_EQ(passed(question, hits, second, true), Range(1, 1));
     }
 }
 
 TEST(Counted, OthersHitsLeaveLess) {
-    const std::vector<CountedDraw> draws = {{0, 0, 2, 0, 0}, {1, 1, 3, 0, 1}};
-    EXPECT_EQ(counted_at(draws, 0, 1, 5, Profile::vulkan), (CountBounds{0, 2}));
-    EXPECT_EQ(counted_at(draws, 0, 1, 1, Profile::vulkan), (CountBounds{0, 0}));
-    EXPECT_EQ(counted_at(draws, 0, 5, 5, Profile::vulkan), (CountBounds{2, 2}));
-    EXPECT_EQ(counted_at(draws, 1, 4, 4, Profile::vulkan), (CountBounds{2, 4}));
-    EXPECT_EQ(counted_at(std::vector<CountedDraw>{{0, 0, 1, 1, 1}}, 0, 0, 0, Profile::vulkan),
-              (CountBounds{0, 1}));
-    EXPECT_EQ(counted_at(std::vector<CountedDraw>{{0, 0, 1, 1, 1}}, 0, 0, 0, Profile::practice),
-              (CountBounds{1, 1}));
+    path::Question question;
+    const path::Fragment either{&path::kKeepStencil, false, true, false, true};
+    path::Fragment sure = either;
+    sure.is_sure = true;
+    question.fragments = {either, either, sure, either, either};
+    const std::vector<bool> first = {true, true, false, false, false};
+    const std::vector<bool> second = {false, false, true, true, true};
+    EXPECT_EQ(passed(question, 1, first, true), Range(0, 0));
+    EXPECT_EQ(passed(question, 5, first, true), Range(2, 2));
+    EXPECT_EQ(passed(question, 4, second, true), Range(2, 3));
+    // Exactly one of a set is there, whichever it is.
+    question.sets = {{1, 1}};
+    question.fragments[0].set = question.fragments[1].set = 0;
+    EXPECT_EQ(passed(question, 2, first, true), Range(1, 1));
+    EXPECT_EQ(path::counted_by(question, {}, first, true)->least, 1U);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 
 #include "cases/model/sample.hpp"
 #include "ref/expectation/expectation.hpp"
-#include "ref/stencil/exact.hpp"
+#include "ref/path/exact.hpp"
 #include "tests/unit/ref/same_expectations.hpp"
 #include "tests/unit/ref/value_case.hpp"
 
@@ -140,13 +140,13 @@ TEST(DepthBounds, AreTestedBeforeTheStencil) {
     const cases::StencilState state{counts, counts};
     for (const DepthOutcome bounds :
          {DepthOutcome::fails, DepthOutcome::open, DepthOutcome::passes}) {
-        stencil::Question question;
+        path::Question question;
         question.clear = 7;
         question.fragments.push_back({&state, true, true, false, true});
         question.bounds = [bounds](int, uint32_t) { return bounds; };
-        const stencil::Resolution got = stencil::resolve(question);
-        EXPECT_EQ(got.outcomes, stencil::exact::resolve(question).outcomes);
-        EXPECT_EQ(got.fates, stencil::exact::resolve(question).fates);
+        const path::Resolution got = path::resolve(question);
+        EXPECT_EQ(got.outcomes, path::exact::resolve(question).outcomes);
+        EXPECT_EQ(got.fates, path::exact::resolve(question).fates);
         EXPECT_EQ(got.fates[0].fails_bounds, bounds != DepthOutcome::passes);
         EXPECT_EQ(got.fates[0].passes, bounds != DepthOutcome::fails);
         EXPECT_EQ(got.outcomes.size(), bounds == DepthOutcome::open ? 2U : 1U);

@@ -201,13 +201,16 @@ TEST(DiscardValue, QueriesCountWhatIsHiddenOrShownOnce) {
     cases::Case c = of_target(3.5F);
     c.draws[0].query = cases::Query::occlusion_precise;
     c.draws[0].early_tests = true;
-    const auto counted = [&](Profile profile, const HitsAt& hits) {
-        return count_bounds(expect(c, Limits{}, profile), 1, hits)[0];
+    const auto counted = [&](Profile profile, const ShownAt& shown) {
+        return count_bounds(expect(c, Limits{}, profile), c, shown)[0];
     };
     EXPECT_EQ(counted(Profile::direct3d, {}), (CountBounds{64, 64}));
     const auto is_shown_from = [](uint32_t column) {
-        return [column](size_t index) -> std::optional<uint32_t> {
-            return index % 8 >= column ? 1 : 0;
+        return [column](size_t index) {
+            const uint32_t hits = index % 8 >= column ? 1 : 0;
+            ShownSample out{true, {}, hits};
+            out.paths.hits = {path::SeenHits::Detail::total, hits, 0};
+            return out;
         };
     };
     EXPECT_EQ(counted(Profile::direct3d, is_shown_from(3)), (CountBounds{64, 64}));

@@ -46,7 +46,7 @@ struct JudgedNeighbour {
     explicit JudgedNeighbour(uint32_t judged) : c(three_targets(judged)) {}
     std::string rule_of(const std::array<uint32_t, 4>& codes) {
         ColorWitness witness;
-        witness.hits = 1;
+        witness.knows_fragments = true;
         const ColorVerdict verdict = reference.judge(0, {0, 0, 0}, codes, witness);
         return verdict.kind == ColorVerdict::Kind::ok ? "ok" : verdict.rule;
     }
@@ -113,7 +113,10 @@ TEST(Neighbour, ACodeBesideTheWrittenValueIsNoMixUp) {
     ColorReference reference(c, expectation);
     const glm::vec4 written(115.0F / 116, 0, 0, 0);
     const auto rule_of = [&](uint32_t red) {
-        return reference.judge(0, {0, 0, 0}, {red, 0, 0, 0}, ColorWitness{1, 0, &written}).rule;
+        ColorWitness witness;
+        witness.knows_fragments = true;
+        witness.written[0] = &written;
+        return reference.judge(0, {0, 0, 0}, {red, 0, 0, 0}, witness).rule;
     };
     EXPECT_EQ(rule_of(1014), "");
     EXPECT_NE(rule_of(1015), "");

@@ -30,9 +30,9 @@ cases::Case case_of(Topology topology, const std::vector<glm::vec4>& pixels) {
     return c;
 }
 
-CountBounds bounds(cases::Case c, Query query, Profile profile, const HitsAt& hits = {}) {
+CountBounds bounds(cases::Case c, Query query, Profile profile, const ShownAt& shown = {}) {
     c.draws[0].query = query;
-    return statistic_bounds(c, 0, expect(c, Limits{}, profile), hits);
+    return statistic_bounds(c, 0, expect(c, Limits{}, profile), shown);
 }
 
 const std::vector<glm::vec4> kSix = {{0, 0, 0.5F, 1}, {0, 8, 0.5F, 1}, {4, 0, 0.5F, 1},
@@ -148,13 +148,16 @@ TEST(Statistics, FragmentsAreThoseThatShow) {
         case_of(Topology::triangle_list, {{0, 0, 0.5F, 1}, {8, 0, 0.5F, 1}, {0, 8, 0.5F, 1}});
     EXPECT_EQ(bounds(c, Query::fragment_invocations, Profile::direct3d), (CountBounds{28, 64}));
     EXPECT_EQ(bounds(c, Query::fragment_invocations, Profile::vulkan), (CountBounds{28, kNoMost}));
-    const auto hits = [](size_t index) -> std::optional<uint32_t> {
-        return index % 8 + index / 8 <= 7 ? 1 : 0;
+    const auto of_hits = [](uint32_t hits) {
+        ShownSample out{true, {}, hits};
+        out.paths.hits = {path::SeenHits::Detail::total, hits, 0};
+        return out;
     };
-    EXPECT_EQ(bounds(c, Query::fragment_invocations, Profile::vulkan, hits).least, 36U);
+    const auto shown = [&](size_t index) { return of_hits(index % 8 + index / 8 <= 7 ? 1 : 0); };
+    EXPECT_EQ(bounds(c, Query::fragment_invocations, Profile::vulkan, shown).least, 36U);
     // A sample that is wrong, or not known, is no other finding.
-    const auto lost = [](size_t index) -> std::optional<uint32_t> {
-        return index == 0 ? std::nullopt : std::optional(index == 9 ? 0U : 1U);
+    const auto lost = [&](size_t index) {
+        return index == 0 || index == 9 ? ShownSample{false, {}, {}} : of_hits(1);
     };
     EXPECT_EQ(bounds(c, Query::fragment_invocations, Profile::practice, lost).least, 34U);
     // Those that are discarded once they are tested were shaded; what is not tested may be skipped.

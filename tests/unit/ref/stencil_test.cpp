@@ -9,8 +9,9 @@
 #include <random>
 
 #include "ref/expectation/expectation.hpp"
-#include "ref/stencil/exact.hpp"
-#include "ref/stencil/outcome.hpp"
+#include "ref/path/exact.hpp"
+#include "ref/path/path.hpp"
+#include "tests/unit/ref/random_questions.hpp"
 #include "tests/unit/ref/same_expectations.hpp"
 #include "tests/unit/ref/value_case.hpp"
 
@@ -67,87 +68,15 @@ TEST(Stencil, TheReferenceStandsOnTheLeft) {
     EXPECT_FALSE(stencil::passes(face, 0xa5));
 }
 
-class RandomQuestions : public value_test::Random {
-  public:
-    using Random::Random;
-
-    StencilFace face() {
-        StencilFace out;
-        out.compare = static_cast<CompareOp>(below(8));
-        for (StencilOp* op : {&out.fail, &out.depth_fail, &out.pass}) {
-            *op = static_cast<StencilOp>(below(8));
-        }
-        out.compare_mask = mask();
-        out.write_mask = mask();
-        out.reference = value();
-        return out;
-    }
-    cases::StencilState state() { return {face(), face()}; }
-
-    // States outlive the question.
-    stencil::Question question(std::vector<cases::StencilState>& states) {
-        stencil::Question out;
-        out.clear = value();
-        const uint32_t count = 1 + below(7);
-        states.resize(count);
-        for (uint32_t m = 0; m < count; ++m) {
-            states[m] = state();
-            stencil::Fragment fragment{&states[m], one_in(2), !one_in(3), false, !one_in(3)};
-            fragment.can_be_back = !fragment.can_be_front || one_in(3);
-            fragment.is_discarded_front = one_in(6);
-            fragment.is_discard_open = one_in(6);
-            if (m > 0 && one_in(5)) {
-                fragment.twin = static_cast<int>(below(m));
-                fragment.is_sure = out.fragments[static_cast<size_t>(fragment.twin)].is_sure;
-            }
-            out.fragments.push_back(fragment);
-        }
-        if (count > 2 && one_in(2)) {
-            out.sets.push_back({below(2), 1 + below(2)});
-            for (const uint32_t m : {0U, count - 2, count - 1}) {
-                stencil::Fragment& fragment = out.fragments[m];
-                fragment.is_sure = false;
-                fragment.twin = -1;
-                fragment.set = 0;
-            }
-            for (stencil::Fragment& fragment : out.fragments) {
-                fragment.twin = -1;
-            }
-        }
-        if (one_in(3)) {
-            const uint64_t salt = bits();
-            out.bounds = [salt](int stored, uint32_t m) {
-                std::mt19937_64 of(salt + m * 64 + static_cast<uint64_t>(stored + 1));
-                return static_cast<DepthOutcome>(of() % 3);
-            };
-        }
-        if (!one_in(3)) {
-            const uint64_t salt = bits();
-            out.depth = [salt](int stored, uint32_t m) {
-                std::mt19937_64 of(salt + m * 64 + static_cast<uint64_t>(stored + 1));
-                return static_cast<DepthOutcome>(of() % 3);
-            };
-        }
-        return out;
-    }
-
-  private:
-    uint32_t value() {
-        constexpr std::array<uint32_t, 8> kEnds = {0, 1, 254, 255, 0x7f, 0x80, 3, 0x5a};
-        return one_in(4) ? below(256) : kEnds.at(below(8));
-    }
-    uint32_t mask() { return one_in(2) ? 0xffU : one_in(4) ? below(1U << 12U) : value(); }
-};
-
 TEST(ExhaustiveStencil, OperationsAgreeWithTheOracle) {
     RandomQuestions random(7);
     for (uint32_t k = 0; k < 20000; ++k) {
         const cases::StencilState state = random.state();
-        stencil::Question question;
+        path::Question question;
         question.clear = random.below(256);
         question.fragments = {{&state, true, true, false, true}};
-        const stencil::Resolution fast = stencil::resolve(question);
-        const stencil::Resolution slow = stencil::exact::resolve(question);
+        const path::Resolution fast = path::resolve(question);
+        const path::Resolution slow = path::exact::resolve(question);
         ASSERT_EQ(fast.outcomes, slow.outcomes) << k;
         ASSERT_EQ(fast.fates, slow.fates) << k;
     }
@@ -158,9 +87,9 @@ TEST(ExhaustiveStencil, QuestionsAgreeWithTheOracle) {
     for (uint64_t seed = 1; seed <= 4000; ++seed) {
         RandomQuestions random(seed);
         std::vector<cases::StencilState> states;
-        const stencil::Question question = random.question(states);
-        const stencil::Resolution fast = stencil::resolve(question);
-        const stencil::Resolution slow = stencil::exact::resolve(question);
+        const path::Question question = random.question(states);
+        const path::Resolution fast = path::resolve(question);
+        const path::Resolution slow = path::exact::resolve(question);
         ASSERT_EQ(fast.is_free, slow.is_free) << seed;
         free += fast.is_free ? 1 : 0;
         if (fast.is_free) {
@@ -177,17 +106,17 @@ TEST(ExhaustiveStencil, QuestionsAgreeWithTheOracle) {
     EXPECT_LT(free, 100U);
 }
 
-// So many open fragments that not all courses are followed: nothing is claimed.
-TEST(Stencil, TooManyCoursesClaimNothing) {
+// So many open fragments that not all paths are followed: nothing is claimed.
+TEST(Stencil, TooManyPathsClaimNothing) {
     std::vector<cases::StencilState> states(40);
-    stencil::Question question;
+    path::Question question;
     for (uint32_t k = 0; k < states.size(); ++k) {
         states[k].front.pass = StencilOp::replace;
         states[k].front.reference = k * 5;
         states[k].back.pass = StencilOp::increment_and_wrap;
         question.fragments.push_back({&states[k], false, true, true, true});
     }
-    EXPECT_TRUE(stencil::resolve(question).is_free);
+    EXPECT_TRUE(path::resolve(question).is_free);
 }
 
 cases::Case random_case(uint64_t seed) {
@@ -267,7 +196,7 @@ TEST(Stencil, TheDefaultsCountHits) {
     EXPECT_TRUE(stencil::is_needed(c));
     const Expectation e = expect(c, Limits{}, cases::Profile::direct3d);
     for (size_t k = 0; k < e.samples.size(); ++k) {
-        for (const stencil::Outcome& o : e.stencils_of(e.samples[k])) {
+        for (const path::Outcome& o : e.stencils_of(e.samples[k])) {
             EXPECT_EQ(o.values.count(), 1U);
             EXPECT_TRUE(o.values[(5 + o.front - o.back) & 0xffU]);
         }

@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The oracle of the stencil test, in the most obvious way.
-#include "ref/stencil/exact.hpp"
+#include "ref/path/exact.hpp"
 
 #include <algorithm>
 #include <array>
 
-namespace ref::stencil::exact {
+namespace ref::path::exact {
 
 namespace {
 
@@ -16,7 +15,7 @@ using cases::StencilFace;
 using cases::StencilOp;
 
 constexpr size_t kBits = 8;
-constexpr uint64_t kMostSteps = uint64_t{1} << 20U;  // of all courses together
+constexpr uint64_t kMostSteps = uint64_t{1} << 20U;  // of all paths together
 using Byte = std::array<bool, kBits>;                // bit 0 first
 
 Byte byte_of(uint32_t value) {
@@ -104,7 +103,7 @@ uint32_t written(StencilOp op, const StencilFace& face, uint32_t stored) {
     return number_of(out);
 }
 
-// What one course did with each fragment.
+// What one path did with each fragment.
 enum class Deed : uint8_t {
     absent,
     failed_bounds,
@@ -122,6 +121,11 @@ class Walk {
         out_.fates.resize(count);
         out_.is_last.assign(count, false);
         out_.is_stored.assign(count, false);
+    }
+
+    std::vector<History> all() {
+        keeps_ = true;
+        return run().is_free ? std::vector<History>() : std::move(histories_);
     }
 
     Resolution run() {
@@ -262,6 +266,23 @@ class Walk {
             outcome.values.set(value);
             out_.outcomes.push_back(outcome);
         }
+        if (keeps_) {
+            keep(value, stored);
+        }
+    }
+
+    void keep(uint32_t value, int stored) {
+        History& history = histories_.emplace_back();
+        history.stencil = value;
+        history.stored = stored;
+        for (size_t m = 0; m < deeds_.size(); ++m) {
+            if (deeds_[m] == Deed::discarded) {
+                history.discarded.push_back(static_cast<uint32_t>(m));
+            } else if (deeds_[m] == Deed::passed_front || deeds_[m] == Deed::passed_back) {
+                history.shown.push_back(static_cast<uint32_t>(m));
+                history.is_front.push_back(deeds_[m] == Deed::passed_front);
+            }
+        }
     }
 
     const Question& question_;
@@ -269,6 +290,8 @@ class Walk {
     std::vector<Deed> deeds_;
     std::vector<uint32_t> met_;  // the stencil before each deed
     uint64_t steps_ = 0;
+    bool keeps_ = false;
+    std::vector<History> histories_;
 };
 
 }  // namespace
@@ -277,4 +300,30 @@ Resolution resolve(const Question& question) {
     return Walk(question).run();
 }
 
-}  // namespace ref::stencil::exact
+std::vector<History> histories(const Question& question) {
+    return Walk(question).all();
+}
+
+bool satisfies(const History& history, const Observed& observed) {
+    using Detail = SeenHits::Detail;
+    const auto fronts = static_cast<uint32_t>(std::ranges::count(history.is_front, true));
+    const auto total = static_cast<uint32_t>(history.shown.size());
+    const SeenHits& seen = observed.hits;
+    if ((seen.detail == Detail::any && (total > 0) != (seen.front > 0)) ||
+        (seen.detail == Detail::total && total != seen.front) ||
+        (seen.detail == Detail::faces && (fronts != seen.front || total - fronts != seen.back))) {
+        return false;
+    }
+    if (observed.stencil && *observed.stencil != history.stencil) {
+        return false;
+    }
+    if (history.shown.empty() ? !observed.may_be_unhit
+                              : !observed.last.empty() && !observed.last[history.shown.back()]) {
+        return false;
+    }
+    return history.stored == kClearDepth
+               ? observed.may_be_clear
+               : observed.stored.empty() || observed.stored[static_cast<size_t>(history.stored)];
+}
+
+}  // namespace ref::path::exact
