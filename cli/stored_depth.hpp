@@ -8,8 +8,8 @@
 
 namespace cli {
 
-// Whether the depth that a sample holds may be another one than the last writer's: the writer's draw
-// may not write depth, and what early tests have stored may be discarded then.
+// Whether the depth that a sample holds may be another one than the last writer's: the writer's
+// draw may not write depth, and what early tests have stored may be discarded then.
 bool has_own_depth(const cases::Case& c, const ref::Expectation& expectation, size_t index);
 
 // Whether a sample may hold the depth of a triangle.

@@ -5,12 +5,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/format/color_format.hpp"
+#include "ref/color/logic.hpp"
+
 namespace ref {
 
 using Triangles = std::vector<uint32_t>;
 
 Shown::Shown(const cases::Case& c, const Expectation& expectation)
-    : case_(c), colors_(c, expectation), values_(c, expectation.limits, expectation.profile) {}
+    : case_(c),
+      expectation_(expectation),
+      colors_(c, expectation),
+      values_(c, expectation.limits, expectation.profile) {}
 
 float Shown::depth_of(uint32_t t, cases::SampleId id) {
     for (const ExpectedValue& value : values_.expected(t, id)) {
@@ -60,6 +66,25 @@ bool Shown::shows_order(size_t index, cases::SampleId id) {
     Triangles changed = drawn(index);
     std::ranges::reverse(changed);
     return changed.size() > 1 && tells(index, id, changed, *this);
+}
+
+bool Shown::shows_passed_logic(size_t index, cases::SampleId id) {
+    const Triangles all = drawn(index);
+    const cases::ColorFormat format = case_.target.color->format;
+    if (all.empty() || color::takes_logic(format)) {
+        return false;
+    }
+    const cases::ColorOutput& output = case_.draws[expectation_.triangles[all.back()].draw].color;
+    const auto after = colors_.codes_after(all, id);
+    const auto before = colors_.codes_after(std::span(all).first(all.size() - 1), id);
+    for (uint32_t k = 0; output.logic && k < after.size(); ++k) {
+        const uint32_t bits = cases::component_of(format, k).bits;
+        if (bits > 0 && (output.write_mask >> k & 1U) != 0 &&
+            color::operated(*output.logic, after.at(k), before.at(k), bits) != after.at(k)) {
+            return true;
+        }
+    }
+    return false;
 }
 
 bool is_shown(const cases::Case& c, const cases::Draw& draw, const QuantityId& id) {
