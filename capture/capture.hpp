@@ -122,7 +122,10 @@ inline constexpr uint32_t kFragCoordPlane = 2;
 inline constexpr uint32_t kAttributePlane = 3;  // of attribute 0; the others follow
 inline constexpr uint32_t kDepthPlane = kAttributePlane + cases::kMaxAttributes;
 inline constexpr uint32_t kColorPlane = kDepthPlane + 1;
-inline constexpr uint32_t kPlaneNumbers = kColorPlane + 4;  // those of stencil and resolves follow
+inline constexpr uint32_t kStencilPlane = kColorPlane + 1;
+inline constexpr uint32_t kResolvedColorPlane = kStencilPlane + 1;
+inline constexpr uint32_t kResolvedDepthPlane = kResolvedColorPlane + 1;
+inline constexpr uint32_t kPlaneNumbers = kResolvedDepthPlane + 1;
 
 // A plane of the list below: its number, how reports call it and how many entries it has, one a
 // sample or one a resolved pixel; 0 if the target has no such plane.

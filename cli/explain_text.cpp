@@ -11,6 +11,7 @@
 #include "cases/model/rule.hpp"
 #include "cases/model/sample.hpp"
 #include "cases/model/words.hpp"
+#include "cli/stored_depth.hpp"
 #include "diff/verdict.hpp"
 #include "ref/blit/blit.hpp"
 #include "ref/color/color.hpp"
@@ -83,12 +84,13 @@ std::string accepted_text(ref::ValueReference& values, uint32_t triangle, cases:
     return text;
 }
 
+// `depth`: why the depth is not the one that is stored, or nothing.
 std::string values_text(ref::ValueReference& values, uint32_t triangle, cases::SampleId sample,
-                        bool writes_depth) {
+                        std::string_view depth) {
     std::string text;
     for (const ref::ExpectedValue& v : values.expected(triangle, sample)) {
-        if (v.quantity.is_depth() && !writes_depth) {
-            text += fmt::format("        {:<14} is not written by the draw\n", to_text(v));
+        if (v.quantity.is_depth() && !depth.empty()) {
+            text += fmt::format("        {:<14} {}\n", to_text(v), depth);
         } else if (v.is_flat) {
             text += fmt::format("        {:<14} {} {}, bit for bit\n", to_text(v),
                                 cases::number_text(v.nearest), v.also.empty() ? "exactly" : v.also);
@@ -101,6 +103,33 @@ std::string values_text(ref::ValueReference& values, uint32_t triangle, cases::S
         }
     }
     return text;
+}
+
+// The depth that the sample holds, where it may be another one than the last writer's.
+std::string stored_depth_text(const cases::Case& c, const ref::Expectation& expectation,
+                              ref::ValueReference& values, size_t index, cases::SampleId sample) {
+    if (!has_own_depth(c, expectation, index)) {
+        return {};
+    }
+    const ref::SampleExpectation& s = expectation.samples[index];
+    std::string text;
+    const auto add = [&text](const std::string& depth) {
+        text += (text.empty() ? "the depth then is " : ", or ") + depth;
+    };
+    for (const uint32_t t : expectation.depth_writers_of(s)) {
+        for (const ref::ExpectedValue& v : values.expected(t, sample)) {
+            if (v.quantity.is_depth()) {
+                const cases::Triangle& triangle = expectation.triangles[t];
+                add(fmt::format("that of triangle {} of draw {}, {}{}", triangle.primitive,
+                                triangle.draw, cases::number_text(v.nearest),
+                                v.is_flat ? "" : accepted_text(values, t, sample, v)));
+            }
+        }
+    }
+    if (s.depth_may_be_clear) {
+        add(fmt::format("what it was cleared to, {}", cases::number_text(c.target.depth_clear)));
+    }
+    return report::wrapped(text + "\n", 100);
 }
 
 std::string triangle_text(const ref::TriangleExplanation& t) {
@@ -356,11 +385,22 @@ std::string explain_text(const cases::Case& c, const ref::Limits& limits, cases:
     });
     constexpr size_t kShown = 12;
     ref::ValueReference values(c, limits, profile);
+    // Of what the whole target has to show; large targets take too long.
+    constexpr uint64_t kMaxPixels = uint64_t{1} << 20;
+    std::optional<ref::Expectation> all;
+    if (uint64_t{c.target.width} * c.target.height <= kMaxPixels) {
+        all = ref::expect(c, limits, profile);
+    }
+    const size_t index = cases::index_of(c.target, sample);
     for (size_t i = 0; i < std::min(order.size(), kShown); ++i) {
         text += triangle_text(*order[i]);
         if (order[i]->decision.coverage != ref::Coverage::must_not) {
-            text += values_text(values, order[i]->index, sample,
-                                c.draws[order[i]->triangle.draw].depth.write);
+            const uint32_t triangle = order[i]->index;
+            text += values_text(
+                values, triangle, sample,
+                !c.draws[order[i]->triangle.draw].depth.write      ? "is not written by the draw"
+                : all && !may_hold_depth(c, *all, index, triangle) ? "is not the one that is stored"
+                                                                   : "");
         }
     }
     if (order.size() > kShown) {
@@ -372,23 +412,21 @@ std::string explain_text(const cases::Case& c, const ref::Limits& limits, cases:
     for (const ref::SetExplanation& set : s.sets) {
         text += report::wrapped(fmt::format("    {}\n", set.sentence), 100);
     }
-    // Of what the whole target has to show; large targets take too long.
-    constexpr uint64_t kMaxPixels = uint64_t{1} << 20;
-    std::optional<ref::Expectation> all;
-    if (uint64_t{c.target.width} * c.target.height <= kMaxPixels) {
-        all = ref::expect(c, limits, profile);
+    if (all) {
         text += drawing(c, *all, sample);
     }
     text += "\n" + conclusion(s.hits) + "\n";
     text += allowed_hits(s.hits) + "\n";
     if (all) {
-        const size_t index = cases::index_of(c.target, sample);
         text += counted_text(c, *all, index) + color_text(c, *all, index, sample);
     }
     if (s.stencils) {
         text += s.stencils->all()
                     ? "the stencil may be anything then\n"
                     : "the stencil then is " + ref::stencil::to_text(*s.stencils, " or ", 8) + "\n";
+    }
+    if (all) {
+        text += stored_depth_text(c, *all, values, index, sample);
     }
     for (const cases::Profile looser : cases::kProfiles) {
         if (looser < profile) {

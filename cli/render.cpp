@@ -22,6 +22,7 @@
 #include "cli/prepare/loop_config.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
+#include "cli/stored_depth.hpp"
 #include "ref/expectation/counted.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/expectation/statistics.hpp"
@@ -76,9 +77,14 @@ bool is_rounded(const ref::ExpectedValue& v) {
 // The values of a triangle at a sample, by their names: what must be stored bit for bit as [value],
 // else [nearest, low, high], the last two null where nothing is promised. What few values have
 // stands beside them.
-Json writer_json(ref::ValueReference& reference, uint32_t triangle, cases::SampleId id) {
+// `of_depth`: of the depth alone, or, if it is false, of all others; nothing: of all.
+Json writer_json(ref::ValueReference& reference, uint32_t triangle, cases::SampleId id,
+                 std::optional<bool> of_depth) {
     Json values = Json::object(), exact, also, biased;
     for (const ref::ExpectedValue& v : reference.expected(triangle, id)) {
+        if (of_depth && *of_depth != v.quantity.is_depth()) {
+            continue;
+        }
         const std::string name = to_text(v);
         Json& value = values[name];
         value.push_back(number(v.nearest));
@@ -110,6 +116,22 @@ Json writer_json(ref::ValueReference& reference, uint32_t triangle, cases::Sampl
         }
     }
     return writer;
+}
+
+// The triangles whose depth a sample may hold; null: none's, but what depth was cleared to.
+Json depths_json(Reference& r, ref::ValueReference& values, const ref::SampleExpectation& s,
+                 cases::SampleId id) {
+    Json list = Json::array();
+    for (const uint32_t triangle : r.expectation.depth_writers_of(s)) {
+        list.push_back(writer_json(values, triangle, id, true));
+    }
+    if (s.depth_may_be_clear) {
+        Json none;
+        none["triangle"] = nullptr;
+        none["values"]["depth"].push_back(number(r.c.target.depth_clear));
+        list.push_back(std::move(none));
+    }
+    return list;
 }
 
 Json triangles_json(const ref::Expectation& e) {
@@ -156,7 +178,9 @@ void put_json(Reference& r, const cases::Put& put) {
                       {"either_samples", e.either_samples},
                       {"triangles", triangles_json(e)},
                       {"queries", queries_json(r)},
-                      {"note", "samples that must not be covered are left out"}},
+                      {"note",
+                       "samples that must not be covered are left out, but where a triangle "
+                       "may have stored its depth"}},
                      "samples", put);
     std::vector<ref::ValueReference> values;  // a lane's own, which keeps what it was asked last
     for (unsigned k = 0; k < cases::most_threads(); ++k) {
@@ -164,13 +188,15 @@ void put_json(Reference& r, const cases::Put& put) {
     }
     samples.add_all(e.samples.size(), values.size(), [&](size_t index, size_t lane) -> Json {
         const ref::SampleExpectation& s = e.samples[index];
-        if (s.hits.total_max == 0) {
+        const bool is_apart = has_own_depth(r.c, e, index);
+        if (s.hits.total_max == 0 && !is_apart) {
             return {};
         }
         const cases::SampleId id = r.id(index);
         Json writers = Json::array();
         for (uint32_t k = 0; k < s.writers_count; ++k) {
-            writers.push_back(writer_json(values[lane], e.writers[s.writers_begin + k], id));
+            writers.push_back(writer_json(values[lane], e.writers[s.writers_begin + k], id,
+                                          is_apart ? std::optional(false) : std::nullopt));
         }
         Json sample;  // member by member: a list of them in braces would be copied
         sample["x"] = id.x;
@@ -182,26 +208,44 @@ void put_json(Reference& r, const cases::Put& put) {
         sample["back"] = std::array{s.hits.back_min, s.hits.back_max};
         sample["total"] = std::array{s.hits.total_min, s.hits.total_max};
         sample["writers"] = std::move(writers);
+        if (is_apart) {
+            sample["depths"] = depths_json(r, values[lane], s, id);
+        }
         return sample;
     });
     samples.end();
 }
 
-// Channels a sample: fewest and most hits, then the exact values of the last writer rounded to
-// binary32; NaN where there is none.
+// Channels a sample: fewest and most hits, then the exact values of the last writer, and the depth
+// of the triangle that stored it last, rounded to binary32; NaN where there is none.
 capture::Image values_image(Reference& r) {
     const cases::Target& target = r.c.target;
     const ref::Expectation& e = r.expectation;
     std::vector<std::string> quantities;
-    const auto writer_of = [&](const ref::SampleExpectation& s) {
-        return e.writers[s.writers_begin + s.writers_count - 1];
+    // The values of the last writer, and the depth that is stored.
+    const auto values_at = [&](size_t index) {
+        const ref::SampleExpectation& s = e.samples[index];
+        std::vector<ref::ExpectedValue> values;
+        const auto take = [&](std::span<const uint32_t> triangles, std::optional<bool> of_depth) {
+            if (triangles.empty()) {
+                return;
+            }
+            for (const ref::ExpectedValue& v : r.values.expected(triangles.back(), r.id(index))) {
+                if (!of_depth || *of_depth == v.quantity.is_depth()) {
+                    values.push_back(v);
+                }
+            }
+        };
+        const bool is_apart = has_own_depth(r.c, e, index);
+        take(std::span(e.writers).subspan(s.writers_begin, s.writers_count),
+             is_apart ? std::optional(false) : std::nullopt);
+        if (is_apart) {
+            take(e.depth_writers_of(s), true);
+        }
+        return values;
     };
     for (size_t index = 0; index < e.samples.size(); ++index) {
-        const ref::SampleExpectation& s = e.samples[index];
-        if (s.writers_count == 0) {
-            continue;
-        }
-        for (const ref::ExpectedValue& v : r.values.expected(writer_of(s), r.id(index))) {
+        for (const ref::ExpectedValue& v : values_at(index)) {
             if (std::find(quantities.begin(), quantities.end(), to_text(v)) == quantities.end()) {
                 quantities.push_back(to_text(v));
             }
@@ -224,10 +268,7 @@ capture::Image values_image(Reference& r) {
         float* at = &image.pixels[index * per_sample];
         at[0] = static_cast<float>(s.hits.total_min);
         at[1] = static_cast<float>(s.hits.total_max);
-        if (s.writers_count == 0) {
-            continue;
-        }
-        for (const ref::ExpectedValue& v : r.values.expected(writer_of(s), r.id(index))) {
+        for (const ref::ExpectedValue& v : values_at(index)) {
             const auto q = std::find(quantities.begin(), quantities.end(), to_text(v));
             at[2 + (q - quantities.begin())] = static_cast<float>(v.nearest);
         }

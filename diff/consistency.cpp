@@ -8,15 +8,20 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <optional>
 
 #include "cases/model/rule.hpp"
 #include "cases/model/sample.hpp"
+#include "diff/resolve.hpp"
 
 namespace diff {
 
 using capture::kColorPlane;
 using capture::kDepthPlane;
 using capture::kHitsPlane;
+using capture::kResolvedColorPlane;
+using capture::kResolvedDepthPlane;
+using capture::kStencilPlane;
 using capture::kWritersPlane;
 
 namespace {
@@ -95,10 +100,11 @@ uint32_t varied_word(uint32_t plane, uint32_t word, uint32_t base, capture::Samp
     if (plane == kDepthPlane && !variation.other_depth_clear && !variation.masks_depth) {
         return base;  // whatever the case clears depth to
     }
-    if (is_masked(variation, plane) ||
-        (state == capture::SampleState::clear && plane != kColorPlane) ||
-        (state == capture::SampleState::depth_only && plane != kColorPlane &&
-         plane != kDepthPlane)) {
+    if (plane > kDepthPlane) {
+        return base;  // colour and stencil are cleared as the case says, and never masked
+    }
+    if (is_masked(variation, plane) || state == capture::SampleState::clear ||
+        (state == capture::SampleState::depth_only && plane != kDepthPlane)) {
         return clear_word(plane, word, variation);
     }
     if (plane == kHitsPlane && word >= 2 && variation.other_clears) {
@@ -161,6 +167,42 @@ bool is_zero_of_either_sign(uint32_t plane, uint32_t word, uint32_t expected, ui
     });
 }
 
+bool is_resolved(uint32_t plane) {
+    return plane == kResolvedColorPlane || plane == kResolvedDepthPlane;
+}
+
+// What a pixel's depth resolves to where the variation makes other depths of its samples; nothing
+// where it does not say: of an average, which a device rounds, and where a sample of the clear
+// value's bits may hold it or may have been stored so.
+std::optional<uint32_t> varied_resolve(uint32_t base, std::span<const float> depths,
+                                       std::span<const capture::SampleState> states,
+                                       const cases::Target& target, bool stores_without_hit,
+                                       const cases::Variation& variation) {
+    std::vector<float> varied;
+    bool is_changed = false;
+    const size_t count = target.depth_resolve == cases::Resolve::sample_zero ? 1 : depths.size();
+    for (size_t k = 0; k < count; ++k) {
+        const auto word = std::bit_cast<uint32_t>(depths[k]);
+        const bool looks_clear = word == std::bit_cast<uint32_t>(capture::kClearDepth);
+        if (!is_whole(states[k]) ||
+            (variation.other_depth_clear && looks_clear &&
+             (states[k] != capture::SampleState::clear || stores_without_hit))) {
+            return std::nullopt;
+        }
+        const uint32_t expected = varied_word(kDepthPlane, 0, word, states[k], variation);
+        is_changed = is_changed || expected != word;
+        varied.push_back(std::bit_cast<float>(expected));
+    }
+    const auto [least, most] = std::ranges::minmax(varied);
+    if (!is_changed) {
+        return base;
+    }
+    if (target.depth_resolve == cases::Resolve::average && least < most) {
+        return std::nullopt;
+    }
+    return std::bit_cast<uint32_t>(target.depth_resolve == cases::Resolve::min ? least : most);
+}
+
 // Which plane of the case's own rendering a plane of the derived one is held against; kPlanes:
 // none.
 uint32_t original_of(uint32_t plane, const capture::CaptureView& base,
@@ -178,8 +220,10 @@ class BitComparison {
     BitComparison(const cases::Case& c, const capture::CaptureView& base,
                   const capture::CaptureView& derived, const cases::Derivation& derivation)
         : draws_(c.draws),
+          target_(c.target),
           stores_without_hit_(may_store_without_hit(c.draws)),
           base_(base),
+          derived_(derived),
           variation_(derivation.variation),
           theirs_(planes_of(derived)),
           counted_(derived.counted),
@@ -194,23 +238,30 @@ class BitComparison {
             ours_[p] = original < kPlanes ? own[original] : PlaneWords{};
             // What one of them lacks is not compared: attributes that were left out.
             is_compared_[p] = ours_[p].samples != 0 && theirs_[p].samples == ours_[p].samples;
+            if (is_compared_[p] && is_resolved(p)) {
+                resolved_ = ours_[p].samples;
+            }
         }
     }
 
     Consistency run() {
         const size_t count = base_.sample_count();
-        result_.compared = count;
+        result_.compared = count + resolved_;
         compare_counts();
         if (alike_ && all_equal()) {
             return std::move(result_);
         }
+        std::vector<capture::SampleState> states(count);
         for (size_t sample = 0; sample < count; ++sample) {
-            const capture::SampleState state = capture::sample_state(base_, sample);
-            if (is_whole(state)) {
-                compare_sample(sample, state);
+            states[sample] = capture::sample_state(base_, sample);
+            if (is_whole(states[sample])) {
+                compare_sample(sample, states[sample]);
             } else {
                 --result_.compared;
             }
+        }
+        for (size_t pixel = 0; pixel < resolved_; ++pixel) {
+            compare_pixel(pixel, states);
         }
         return std::move(result_);
     }
@@ -236,16 +287,13 @@ class BitComparison {
             }
             ++result_.compared;
             if (base_.counted[k] != counted_[k]) {
-                ++result_.different;
-                if (result_.differences.size() < kMaxDifferences) {
-                    result_.differences.push_back({0, kCounts, k, base_.counted[k], counted_[k]});
-                }
+                add({0, kCounts, k, base_.counted[k], counted_[k]});
             }
         }
     }
 
     void compare_sample(size_t sample, capture::SampleState state) {
-        for (uint32_t p = 0; p < kPlanes; ++p) {
+        for (uint32_t p = 0; p <= kStencilPlane; ++p) {
             for (uint32_t w = 0; is_compared_[p] && w < ours_[p].words; ++w) {
                 const uint32_t base = ours_[p].at(sample, w);
                 const uint32_t draw = p == kWritersPlane ? ours_[p].at(sample, kDrawWord) : 0;
@@ -257,22 +305,65 @@ class BitComparison {
                     may_begin_again(p, w, base, got, draw, variation_)) {
                     continue;
                 }
-                ++result_.different;
-                if (result_.differences.size() < kMaxDifferences) {
-                    result_.differences.push_back({sample, p, w, expected, got});
-                }
+                add({sample, p, w, expected, got});
                 return;
             }
         }
     }
 
+    // What the samples of a pixel were resolved into, colour and depth.
+    void compare_pixel(size_t pixel, std::span<const capture::SampleState> states) {
+        const auto of_pixel = [&](auto samples) {
+            return samples.subspan(pixel * target_.samples, target_.samples);
+        };
+        if (!std::ranges::all_of(of_pixel(states), is_whole)) {
+            --result_.compared;
+            return;
+        }
+        for (const uint32_t p : {kResolvedColorPlane, kResolvedDepthPlane}) {
+            for (uint32_t w = 0; is_compared_[p] && w < ours_[p].words; ++w) {
+                const uint32_t base = ours_[p].at(pixel, w);
+                const std::optional<uint32_t> expected =
+                    p == kResolvedDepthPlane
+                        ? varied_resolve(base, of_pixel(base_.depth), of_pixel(states), target_,
+                                         stores_without_hit_, variation_)
+                        : base;
+                const uint32_t got = theirs_[p].at(pixel, w);
+                if (expected && got != *expected && !may_be_rounded(p, pixel)) {
+                    add({pixel, p, w, *expected, got});
+                    return;
+                }
+            }
+        }
+    }
+
+    // How an average is rounded is the device's ("Render Pass Resolve Operations"), and it may be
+    // another way where the images or the pass are others.
+    bool may_be_rounded(uint32_t plane, size_t pixel) const {
+        const cases::Resolve mode =
+            plane == kResolvedColorPlane ? target_.color_resolve : target_.depth_resolve;
+        return mode == cases::Resolve::average && variation_.door != cases::Door::none &&
+               cases::row_of(variation_.door).promise != cases::DoorPromise::same_bits &&
+               is_resolved_rightly(derived_, pixel, cases::Profile::practice);
+    }
+
+    void add(const Difference& difference) {
+        ++result_.different;
+        if (result_.differences.size() < kMaxDifferences) {
+            result_.differences.push_back(difference);
+        }
+    }
+
     const std::vector<cases::Draw>& draws_;
+    const cases::Target& target_;
     bool stores_without_hit_ = false;
     const capture::CaptureView& base_;
+    const capture::CaptureView& derived_;
     const cases::Variation& variation_;
     std::array<PlaneWords, kPlanes> ours_, theirs_;
     const std::vector<uint64_t>& counted_;
     std::array<bool, kPlanes> is_compared_{};
+    size_t resolved_ = 0;  // pixels
     bool alike_;
     Consistency result_;
 };
@@ -349,7 +440,10 @@ std::string show_bits(uint32_t plane, uint64_t bits) {
     if (plane == kCounts) {
         return count_text(bits);
     }
-    return plane == kWritersPlane || plane == kColorPlane
+    if (plane == kStencilPlane) {
+        return fmt::format("{}", bits);
+    }
+    return plane == kWritersPlane || plane == kColorPlane || plane == kResolvedColorPlane
                ? fmt::format("{:#010x}", bits)
                : fmt::format("{:#010x} ({})", bits,
                              std::bit_cast<float>(static_cast<uint32_t>(bits)));
@@ -391,6 +485,17 @@ void vary(capture::Capture& capture, const cases::Variation& variation) {
     for (size_t sample = 0; sample < states.size(); ++sample) {
         states[sample] = capture::sample_state(capture, sample);
     }
+    // Before the depths change of which they are made.
+    for (size_t pixel = 0; pixel < capture.resolved_depth.size(); ++pixel) {
+        const size_t first = pixel * capture.target.samples;
+        float& resolved = capture.resolved_depth[pixel];
+        const std::optional<uint32_t> varied =
+            varied_resolve(std::bit_cast<uint32_t>(resolved),
+                           std::span(capture.depth).subspan(first, capture.target.samples),
+                           std::span(states).subspan(first, capture.target.samples), capture.target,
+                           false, variation);
+        resolved = varied ? std::bit_cast<float>(*varied) : resolved;
+    }
     capture::for_each_plane(
         [&](const capture::Plane& plane, auto& words) {
             if (plane.number <= kDepthPlane) {
@@ -412,8 +517,14 @@ std::string plane_name(uint32_t plane, uint32_t word) {
     if (plane == kCounts) {
         return fmt::format("occlusion query of draw {}", word);
     }
-    if (plane == kDepthPlane) {
-        return "depth";
+    if (plane == kDepthPlane || plane == kStencilPlane) {
+        return std::string(capture::name_of_plane(plane));
+    }
+    if (plane == kResolvedDepthPlane) {
+        return "resolved depth";
+    }
+    if (plane == kColorPlane || plane == kResolvedColorPlane) {
+        return fmt::format("{}color.{}", plane == kColorPlane ? "" : "resolved ", "rgba"[word % 4]);
     }
     if (plane == kWritersPlane) {
         return fmt::format("writer's {}", kOrigins[word % 4]);
@@ -447,9 +558,11 @@ void add_differences(const cases::Case& c, std::span<const cases::Derivation> de
                 continue;
             }
             const bool is_count = difference.plane == kCounts;
+            const uint64_t sample =
+                difference.sample * (is_resolved(difference.plane) ? c.target.samples : 1);
             Finding finding = is_count ? finding_of_case(FindingKind::value)
                                        : finding_at(FindingKind::value, c.target,
-                                                    cases::sample_at(c.target, difference.sample));
+                                                    cases::sample_at(c.target, sample));
             finding.rule = rule->id;
             finding.level = demanded;
             finding.quantity = fmt::format("{}, {}", plane_name(difference.plane, difference.word),

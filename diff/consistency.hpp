@@ -16,9 +16,9 @@
 
 namespace diff {
 
-// One sample whose bits differ: its first word that does.
+// One sample or resolved pixel whose bits differ: its first word that does.
 struct Difference {
-    uint64_t sample = 0;    // index in the capture
+    uint64_t sample = 0;    // index in its plane
     uint32_t plane = 0;     // its number (capture.hpp), below kPlanes, or kCounts
     uint32_t word = 0;      // of the sample in its plane
     uint64_t expected = 0;  // bits of the case itself, changed as the variation demands
@@ -32,15 +32,15 @@ struct Difference {
     }
     friend bool operator==(const Difference&, const Difference&) = default;
 };
-// The planes that are compared: those of samples, as far as the case itself draws them.
-inline constexpr uint32_t kPlanes = capture::kColorPlane + 1;
+// The planes that are compared: all that the case itself draws.
+inline constexpr uint32_t kPlanes = capture::kPlaneNumbers;
 // In place of a plane's number: what the query of draw `word` counted, which belongs to no sample.
 inline constexpr uint32_t kCounts = kPlanes;
 inline constexpr size_t kMaxDifferences = 64;
 
 // What comparing one derived rendering with the case's own has found.
 struct Consistency {
-    uint64_t compared = 0;                // samples, and counts of queries
+    uint64_t compared = 0;                // samples, resolved pixels, and counts of queries
     uint64_t different = 0;               // of them
     std::vector<Difference> differences;  // the first kMaxDifferences
     // Of a picture through a door: why the device has no such door; then nothing was compared.
@@ -59,7 +59,8 @@ struct Consistency {
 };
 
 // `base` is the case as it stands, `derived` what cases::derive() drew. Samples of `base` that
-// contradict themselves or were not copied are passed over: compare() reports them.
+// contradict themselves or were not copied are passed over: compare() reports them. So are resolved
+// pixels of which the variation does not say what they become (consistency.cpp).
 Consistency compare_bits(const cases::Case& c, const capture::CaptureView& base,
                          const capture::CaptureView& derived, const cases::Derivation& derivation);
 
@@ -67,8 +68,8 @@ Consistency compare_bits(const cases::Case& c, const capture::CaptureView& base,
 // reference as a device).
 void vary(capture::Capture& capture, const cases::Variation& variation);
 
-// Adds the differences to a verdict, one finding a sample, as far as the verdict's profile demands
-// the rules. `found` holds one result a derivation.
+// Adds the differences to a verdict, one finding a sample or resolved pixel, as far as the
+// verdict's profile demands the rules. `found` holds one result a derivation.
 void add_differences(const cases::Case& c, std::span<const cases::Derivation> derivations,
                      std::span<const Consistency> found, Verdict& verdict);
 

@@ -176,9 +176,8 @@ class Judge {
         return {};
     }
 
-  private:
-    // False if it was not copied.
-    bool judge_pixel(size_t pixel) {
+    // What the samples of a pixel were resolved into; false if it was not copied.
+    bool judge_resolved(size_t pixel) {
         const size_t first = pixel * target_.samples;
         if (capture::resolves_color(target_)) {
             const capture::ColorCodes& resolved = capture_.resolved_color[pixel];
@@ -214,6 +213,28 @@ class Judge {
         return true;
     }
 
+  private:
+    // False if it was not copied.
+    bool judge_pixel(size_t pixel) {
+        const size_t first = pixel * target_.samples;
+        if (target_.has_stencil) {
+            for (uint32_t s = 0; s < target_.samples; ++s) {
+                if (capture_.stencil[first + s] == capture::kPoison) {
+                    return false;
+                }
+                if (stencil_ == nullptr) {
+                    if (target_.has_instruments) {
+                        judge_stencil(pixel, s);
+                    }
+                } else if (auto finding =
+                               stencil_->judge(first + s, cases::sample_at(target_, first + s))) {
+                    add_(std::move(*finding));
+                }
+            }
+        }
+        return judge_resolved(pixel);
+    }
+
     void judge_color(size_t pixel, uint32_t component, uint32_t code) {
         const Component stored(cases::component_of(target_.color->format, component));
         if (!stored.exists()) {
@@ -246,6 +267,12 @@ class Judge {
 };
 
 }  // namespace
+
+bool is_resolved_rightly(const capture::CaptureView& capture, size_t pixel, Profile profile) {
+    bool is_right = true;
+    const std::function<void(Finding)> add = [&is_right](const Finding&) { is_right = false; };
+    return Judge(capture, profile, add, nullptr).judge_resolved(pixel) && is_right;
+}
 
 uint32_t stencil_of(const glm::vec4& hits) {
     // Counts are whole and below 2^23 (sample_state); two's complement wraps as the stencil does.

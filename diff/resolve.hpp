@@ -26,6 +26,9 @@ std::optional<Finding> judge_count(const capture::CaptureView& capture, size_t i
 std::string judge_dependent_planes(const capture::CaptureView& capture, cases::Profile profile,
                                    const std::function<void(Finding)>& add);
 
+// Whether a pixel is resolved from its samples as the two rules say.
+bool is_resolved_rightly(const capture::CaptureView& capture, size_t pixel, cases::Profile profile);
+
 // Fills these planes of a capture from its others, as a device that is right does; averages are
 // rounded to nearest. A stencil that is there already is left as it is.
 void add_dependent_planes(capture::Capture& capture);

@@ -117,6 +117,12 @@ inline constexpr FaultRow kValueFaults[] = {
     {"depth-operands-swapped", "The stored depth is compared with the fragment's.",
      "depth.compare depth.repeat depth.distinct"},
     {"depth-less-or-equal", "LESS passes equal depths.", "depth.compare depth.repeat"},
+    {"depth-by-shader",
+     "Depth and values of draws with attributes are rounded otherwise: once for "
+     "each product and sum.",
+     "depth.repeat"},
+    {"depth-compared-unrounded", "A depth is compared before it is rounded to its format.",
+     "depth.repeat"},
     {"depth-write-ignored", "Depth is written although the draw's depth writes are off.",
      "depth.write depth.compare depth.repeat depth.distinct"},
     {"depth-write-before-test", "A fragment that fails the depth test leaves its depth.",

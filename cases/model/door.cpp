@@ -212,10 +212,12 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
      "there, no clip distances",
      when::can_be_moved},
     {Door::image_layer, "image-layer", kTargets, kRight, rule::door_target,
-     "Attachments are the last layers of images with two layers more."},
+     "Attachments are the last layers of images with two layers more; what they are resolved into "
+     "is the layer before the last one."},
     {Door::image_level, "image-level", kTargets, kRight, rule::door_target,
-     "Attachments are level 1 of images with more mip levels.", "one sample a pixel",
-     when::has_one_sample},
+     "Attachments are level 1 of images with more mip levels; of several samples, what they are "
+     "resolved into.",
+     "one sample a pixel, or a resolve", when::has_levels},
     {Door::image_linear, "image-linear", kTargets, kRight, rule::door_target,
      "Attachments are images of linear tiling, where the device has them for their formats.",
      "one sample a pixel and one layer", when::is_plain_image},

@@ -200,8 +200,9 @@ bool has_half_positions(const Case& c) {
     return any_draw(c, [](const Draw& draw) { return are_half_floats(draw.positions); });
 }
 
-bool has_one_sample(const Case& c) {
-    return c.target.samples == 1;
+bool has_levels(const Case& c) {
+    return c.target.samples == 1 || c.target.color_resolve != Resolve::none ||
+           c.target.depth_resolve != Resolve::none;
 }
 
 bool has_one_layer(const Case& c) {

@@ -16,7 +16,7 @@ bool has_strip_or_fan(const Case& c);
 bool has_no_indices(const Case& c);
 bool has_w_one(const Case& c);
 bool has_half_positions(const Case& c);
-bool has_one_sample(const Case& c);
+bool has_levels(const Case& c);
 bool has_one_layer(const Case& c);
 bool can_be_cleared_by_draw(const Case& c);
 bool can_take_geometry(const Case& c);

@@ -463,8 +463,10 @@ constexpr std::array kRules = {
          "step are free.",
          "fragops-depth-comparison", "17.11", "ref/depth/outcome.hpp"},
     Rule{rule::depth_repeat, Profile::vulkan, "The same triangle has the same depth again",
-         "Drawn twice by the same state with binary32 depth, at direct3d with any, it is equal to "
-         "itself in every sample: LESS_OR_EQUAL passes, LESS fails, wherever it is covered.",
+         "Drawn twice by the same state but for write masks with binary32 depth, it is equal to "
+         "itself in every sample: LESS_OR_EQUAL passes, LESS fails, wherever it is covered. From "
+         "practice on so it is with any format, and with another comparison, stencil or "
+         "attributes: a depth prepass and then EQUAL.",
          "invariance", "", "ref/depth/outcome.hpp"},
     Rule{rule::depth_write, Profile::vulkan,
          "Depth is written where the test passes and writes are on",

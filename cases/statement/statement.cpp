@@ -229,12 +229,16 @@ constexpr Statement kStatements[] = {
      "Depths beyond the range are the range's end, bit for bit on a floating-point target.",
      {"depth.clamp"}, ""},
     {"rounding of depth before it is compared", Strictness::free, exact,
-     "Outcomes that depend on the rounding of a D16 or D24 value are open, but at direct3d those of "
-     "the same geometry again.",
+     "Outcomes that depend on the rounding of a D16 or D24 value are open, but from practice on those "
+     "of the same geometry again.",
      {"depth.compare", "depth.store"}, ""},
     {"the same geometry again under LESS_OR_EQUAL", exact, exact,
      "Every fragment passes the second time on a floating-point target; on D16 and D24 the rounding "
-     "of the compared depth leaves it open but at direct3d.",
+     "of the compared depth leaves it open at vulkan.",
+     {"depth.repeat"}, ""},
+    {"a depth prepass, and the same geometry with other shaders under EQUAL", Strictness::free, not_spoken,
+     "From practice on every fragment passes: positions are invariant, write masks must not matter, "
+     "and the appendix on invariance strongly suggests that depth comparisons do not, either.",
      {"depth.repeat"}, ""},
     {"writing FragCoord.z to FragDepth", Strictness::free, exact,
      "The stored depth is the FragCoord.z that the same invocation wrote elsewhere, exactly; that it is the depth which "

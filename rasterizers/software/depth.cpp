@@ -92,7 +92,7 @@ float fragment_depth(float z, float bias, const cases::Draw& draw, cases::DepthF
             z = clamp(z);
         }
     }
-    return stored_depth(z, format, device);
+    return device.fault == "depth-compared-unrounded"_fault ? z : stored_depth(z, format, device);
 }
 
 // A depth in 11 bits: binary16, but for its subnormal numbers.

@@ -410,7 +410,9 @@ Ending FragmentStage::test(const Fragment& at, const Depths& depths, bool hidden
     const bool is_stored = is_left || fault == "stencil-fail-writes-depth"_fault;
     if ((passes && is_stored && (draw_.depth.write || fault == "depth-write-ignored"_fault)) ||
         fault == "depth-write-before-test"_fault) {
-        out_.depth[index] = depths.z;
+        out_.depth[index] = fault == "depth-compared-unrounded"_fault
+                                ? stored_depth(depths.z, out_.target.depth_format, device_)
+                                : depths.z;
     }
     return !is_left  ? Ending::stencil_failed
            : !passes ? Ending::depth_failed

@@ -75,7 +75,8 @@ bool TrianglePlanes::is_linear(size_t a) const {
 }
 
 float TrianglePlanes::mad(float a, float b, float c) const {
-    return device_.fused ? std::fma(a, b, c) : a * b + c;
+    const bool is_other = device_.fault == "depth-by-shader"_fault && !draw_.attributes.empty();
+    return device_.fused != is_other ? std::fma(a, b, c) : a * b + c;
 }
 
 TrianglePlanes::Plane TrianglePlanes::make(const std::array<float, 3>& g) const {

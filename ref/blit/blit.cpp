@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 #include "cases/model/words.hpp"
 #include "ref/number/rational.hpp"
@@ -199,6 +200,11 @@ std::vector<mpq_class> corners_of(const mpq_class& x, const mpq_class& reach) {
 // source's precision: each lerp of UNORM texels loses less than one code, and the second averages
 // the loss of the first, so less than 2 codes; in floating point a lerp a + (b - a) t loses at most
 // 10 units of the largest texel (three operations of 2 units each; |b - a| <= 2 max), both 20.
+//
+// No weight is negative and their sum is 1, so that no rounding to codes leads beyond the texels:
+// from between two multiples of a step it goes to either of them or to one between them. The texels
+// are multiples themselves, but for those of sRGB, whose linear numbers may be rounded once more,
+// and those of fewer than 8 bits where a device filters them as 8 (lavapipe: 12/63 as 48/255).
 bool BlitReference::allows_linear(uint32_t x, uint32_t y, const TexelCodes& got, Profile profile,
                                   bool by_region) const {
     const auto corners = [&](const Axis& axis, uint32_t i) {
@@ -217,6 +223,7 @@ bool BlitReference::allows_linear(uint32_t x, uint32_t y, const TexelCodes& got,
         if (from.bits != 0) {
             bool first = true;
             mpq_class largest;
+            std::optional<Interval> hull;  // of all texels that may have a weight
             for (const mpq_class& row : rows) {
                 const int64_t j = floor_of(row).get_si();
                 const mpq_class beta = row - j;
@@ -234,6 +241,11 @@ bool BlitReference::allows_linear(uint32_t x, uint32_t y, const TexelCodes& got,
                         lo += weight * v.low;
                         hi += weight * v.high;
                         largest = std::max(largest, magnitude(v));
+                        if (weight > 0) {
+                            hull = hull ? Interval{std::min(hull->low, v.low),
+                                                   std::max(hull->high, v.high)}
+                                        : v;
+                        }
                     }
                     number.low = first ? lo : std::min(number.low, lo);
                     number.high = first ? hi : std::max(number.high, hi);
@@ -241,7 +253,15 @@ bool BlitReference::allows_linear(uint32_t x, uint32_t y, const TexelCodes& got,
                 }
             }
             // 20 units of the filter and 4 of the conversions, as for nearest.
-            number = widen(number, 2 * Component(from).step() + 24 * unit_of(profile) * largest);
+            const mpq_class slack = 24 * unit_of(profile) * largest;
+            const mpq_class step = Component(from).step();
+            if (step > 0) {
+                const mpq_class grid = from.bits < 8 ? mpq_class(1, 255) : step;
+                *hull = {floor_of(hull->low / grid) * grid, -floor_of(-hull->high / grid) * grid};
+            }
+            number = widen(number, 2 * step);
+            number =
+                widen({std::max(number.low, hull->low), std::min(number.high, hull->high)}, slack);
         }
         if (!Component(to).may_convert(number, got[k])) {
             return false;
@@ -293,6 +313,7 @@ bool BlitReference::surely_linear(uint32_t x, uint32_t y, const TexelCodes& got)
         double lo = 0;
         double hi = 0;
         double largest = 0;
+        double least = std::numeric_limits<double>::infinity(), most = -least;  // of the texels
         for (size_t r = 0; r < row_count; ++r) {
             for (size_t c = 0; c < column_count; ++c) {
                 const double i = std::floor(columns[c]);
@@ -303,6 +324,10 @@ bool BlitReference::surely_linear(uint32_t x, uint32_t y, const TexelCodes& got)
                     const double v =
                         number_at(static_cast<int64_t>(i) + dx, static_cast<int64_t>(j) + dy, k);
                     largest = std::max(largest, std::abs(v));
+                    if ((dx == 0 || alpha > 0) && (dy == 0 || beta > 0)) {
+                        least = std::min(least, v);
+                        most = std::max(most, v);
+                    }
                     return v;
                 };
                 const double v = (value(0, 0) * (1 - alpha) + value(1, 0) * alpha) * (1 - beta) +
@@ -314,7 +339,7 @@ bool BlitReference::surely_linear(uint32_t x, uint32_t y, const TexelCodes& got)
         }
         const double number = Component(to).number(got[k]);
         const double slack = 2 * Component(from).step().get_d() - largest * 0x1p-34;
-        if (number < lo - slack || number > hi + slack) {
+        if (number < std::max(lo - slack, least) || number > std::min(hi + slack, most)) {
             return false;
         }
     }

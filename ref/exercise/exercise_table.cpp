@@ -213,8 +213,9 @@ constexpr ExerciseRow kRows[] = {
      "whose colour would be another if factors of the second source took the first one",
      {by("second-as-first"_fault, Differ::colors)}},
     {rule::logic_operation,
-     "whose colour would be another without logical operations, or with the operands exchanged",
-     {by("logic-ignored"_fault, Differ::colors),
+     "whose colour would be another without logical operations, or with the operands exchanged, or "
+     "if floating-point or sRGB targets took them, too",
+     {at_all(is_passed_by_logic), by("logic-ignored"_fault, Differ::colors),
       by("logic-operands-exchanged"_fault, Differ::colors)}},
     {rule::blend_write_mask,
      "whose colour would be another if all components were written",

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "cases/base/float_bits.hpp"
+#include "cases/format/color_format.hpp"
+#include "ref/color/logic.hpp"
 #include "ref/expectation/stored_depths.hpp"
 
 namespace ref {
@@ -75,6 +77,25 @@ bool Shown::shows_order(size_t index, cases::SampleId id) {
     Triangles changed = drawn(index);
     std::ranges::reverse(changed);
     return changed.size() > 1 && tells(index, id, changed, *this);
+}
+
+bool Shown::shows_passed_logic(size_t index, cases::SampleId id) {
+    const Triangles all = drawn(index);
+    const cases::ColorFormat format = case_.target.color->format;
+    if (all.empty() || color::takes_logic(format)) {
+        return false;
+    }
+    const cases::ColorOutput& output = case_.draws[expectation_.triangles[all.back()].draw].color;
+    const auto after = colors_.codes_after(all, id);
+    const auto before = colors_.codes_after(std::span(all).first(all.size() - 1), id);
+    for (uint32_t k = 0; output.logic && k < after.size(); ++k) {
+        const uint32_t bits = cases::component_of(format, k).bits;
+        if (bits > 0 && (output.write_mask >> k & 1U) != 0 &&
+            color::operated(*output.logic, after.at(k), before.at(k), bits) != after.at(k)) {
+            return true;
+        }
+    }
+    return false;
 }
 
 bool is_shown(const cases::Case& c, const cases::Draw& draw, const QuantityId& id) {

@@ -37,6 +37,9 @@ class Shown {
     bool leaves_a_mark(cases::SampleId id, uint32_t t);
     // Whether they tell the fragments from the same in the opposite order.
     bool shows_order(size_t index, cases::SampleId id);
+    // Whether the last of them has a logical operation that the target's format does not take, and
+    // another colour would be left if it did.
+    bool shows_passed_logic(size_t index, cases::SampleId id);
 
   private:
     bool tells_depth(size_t index, cases::SampleId id, std::span<const uint32_t> triangles,

@@ -69,6 +69,7 @@ bool is_of_shared_fragment(const View& view, std::string_view rule);
 bool is_at_sample(const View& view, std::string_view rule);
 bool is_sample_shaded(const View& view, std::string_view rule);
 bool is_written(const View& view, std::string_view rule);
+bool is_passed_by_logic(const View& view, std::string_view rule);
 
 // With instruments, which tell the provoking vertex of what was written last.
 template <cases::ProvokingVertex convention>

@@ -123,4 +123,10 @@ bool is_written(const View& view, std::string_view) {
     return is_surely_hit(view);
 }
 
+// Of a colour alone: with instruments there are no logical operations.
+bool is_passed_by_logic(const View& view, std::string_view) {
+    return view.facts.shown() != nullptr && view.of().target.color && is_surely_hit(view) &&
+           view.facts.shown()->shows_passed_logic(view.sample.index, view.sample.id);
+}
+
 }  // namespace ref

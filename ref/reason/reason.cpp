@@ -175,8 +175,8 @@ constexpr std::array kRows = {
         "the attachments of one sample contradict each other"},
     Row{depth_ranges, rule::depth_compare, "{outcome} the depth test {compare}, {depths}"},
     Row{depth_same, rule::depth_repeat,
-        "{outcome} the depth test {compare}, {depths}: the same triangle was drawn before by the "
-        "same state, so the depths are equal"},
+        "{outcome} the depth test {compare}, {depths}: the same triangle was drawn before, by a "
+        "state that makes the same depths, so they are equal"},
     Row{depth_apart, rule::depth_distinct,
         "{outcome} the depth test {compare}, {depths}: the same triangle was drawn before, biased "
         "apart by whole units of r"},

@@ -93,7 +93,7 @@ enum class ReasonKind : uint8_t {
     planes_contradict,   // its planes were not written by the same fragments
     // A fragment passes the depth test, or fails it, or may do either.
     depth_ranges,  // by the numbers that its depth and the stored one may be
-    depth_same,    // the same triangle was drawn before by the same state
+    depth_same,    // the same triangle was drawn before by a state that makes the same depths
     depth_apart,   // the same triangle was drawn before, biased apart
     bounds_test,   // a fragment lies in its depth bounds or not, by what is stored
     // A fragment fails the stencil test, or passes it, or may do either; and what the stencil of a

@@ -47,9 +47,11 @@ constexpr size_t kMaxDerivations = 256;
 // Two sides of every attachment, in the case's rendering and in each derived one.
 constexpr size_t kMaxStrayWrites = 4096;
 
-// False if these cannot be the findings in a capture of that many samples and counts.
-bool is_possible(const diff::Consistency& found, uint64_t samples, uint64_t counts) {
-    return found.compared <= samples + counts && found.different <= found.compared &&
+// False if these cannot be the findings in a capture of that many samples, resolved pixels and
+// counts.
+bool is_possible(const diff::Consistency& found, uint64_t samples, uint64_t resolved,
+                 uint64_t counts) {
+    return found.compared <= samples + resolved + counts && found.different <= found.compared &&
            found.differences.size() == std::min<uint64_t>(found.different, diff::kMaxDifferences) &&
            std::all_of(found.differences.begin(), found.differences.end(),
                        [samples, counts](const diff::Difference& d) {
@@ -66,10 +68,16 @@ bool is_possible(const CaseResult& result) {
     return c.attribute_count <= cases::kMaxAttributes &&
            result.consistency.size() <= kMaxDerivations &&
            r.stray_writes.size() <= kMaxStrayWrites &&
-           std::all_of(result.consistency.begin(), result.consistency.end(),
-                       [&c](const auto& found) {
-                           return is_possible(found, c.sample_count(), c.counted.size());
-                       }) &&
+           std::all_of(
+               result.consistency.begin(), result.consistency.end(),
+               [&c](const auto& found) {
+                   const bool resolves =
+                       capture::resolves_color(c.target) || capture::resolves_depth(c.target);
+                   const uint64_t samples = c.sample_count();
+                   return is_possible(found, samples,
+                                      resolves ? samples / std::max(c.target.samples, 1U) : 0,
+                                      c.counted.size());
+               }) &&
            (r.status != Rendered::Status::drawn || result.is_shared || capture::has_all_planes(c));
 }
 

@@ -291,6 +291,7 @@ VKAPI_ATTR void VKAPI_CALL begin_rendering(VkCommandBuffer commands, const VkRen
     }
     for (const VkRenderingAttachmentInfo& color : own.colors) {
         own.images.push_back(facts_of(color.imageView));
+        own.resolved.push_back(facts_of(color.resolveImageView));
     }
     alter(hooks().rendering, own);
     own.info.pColorAttachments = own.colors.data();

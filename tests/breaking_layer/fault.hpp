@@ -102,6 +102,7 @@ struct Neighbours {
 // What an image was made as, and whether its memory is its alone.
 struct ImageFacts {
     VkExtent3D extent{};
+    uint32_t levels = 1;
     VkImageUsageFlags usage = 0;
     bool is_dedicated = false;
     VkImageTiling tiling = VK_IMAGE_TILING_OPTIMAL;
@@ -116,9 +117,19 @@ struct ImageCopy {
 struct Rendering {
     VkRenderingInfo info;
     std::vector<VkRenderingAttachmentInfo> colors;
-    std::vector<ImageFacts> images;  // of the colours
+    std::vector<ImageFacts> images, resolved;  // of the colours, and what they are resolved into
     std::optional<VkRenderingAttachmentInfo> depth, stencil;
 };
+
+// Resolves no colour into an image for which this holds; whether any was to be.
+inline bool resolve_nothing(Rendering& r, bool (*holds)(const ImageFacts&)) {
+    bool altered = false;
+    for (size_t k = 0; k < r.colors.size(); ++k) {
+        altered = (holds(r.resolved[k]) && change(r.colors[k].resolveMode, VK_RESOLVE_MODE_NONE)) ||
+                  altered;
+    }
+    return altered;
+}
 
 struct DepthBias {
     float constant, clamp, slope;
@@ -138,6 +149,7 @@ struct StencilOps {
 struct StencilValue {
     VkStencilFaceFlags faces;
     uint32_t value;
+    bool in_secondary = false;  // in a secondary command buffer
     bool is_dropped = false;
 };
 

@@ -166,6 +166,18 @@ constexpr std::array kRecordingDoorFaults = {
         "door-secondary-first-draw-only",
         "In a secondary command buffer only the first draw is drawn.",
         {.draw = [](DrawCall& d) { return d.in_secondary && d.number > 0 && change(d.times, 0); }}},
+    Fault{"door-stencil-reference-in-secondary",
+          "A stencil reference that is set in a secondary command buffer has its bit 4 turned.",
+          {.stencil_reference =
+               [](StencilValue& s) { return s.in_secondary && change(s.value, s.value ^ 16U); }}},
+    Fault{"door-secondaries-resolve-nothing",
+          "A rendering by secondary command buffers resolves no colour.",
+          {.rendering =
+               [](Rendering& r) {
+                   return (r.info.flags & VK_RENDERING_CONTENTS_SECONDARY_COMMAND_BUFFERS_BIT) !=
+                              0 &&
+                          resolve_nothing(r, [](const ImageFacts&) { return true; });
+               }}},
     Fault{"door-secondaries-first-only",
           "Of several secondary command buffers only the first is executed.",
           {.secondaries =

@@ -175,6 +175,7 @@ VKAPI_ATTR void VKAPI_CALL set_stencil_op(VkCommandBuffer commands, VkStencilFac
 void set_stencil_value(VkCommandBuffer commands, const char* key, StencilValue own,
                        bool (*hook)(StencilValue&), PFN_vkCmdSetStencilReference set) {
     const VkStencilFaceFlags asked = own.faces;
+    own.in_secondary = recording_of(commands).is_secondary;
     alter(hook, own);
     if (!own.is_dropped) {
         set_dynamic(commands, {key, asked}, [=] { set(commands, own.faces, own.value); });

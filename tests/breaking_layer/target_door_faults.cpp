@@ -125,6 +125,13 @@ constexpr std::array kTargetDoorFaults = {
         "Every view begins with mip level 0.",
         {.view =
              [](VkImageViewCreateInfo& v) { return change(v.subresourceRange.baseMipLevel, 0); }}},
+    Fault{"door-levels-resolved-into-nothing",
+          "No colour is resolved into an image of several mip levels.",
+          {.rendering =
+               [](Rendering& r) {
+                   return resolve_nothing(r,
+                                          [](const ImageFacts& image) { return image.levels > 1; });
+               }}},
     Fault{"door-storage-image-clears-to-zero",
           "Colours that may be stored to are cleared to 0.",
           {.rendering =

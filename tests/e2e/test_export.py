@@ -174,6 +174,43 @@ vertices = [[0, 0, 0], [3, 0, 1], [0, 3, 0]]
         self.assertEqual(writer["exact"], {"frag_coord.z": "1/6", "depth": "1/6"})
         self.assertEqual(writer["values"]["depth"][0], 1 / 6)
 
+    def test_the_depth_that_is_told_is_the_one_that_is_stored(self):
+        """Draw 1 stores 1/4 early and is discarded; draw 3 writes no depth; draw 4 is discarded where nothing was."""
+        self.write_case("fam/early", """format = 1
+description = "a"
+rules = ["discard.early-tests"]
+target = { size = [4, 1], depth_clear = 0 }
+[[draw]]
+vertices = [[0, 0, "1/2"], [24, 0, "1/2"], [0, 8, "1/2"]]
+scissor = [0, 0, 3, 1]
+[[draw]]
+vertices = [[0, 0, "1/4"], [24, 0, "1/4"], [0, 8, "1/4"]]
+scissor = [0, 0, 1, 1]
+discard = "back"
+early_tests = true
+[[draw]]
+vertices = [[0, 0, "3/4"], [24, 0, "3/4"], [0, 8, "3/4"]]
+scissor = [1, 0, 1, 1]
+depth = { write = false }
+[[draw]]
+vertices = [[0, 0, "1/8"], [24, 0, "1/8"], [0, 8, "1/8"]]
+scissor = [3, 0, 1, 1]
+discard = "back"
+early_tests = true
+""")
+        samples = {s["x"]: s for s in self.json("fam/early")["samples"]}
+        depths = {x: [(d["triangle"], d["values"]["depth"][0]) for d in s.get("depths", [])] for x, s in samples.items()}
+        self.assertEqual(depths, {0: [(1, 0.25)], 1: [(0, 0.5)], 2: [], 3: [(3, 0.125)]})
+        self.assertEqual({x: s["class"] for x, s in samples.items()}, {0: "must", 1: "must", 2: "must", 3: "must_not"})
+        for x, writer in ((0, 0), (1, 2)):
+            self.assertEqual(samples[x]["writers"][0]["triangle"], writer)
+            self.assertNotIn("depth", samples[x]["writers"][0]["values"])
+        self.assertEqual(samples[2]["writers"][0]["values"]["depth"][0], 0.5)
+        told = self.edgecase("explain", "fam/early", "--pixel", "0,0", check=0).stdout
+        self.assertRegex(told, r"(?m)^ +depth +is not the one that is stored$")
+        self.assertIn("the depth then is that of triangle 0 of draw 1, 0.25, accepted", told)
+        self.assertNotIn("the depth then", self.edgecase("explain", "fam/early", "--pixel", "2,0", check=0).stdout)
+
     def test_threads_keep_the_order_of_samples(self):
         """More samples than one thread takes at a time; depth tells where each was made."""
         self.write_case("fam/wide", """format = 1

@@ -17,6 +17,7 @@ struct ImageWay {
     bool ends_with_it = false;                 // those lie to the left and above instead
     bool is_input = false;                     // it may be an input attachment
     uint32_t first_layer = 0;                  // of the image, in which the attachment begins
+    uint32_t more_layers = 0;                  // behind the attachment's own
     uint32_t level = 0;                        // of the image; others lie before and behind it
     bool all_usages = false;
     bool is_dedicated = false;

@@ -343,7 +343,7 @@ Image Image::create(const Device& device, VkFormat format, VkExtent2D extent, ui
     info.mipLevels = std::min(
         way.levels(),
         static_cast<uint32_t>(std::bit_width(std::max(info.extent.width, info.extent.height))));
-    info.arrayLayers = way.first_layer + layers;
+    info.arrayLayers = way.first_layer + layers + way.more_layers;
     info.samples = static_cast<VkSampleCountFlagBits>(samples);  // the bits' values are the counts
     info.flags = flags;
     if (multisampled && !depth) {

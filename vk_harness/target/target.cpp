@@ -42,7 +42,7 @@ TargetCache::Shelf& TargetCache::shelf(VkFormat format, const cases::Target& tar
 
 std::vector<const Image*> TargetCache::get(const cases::Target& target,
                                            const std::vector<Attachment>& attachments,
-                                           const ImageWay& way) {
+                                           const ImageWay& way, const ImageWay& resolved) {
     ++clock_;
     std::vector<const Image*> out;
     cases::Target single = target;  // what is resolved into
@@ -55,7 +55,8 @@ std::vector<const Image*> TargetCache::get(const cases::Target& target,
             continue;
         }
         const cases::Target& shape = attachment.is_resolved() ? single : target;
-        Shelf& from = shelf(attachment.format, shape, way);
+        const ImageWay& part = attachment.is_resolved() ? resolved : way;
+        Shelf& from = shelf(attachment.format, shape, part);
         from.last_use = clock_;
         const size_t nth = taken[&from]++;
         if (nth == from.images.size()) {
@@ -64,7 +65,7 @@ std::vector<const Image*> TargetCache::get(const cases::Target& target,
                     ? VkImageCreateFlags{VK_IMAGE_CREATE_SAMPLE_LOCATIONS_COMPATIBLE_DEPTH_BIT_EXT}
                     : VkImageCreateFlags{0};
             auto image = Image::create(*device_, attachment.format, {target.width, target.height},
-                                       shape.samples, shape.layers, flags, way);
+                                       shape.samples, shape.layers, flags, part);
             from.images.push_back(std::make_unique<Image>(std::move(image)));
         }
         out.push_back(from.images[nth].get());

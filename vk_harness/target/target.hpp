@@ -23,10 +23,11 @@ class TargetCache {
     explicit TargetCache(const Device& device) : device_(&device) {}
 
     // One image an attachment, of the size, layers and sample count of the target, or of which it
-    // is a part that way; no image twice in one answer. Valid until trim().
+    // is a part that way, or what it is resolved into the other one; no image twice in one answer.
+    // Valid until trim().
     std::vector<const Image*> get(const cases::Target& target,
                                   const std::vector<Attachment>& attachments,
-                                  const ImageWay& way = {});
+                                  const ImageWay& way = {}, const ImageWay& resolved = {});
 
     // Frees an image, with what it holds of the device's memory; null is left alone.
     void release(const Image* image);

@@ -31,7 +31,8 @@ ImageWay image_way(const cases::Case& c) {
             way.first_layer = 2;
             break;
         case cases::Door::image_level:
-            way.level = 1;
+            // Images of several samples have one level.
+            way.level = c.target.samples == 1 ? 1 : 0;
             break;
         case cases::Door::image_linear:
             way.is_linear = true;
@@ -51,6 +52,19 @@ ImageWay image_way(const cases::Case& c) {
             break;
         default:
             break;
+    }
+    return way;
+}
+
+ImageWay resolved_way(const cases::Case& c) {
+    ImageWay way = image_way(c);
+    if (c.variation.door == cases::Door::image_layer) {
+        // The images have as many layers, so that a device that takes the layer of one for the
+        // other stays within them.
+        way.first_layer = 1;
+        way.more_layers = 1;
+    } else if (c.variation.door == cases::Door::image_level) {
+        way.level = 1;
     }
     return way;
 }
@@ -111,7 +125,8 @@ std::optional<std::string> missing_place(const Capabilities& capabilities, const
 
 std::optional<std::string> missing_images(const Capabilities& capabilities, const cases::Case& c) {
     const ImageWay way = image_way(c);
-    const VkExtent2D extent = way.extent({c.target.width, c.target.height});
+    // Of what is resolved into, the larger one.
+    const VkExtent2D extent = resolved_way(c).extent({c.target.width, c.target.height});
     const uint32_t layers = c.target.layers + way.first_layer;
     const VkPhysicalDeviceLimits& limits = capabilities.limits;
     if (std::max(extent.width, extent.height) > limits.maxImageDimension2D) {

@@ -14,6 +14,9 @@ namespace vk_harness {
 
 ImageWay image_way(const cases::Case& c);
 
+// The same of what they are resolved into: another layer than theirs, or another level.
+ImageWay resolved_way(const cases::Case& c);
+
 // Why the device has no such images: one sentence; nothing if it has them.
 std::optional<std::string> missing_images(const Capabilities& capabilities, const cases::Case& c);
 

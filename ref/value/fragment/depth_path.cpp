@@ -31,9 +31,18 @@ struct Largest {
 constexpr double kEndless = 0x1p127;
 
 // Whether z_f has no bound on the triangle: a vertex is behind the eye, so that w passes through 0,
-// and no depth plane cuts before.
+// and no depth plane cuts before. One that cuts just there leaves a corner whose z/w is 0/0.
 bool is_endless(const Primitive& primitive) {
-    return !primitive.is_projectable && clip_volume_of(*primitive.draw).depth().empty();
+    if (primitive.is_projectable) {
+        return false;
+    }
+    const ClipVolume volume = clip_volume_of(*primitive.draw);
+    const auto planes = volume.depth();
+    const ClipInput input(*primitive.draw, primitive.triangle.vertex);
+    return planes.empty() ||
+           std::ranges::any_of(
+               clip_triangle(input, primitive.draw->viewport, cases::Profile::direct3d, planes),
+               [](const ClippedVertex& c) { return c.clip[3] == 0; });
 }
 
 // Those of the vertices, of those of the clipped polygon, and of either after depth clamp. z_f of a

@@ -9,7 +9,11 @@
 
 #include <bit>
 #include <cmath>
+#include <functional>
+#include <optional>
+#include <tuple>
 
+#include "diff/resolve.hpp"
 #include "perfect_capture.hpp"
 
 namespace diff {
@@ -50,6 +54,29 @@ void flip_each(capture::Capture& capture, Flip&& check) {
     }
 }
 
+// The scene with one door instead of its relation.
+std::vector<Derivation> through(Scene& scene, cases::Door door) {
+    scene.test.relations = {{RelationKind::door, {}, door}};
+    return scene.derivations();
+}
+
+// Four samples a pixel, a stencil beside them, and what they are resolved into.
+struct ResolvedScene : Scene {
+    explicit ResolvedScene(RelationKind kind, cases::Resolve depth = cases::Resolve::min)
+        : Scene(kind) {
+        test.target.samples = 4;
+        test.target.has_stencil = true;
+        test.target.color.emplace();
+        test.target.color_resolve = cases::Resolve::average;
+        test.target.depth_resolve = depth;
+        base = perfect_capture(test, ref::expect(test, ref::Limits{8}, cases::Profile::direct3d));
+        for (size_t k = 0; k < base.sample_count(); ++k) {
+            base.color.push_back({static_cast<uint32_t>(k % 7), 0, 0, 255});
+        }
+        add_dependent_planes(base);
+    }
+};
+
 }  // namespace
 
 TEST(Consistency, EveryRelationAcceptsWhatItDemands) {
@@ -84,6 +111,111 @@ TEST(Consistency, EveryBitOfEveryPlaneCounts) {
             });
         }
     }
+}
+
+TEST(Consistency, StencilAndResolvedPixelsAreCompared) {
+    for (const RelationKind kind : {RelationKind::same_twice, RelationKind::scissor_tiles,
+                                    RelationKind::other_clears, RelationKind::write_masks}) {
+        const ResolvedScene scene(kind);
+        for (const Derivation& d : scene.derivations()) {
+            capture::Capture derived = scene.base;
+            vary(derived, d.variation);
+            const auto different = [&] { return compare_bits(scene.test, scene.base, derived, d); };
+            EXPECT_EQ(different().compared, 5U * 64) << d.name;
+            EXPECT_EQ(different().different, 0U) << d.name;
+            for (const size_t pixel : {size_t{2 * 8 + 2}, size_t{7 * 8 + 7}}) {
+                const auto is_seen = [&](auto& word, size_t at, uint32_t plane, uint32_t nth) {
+                    auto& bits = reinterpret_cast<uint32_t&>(word);
+                    bits ^= 1U;
+                    const Consistency found = different();
+                    bits ^= 1U;
+                    ASSERT_EQ(found.different, 1U) << d.name << " plane " << plane;
+                    EXPECT_EQ(found.differences[0].sample, at);
+                    EXPECT_EQ(found.differences[0].plane, plane);
+                    EXPECT_EQ(found.differences[0].word, nth);
+                };
+                const size_t sample = 4 * pixel + 3;
+                is_seen(derived.color[sample][2], sample, capture::kColorPlane, 2);
+                is_seen(derived.stencil[sample], sample, capture::kStencilPlane, 0);
+                is_seen(derived.resolved_color[pixel][3], pixel, capture::kResolvedColorPlane, 3);
+                is_seen(derived.resolved_depth[pixel], pixel, capture::kResolvedDepthPlane, 0);
+            }
+        }
+    }
+}
+
+// The case's hypotenuse cuts pixel (4, 3), of which some samples are drawn and some are clear.
+TEST(Consistency, WhatAClearSampleIsResolvedIntoFollowsTheOtherClearValue) {
+    const auto expected = [](cases::Resolve mode, size_t pixel) -> std::optional<float> {
+        const ResolvedScene scene(RelationKind::other_clears, mode);
+        const Derivation d = scene.derivations()[0];
+        EXPECT_TRUE(d.variation.other_depth_clear);
+        capture::Capture derived = scene.base;
+        vary(derived, d.variation);
+        std::optional<float> only;
+        for (const float tried : {0.5F, 0.625F, 0.75F}) {
+            derived.resolved_depth[pixel] = tried;
+            if (compare_bits(scene.test, scene.base, derived, d).different == 0) {
+                if (only) {
+                    return std::nullopt;  // more than one
+                }
+                only = tried;
+            }
+        }
+        return only;
+    };
+    constexpr size_t inside = 2 * 8 + 2, edge = 3 * 8 + 4, outside = 7 * 8 + 7;
+    static_assert(std::equal_to<>()(capture::kOtherClearDepth, 0.625F));
+    for (const cases::Resolve mode : {cases::Resolve::sample_zero, cases::Resolve::min,
+                                      cases::Resolve::max, cases::Resolve::average}) {
+        EXPECT_EQ(expected(mode, inside), 0.5F);
+        EXPECT_EQ(expected(mode, outside), 0.625F);
+    }
+    EXPECT_EQ(expected(cases::Resolve::min, edge), 0.5F);
+    EXPECT_EQ(expected(cases::Resolve::max, edge), 0.625F);
+    EXPECT_EQ(expected(cases::Resolve::average, edge), std::nullopt);
+}
+
+TEST(Consistency, AResolvedPixelIsToldAtItsPlace) {
+    const ResolvedScene scene(RelationKind::same_twice);
+    const std::vector<Derivation> d = scene.derivations();
+    capture::Capture derived = scene.base;
+    derived.resolved_depth[3 * 8 + 5] = 0.25F;
+    derived.stencil[4 * (2 * 8 + 1) + 2] = 77;
+    const std::vector<Consistency> found = {compare_bits(scene.test, scene.base, derived, d[0]),
+                                            Consistency{}};
+    Verdict verdict;
+    add_differences(scene.test, d, found, verdict);
+    ASSERT_EQ(verdict.findings.size(), 2U);
+    const Finding& stencil = verdict.findings[0];
+    EXPECT_EQ(stencil.quantity, "stencil, same-twice");
+    EXPECT_EQ(stencil.got, "77");
+    EXPECT_EQ(std::tuple(stencil.x, stencil.y, stencil.sample), std::tuple(1U, 2U, 2U));
+    const Finding& depth = verdict.findings[1];
+    EXPECT_EQ(depth.quantity, "resolved depth, same-twice");
+    EXPECT_EQ(std::tuple(depth.x, depth.y, depth.sample), std::tuple(5U, 3U, 0U));
+}
+
+// The average of 0, 1, 2, 3 is 1 or 2, by whatever way; 3 is none.
+TEST(Consistency, AnAverageThroughADoorMayBeRoundedOtherwise) {
+    ResolvedScene scene(RelationKind::same_twice);
+    const auto different = [&](cases::Door door, uint32_t red) {
+        const Derivation d = through(scene, door).front();
+        capture::Capture base = scene.base;
+        for (uint32_t k = 0; k < 4; ++k) {
+            base.color[4 * 18 + k][0] = k;
+        }
+        base.resolved_color[18][0] = 1;
+        capture::Capture derived = base;
+        derived.resolved_color[18][0] = red;
+        return compare_bits(scene.test, base, derived, d).different;
+    };
+    using cases::Door;
+    EXPECT_EQ(different(Door::image_level, 1), 0U);
+    EXPECT_EQ(different(Door::image_level, 2), 0U);
+    EXPECT_EQ(different(Door::image_level, 3), 1U);
+    EXPECT_EQ(different(Door::index_16, 1), 0U);
+    EXPECT_EQ(different(Door::index_16, 2), 1U) << "the same pipeline, state and images";
 }
 
 TEST(Consistency, UnchangedAttachmentsBreakOtherClearsAndMasks) {
@@ -251,16 +383,6 @@ TEST(Consistency, OtherShadersAreHeldToItFromPracticeOn) {
     add_differences(scene.test, d, found, verdict);
     EXPECT_FALSE(verdict.ok());
 }
-
-namespace {
-
-// The scene with one door instead of its relation.
-std::vector<Derivation> through(Scene& scene, cases::Door door) {
-    scene.test.relations = {{RelationKind::door, {}, door}};
-    return scene.derivations();
-}
-
-}  // namespace
 
 TEST(Consistency, ADoorMovesTheNumbersOfVerticesAndNothingElse) {
     Scene scene;

@@ -14,11 +14,12 @@ namespace diff {
 namespace {
 
 // Three triangles at the same place: the second one's plane is the first one's, so that either may
-// have stored its depth, and the third stores none.
+// have stored its depth, since its shader is another one, and the third stores none.
 cases::Case with_equal_planes() {
     cases::Case c = pixel_case(8, 8, {{0, 0}, {8, 0}, {0, 8}});
     c.draws.resize(3, c.draws[0]);
     c.draws[1].depth.compare = cases::CompareOp::less;
+    c.draws[1].discard_by = cases::DiscardBy::demote;
     c.draws[2].depth.write = false;
     return c;
 }

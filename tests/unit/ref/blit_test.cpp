@@ -7,9 +7,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <random>
+#include <utility>
 
 namespace ref {
 namespace {
@@ -242,6 +244,135 @@ TEST(ExhaustiveBlitReference, TheFilterAgreesWithTheRationals) {
     }
     EXPECT_GT(accepted, 1000U);
     EXPECT_LT(accepted, 3300U);
+}
+
+namespace {
+
+// Along one axis, by itself: the texels that a linear filter may read of destination texel i, a
+// step of its weights more or less, clamped at the image.
+std::pair<int64_t, int64_t> texels_read(int64_t i, int64_t source, int64_t target) {
+    const double at =
+        (static_cast<double>(i) + 0.5) * static_cast<double>(source) / static_cast<double>(target) -
+        0.5;
+    constexpr double kReach = 1.0 / 16 + 1e-3;
+    const auto clamped = [&](double texel) {
+        return std::clamp<int64_t>(static_cast<int64_t>(texel), 0, source - 1);
+    };
+    return {clamped(std::floor(at - kReach)), clamped(std::ceil(at + kReach))};
+}
+
+double linear_of(double code) {
+    const double c = code / 255.0;
+    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+}
+
+}  // namespace
+
+// A device that keeps codes: each lerp goes to the codes on either side, with weights of 16ths.
+TEST(BlitReference, AFilterOfCodesIsRightWhateverWayItRounds) {
+    std::mt19937_64 random(11);
+    for (int round = 0; round < 40; ++round) {
+        const auto side = 2 + static_cast<int64_t>(random() % 6);
+        const auto target = side + static_cast<int64_t>(random() % 12);
+        const cases::Case c =
+            blit_case(static_cast<uint32_t>(side), static_cast<uint32_t>(target),
+                      {0, 0, static_cast<int32_t>(side), static_cast<int32_t>(side)},
+                      {0, 0, static_cast<int32_t>(target), static_cast<int32_t>(target)},
+                      BlitFilter::linear, ColorFormat::rgba8_unorm);
+        const BlitReference reference(c);
+        const auto split = [&](int64_t i) {
+            const double at = (static_cast<double>(i) + 0.5) * static_cast<double>(side) /
+                                  static_cast<double>(target) -
+                              0.5;
+            const double sixteenths = random() % 2 == 0 ? std::floor(at * 16) : std::ceil(at * 16);
+            return std::pair(static_cast<int64_t>(std::floor(sixteenths / 16)),
+                             sixteenths / 16 - std::floor(sixteenths / 16));
+        };
+        const auto lerp = [&](double a, double b, double t) {
+            const double exact = a + (b - a) * t;
+            return random() % 2 == 0 ? std::floor(exact) : std::ceil(exact);
+        };
+        for (int64_t y = 0; y < target; ++y) {
+            for (int64_t x = 0; x < target; ++x) {
+                const auto [i, alpha] = split(x);
+                const auto [j, beta] = split(y);
+                TexelCodes codes{};
+                for (uint32_t k = 0; k < 4; ++k) {
+                    const auto at = [&](int64_t column, int64_t row) {
+                        return static_cast<double>(
+                            source_at(c, std::clamp<int64_t>(column, 0, side - 1),
+                                      std::clamp<int64_t>(row, 0, side - 1))[k]);
+                    };
+                    codes[k] = static_cast<uint32_t>(
+                        lerp(lerp(at(i, j), at(i + 1, j), alpha),
+                             lerp(at(i, j + 1), at(i + 1, j + 1), alpha), beta));
+                }
+                for (const Profile profile : kProfiles) {
+                    ASSERT_TRUE(reference.allows(static_cast<uint32_t>(x), static_cast<uint32_t>(y),
+                                                 codes, profile));
+                }
+            }
+        }
+    }
+}
+
+// What is stored lies among the texels, or a code beside them, which storing may take; of sRGB
+// among their linear numbers, each right to a code, as codes of 8 bits.
+TEST(BlitReference, NothingBeyondAllTexelsIsRight) {
+    for (const ColorFormat format : {ColorFormat::rgba8_unorm, ColorFormat::rgba8_srgb}) {
+        const bool is_srgb = format == ColorFormat::rgba8_srgb;
+        uint64_t refused = 0;
+        for (int64_t side = 2; side <= 5; ++side) {
+            const int64_t target = 7 * side;
+            const cases::Case c =
+                blit_case(static_cast<uint32_t>(side), static_cast<uint32_t>(target),
+                          {0, 0, static_cast<int32_t>(side), static_cast<int32_t>(side)},
+                          {0, 0, static_cast<int32_t>(target), static_cast<int32_t>(target)},
+                          BlitFilter::linear, format);
+            const BlitReference reference(c);
+            for (int64_t y = 0; y < target; y += 3) {
+                for (int64_t x = 0; x < target; x += 2) {
+                    const auto [left, right] = texels_read(x, side, target);
+                    const auto [top, bottom] = texels_read(y, side, target);
+                    TexelCodes codes =
+                        reference.nominal(static_cast<uint32_t>(x), static_cast<uint32_t>(y));
+                    uint32_t least = 255, most = 0;
+                    for (int64_t j = top; j <= bottom; ++j) {
+                        for (int64_t i = left; i <= right; ++i) {
+                            least = std::min(least, source_at(c, i, j)[0]);
+                            most = std::max(most, source_at(c, i, j)[0]);
+                        }
+                    }
+                    ASSERT_TRUE(codes[0] >= least && codes[0] <= most);
+                    for (uint32_t code = 0; code < 256; ++code) {
+                        const bool is_beyond =
+                            is_srgb ? linear_of(code + 1) <
+                                              std::floor(linear_of(static_cast<double>(least) - 1) *
+                                                         255) /
+                                                      255 -
+                                                  1e-4 ||
+                                          linear_of(code - (code > 0 ? 1 : 0)) >
+                                              std::ceil(linear_of(static_cast<double>(most) + 1) *
+                                                        255) /
+                                                      255 +
+                                                  1e-4
+                                    : code + 1 < least || code > most + 1;
+                        codes[0] = code;
+                        for (const Profile profile : kProfiles) {
+                            if (is_beyond) {
+                                ++refused;
+                                ASSERT_FALSE(reference.allows(static_cast<uint32_t>(x),
+                                                              static_cast<uint32_t>(y), codes,
+                                                              profile))
+                                    << code << " of " << least << " to " << most;
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        EXPECT_GT(refused, 100000U);
+    }
 }
 
 }  // namespace ref

@@ -159,21 +159,78 @@ TEST(DepthHand, TheSameTriangleAgainIsEqual) {
         c.target.depth_clear = 1;
         const uint32_t count = op == CompareOp::less ? 1 : 2;
         expect_hits(c, count, count);
-        // With fixed point the stored depth is rounded; Direct3D rounds what is compared, too.
+        // With fixed point the stored depth is rounded; devices round what is compared, too, and
+        // Direct3D says so.
         c.target.depth_format = DepthFormat::d16_unorm;
         for (const Profile profile : cases::kProfiles) {
-            const bool is_rounded = profile == Profile::direct3d;
+            const bool is_rounded = profile != Profile::vulkan;
             uint32_t most = 0;
             EXPECT_EQ(hits(c, profile, &most), is_rounded ? count : 1);
             EXPECT_EQ(most, is_rounded ? count : 2);
         }
-        // Nothing is promised if the state differs.
+        // Nothing is promised if another state differs.
         c.target.depth_format = DepthFormat::d32_float;
-        c.draws[0].depth.compare = CompareOp::always;
-        expect_hits(c, 1, 2);
-        c.draws[0].depth.compare = op;
         c.draws[1].fragment_size = {2, 2};
         expect_hits(c, 1, 2);
+    }
+}
+
+// Masks must not matter (Invariance, Rule 2, "Required"), and comparisons, stencils and other
+// shaders do not in practice.
+TEST(DepthHand, APrepassHasTheDepthsOfWhatFollows) {
+    struct Row {
+        const char* what;
+        void (*change)(cases::Draw&);
+        bool at_vulkan;
+    };
+    const Row rows[] = {
+        {"nothing else", [](cases::Draw&) {}, true},
+        {"depth write", [](cases::Draw& d) { d.depth.write = false; }, true},
+        {"colour", [](cases::Draw& d) { d.color.write_mask = 0; }, true},
+        {"comparison", [](cases::Draw& d) { d.depth.compare = CompareOp::equal; }, false},
+        {"stencil", [](cases::Draw& d) { d.stencil.front.reference = 7; }, false},
+        {"attributes",
+         [](cases::Draw& d) {
+             d.attributes.emplace_back();
+             d.attributes.back().values.assign(3, {1, 2, 3, 4});
+         },
+         false},
+    };
+    for (const DepthFormat format :
+         {DepthFormat::d32_float, DepthFormat::d24_unorm, DepthFormat::d16_unorm}) {
+        for (const Row& row : rows) {
+            cases::Draw d = half_plane(0.3, 0.013, 0.007);
+            d.depth.compare = CompareOp::less_or_equal;
+            cases::Case c = case_of({d, d}, format);
+            c.target.depth_clear = 1;
+            row.change(c.draws[1]);
+            for (const Profile profile : cases::kProfiles) {
+                const bool is_held = profile != Profile::vulkan ||
+                                     (row.at_vulkan && format == DepthFormat::d32_float);
+                uint32_t most = 0;
+                EXPECT_EQ(hits(c, profile, &most), is_held ? 2U : 1U) << row.what;
+                EXPECT_EQ(most, 2U) << row.what;
+            }
+        }
+    }
+}
+
+// A depth that the shader writes may be gl_FragCoord.z of another place, where inputs are
+// interpolated at the samples.
+TEST(DepthHand, APrepassOfWrittenDepthsIsHeldWhereThereIsOnePlace) {
+    for (const uint32_t samples : {1U, 4U}) {
+        cases::Draw d = half_plane(0.3, 0.013, 0.007);
+        d.depth.compare = CompareOp::less_or_equal;
+        d.frag_depth.emplace();
+        d.frag_depth->is_coord = true;
+        cases::Case c = case_of({d, d});
+        c.target.samples = samples;
+        c.target.depth_clear = 1;
+        c.draws[1].depth.compare = CompareOp::equal;
+        EXPECT_EQ(hits(c, Profile::practice), 2U) << samples;
+        c.draws[1].attributes.emplace_back();
+        c.draws[1].attributes.back().values.assign(3, {1, 2, 3, 4});
+        EXPECT_EQ(hits(c, Profile::practice), samples == 1 ? 2U : 1U) << samples;
     }
 }
 

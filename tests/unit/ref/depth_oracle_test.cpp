@@ -43,6 +43,11 @@ class RandomDepth {
                 if (one_in(2)) {
                     change(c.draws.back().depth);
                 }
+                if (one_in(3)) {  // by another shader
+                    cases::Attribute a;
+                    a.values.assign(c.draws.back().positions.size(), {1, 0, 0, 0});
+                    c.draws.back().attributes.assign(1, a);
+                }
             } else {
                 c.draws.push_back(draw());
             }

@@ -367,6 +367,31 @@ TEST(Exercise, BlendingThatShowsOnlyIfItIsDoneTwice) {
               28U);
 }
 
+// "Logical operations are not applied to floating-point or sRGB format color attachments": what is
+// seen is that nothing changes, where the operation would. The triangle covers 28 samples of 64.
+TEST(Exercise, ALogicalOperationThatAFormatDoesNotTake) {
+    const auto samples = [](const std::string& format, const std::string& color) {
+        return exercise_of_text(
+                   "[target]\nsize = [8, 8]\nattachments = \"color\"\n"
+                   "[target.color]\nformat = \"" +
+                       format +
+                       "\"\nclear = [1, 0.5, 0.25, 1]\n[[draw]]\n"
+                       "vertices = [[0,0], [8,0], [0,8]]\n"
+                       "color = { value = [0.5, 1, 0.125, 1], logic = " +
+                       color + " }\n",
+                   {"logic.operation"})
+            .rules[0]
+            .samples;
+    };
+    for (const char* format : {"rgba16-float", "r32-float", "rgba8-srgb"}) {
+        EXPECT_EQ(samples(format, "\"xor\""), 28U) << format;
+        EXPECT_EQ(samples(format, "\"invert\""), 28U) << format;
+        EXPECT_EQ(samples(format, "\"copy\""), 0U) << format;
+        EXPECT_EQ(samples(format, "\"xor\", write_mask = \"\""), 0U) << format;
+    }
+    EXPECT_EQ(samples("rgba8-unorm", "\"xor\""), 28U);
+}
+
 TEST(Exercise, OneSampleIsNotTheCorner) {
     const std::string plane = "[[draw.attribute]]\nplane = [\"x+2*y\"]\n";
     EXPECT_EQ(samples_of("interp.at-sample", "", plane + "probe = \"at-sample\"\nsample = 0\n"),

@@ -151,6 +151,24 @@ TEST(GuardBand, TheUnitOfABiasHasNoEndWhereZHasNone) {
                            huge));
 }
 
+// z/w is 1/2 throughout, and the volume -w <= z <= w, so that the near plane cuts where w is 0: a
+// corner of what is left has 0/0 for its depth. An H100 has a unit of 2^15 there
+// (docs/results/README.md).
+TEST(GuardBand, ADepthPlaneThatCutsAtTheEyeBoundsNoUnit) {
+    const auto text = [](const std::string& z) {
+        return "[target]\nsize = [1, 1]\n[[draw]]\ndepth = { bias = { constant = 1 } }\n"
+               "depth_volume = \"negative-one-to-one\"\n"
+               "vertices = [[2, 1], [8, -2], [8, 2, " +
+               z + ", -3.25]]\n";
+    };
+    const float seen = 32768.75F;
+    EXPECT_TRUE(accepts(case_of(text("0.5")), 0, {0, 0, 0}, {seen, 1.40865385F, seen}));
+    EXPECT_TRUE(accepts(case_of(text("0.5")), 0, {0, 0, 0}, {seen, 1.40865385F, seen}, true));
+    EXPECT_FALSE(accepts(case_of(text("0.5")), 0, {0, 0, 0}, {-seen, 1.40865385F, -seen}));
+    // A little before the eye it has a bound.
+    EXPECT_FALSE(accepts(case_of(text("0.25")), 0, {0, 0, 0}, {seen, 1.40865385F, seen}));
+}
+
 // A shader that runs for two samples of four at once is at one of those that its triangle covers;
 // those of the neighbouring pixels may be at others. From sample 1 to sample 3 beside it x grows by
 // 3/4 and y by 1/2, to the one below by -1/4 and 3/2: (3/16 + 1/6) + (1/2 - 1/16) = 19/24.

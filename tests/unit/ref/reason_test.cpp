@@ -440,8 +440,8 @@ class LeafReasons {
         EXPECT_FALSE(t.sentence.empty()) << where;
     }
 
-    // Drawn with other attributes than its relatives, which are no relatives any more, a triangle
-    // whose depth is related to theirs may pass or fail.
+    // Drawn by shaders that discard by another instruction than its relatives, which are no
+    // relatives any more, a triangle whose depth is related to theirs may pass or fail.
     void check_depth(const TriangleExplanation& t, cases::SampleId at, const std::string& where) {
         if (t.depth_reason == ReasonKind::depth_ranges || depths_ == kDepths) {
             return;
@@ -449,9 +449,9 @@ class LeafReasons {
         ++depths_;
         cases::Case c = case_;
         for (size_t d = 0; d < t.triangle.draw; ++d) {
-            c.draws[d].attributes.push_back(
-                {"other", cases::Interpolation::flat, 1,
-                 std::vector<glm::vec4>(c.draws[d].positions.size(), glm::vec4(0))});
+            c.draws[d].discard_by = c.draws[d].discard_by == cases::DiscardBy::kill
+                                        ? cases::DiscardBy::demote
+                                        : cases::DiscardBy::kill;
         }
         const SampleExplanation s = explain_sample(c, Limits{}, profile_, at);
         const auto same = std::find_if(s.triangles.begin(), s.triangles.end(),

@@ -113,6 +113,22 @@ TEST(DoorImages, ThatAreLargerThanTheDeviceHasAreToldByTheirSize) {
     EXPECT_EQ(missing_images(c, test), std::nullopt);
 }
 
+// A device that resolves into the layer or level of the source, or into the first one, is seen.
+TEST(DoorImages, WhatIsResolvedIntoIsAnotherPart) {
+    cases::Case test = two_triangles(cases::Door::image_layer);
+    EXPECT_EQ(image_way(test).first_layer, 2U);
+    EXPECT_EQ(resolved_way(test).first_layer, 1U);
+    EXPECT_EQ(resolved_way(test).first_layer + resolved_way(test).more_layers,
+              image_way(test).first_layer);
+    test.variation.door = cases::Door::image_level;
+    EXPECT_EQ(image_way(test).level, 1U);
+    test.target.samples = 4;
+    EXPECT_EQ(image_way(test).level, 0U);
+    EXPECT_EQ(resolved_way(test).level, 1U);
+    test.variation.door = cases::Door::target_larger;
+    EXPECT_EQ(resolved_way(test), image_way(test));
+}
+
 // A door that does not draw the plain picture is one that this test knows: the findings are in
 // docs/findings.
 TEST(Door, EachDrawsThePlainPicture) {
