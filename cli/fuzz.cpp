@@ -70,18 +70,15 @@ class FuzzCommand {
         config.judging.profile = ledger_.profile;
         config.schedule.retries = 0;  // a reduction begins with drawing the case again
         run::SignalFd signals;
-        ReadyWorker first = must(ready_first_worker(config, signals));
+        ReadyWorker first = ready_first_worker(config, signals);
         name_device(first.device);
         RunOptions judging = options_.run;
         judging.profile = ledger_.profile;
         judging.suite.suite = ledger_.suite.empty() ? judging.suite.suite : ledger_.suite;
         judging.no_expect = ledger_.no_expect;
         judging.expect = ledger_.expect;
-        ExpectedFailures expected = must(expected_failures(program_, judging, first.device));
-        const auto folder = open_hunt_folder(folder_);
-        if (!folder) {
-            return report_stop(folder.error());
-        }
+        ExpectedFailures expected = expected_failures(program_, judging, first.device);
+        open_hunt_folder(folder_);
         if (!options_.run.quiet) {
             // A hunt that goes on has no end of its own: --cases and --time are of each command.
             const bool is_endless = options_.cases == 0 && !(options_.seconds > 0);
@@ -158,7 +155,7 @@ class FuzzCommand {
         SuiteOptions suite = options_.run.suite;
         suite.selectors = ledger_.selectors;
         suite.suite = ledger_.suite.empty() ? suite.suite : ledger_.suite;
-        StartCases found = must(start_cases(program_, suite, ledger_.seed));
+        StartCases found = start_cases(program_, suite, ledger_.seed);
         if (!options_.run.resume.empty() && found.checksum != ledger_.cases_checksum) {
             throw stop_with(
                 report::kExitInvalidFile,
@@ -474,7 +471,7 @@ class FuzzCommand {
 
 int carry_out(const Program& program, const FuzzOptions& options) {
     if (options.printed) {
-        const StartCases cases = must(start_cases(program, options.run.suite, options.run.seed));
+        const StartCases cases = start_cases(program, options.run.suite, options.run.seed);
         const std::string text = fuzz::text_of_case(*cases.source(), *options.printed);
         if (text.empty()) {
             throw stop_with(

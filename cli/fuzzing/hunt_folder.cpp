@@ -18,7 +18,7 @@ namespace cli {
 namespace fs = std::filesystem;
 using fuzz::Entry;
 
-OrStop<fs::path> open_hunt_folder(const fs::path& path) {
+void open_hunt_folder(const fs::path& path) {
     // What is kept below them is written, and some of it deleted: of this hunt's folder alone.
     for (const char* name : {fuzz::kFound, fuzz::kKnown, fuzz::kEarlier}) {
         std::error_code none;
@@ -26,18 +26,15 @@ OrStop<fs::path> open_hunt_folder(const fs::path& path) {
             continue;  // made when it is needed
         }
         if (auto made = cases::make_folders(path, path / name / "file"); !made) {
-            return tl::unexpected(
-                stop_with(report::kExitUsage, made.error().message + "; choose another with -o"));
+            throw stop_with(report::kExitUsage, made.error().message + "; choose another with -o");
         }
     }
     const int fd = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (fd >= 0 && ::flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
         ::close(fd);
-        return tl::unexpected(stop_with(
-            report::kExitUsage,
-            "another hunt is writing to '" + path.string() + "'; name another folder with -o"));
+        throw stop_with(report::kExitUsage, "another hunt is writing to '" + path.string() +
+                                                "'; name another folder with -o");
     }
-    return path;
 }
 
 void name_file(Entry& entry, const std::string& below, const std::vector<Entry>& entries,

@@ -15,7 +15,7 @@ namespace cli {
 
 // Makes the folder, and holds it against another hunt until the program ends. Errors (2): it cannot
 // be made, or another hunt holds it.
-OrStop<std::filesystem::path> open_hunt_folder(const std::filesystem::path& path);
+void open_hunt_folder(const std::filesystem::path& path);
 
 // Gives the entry a file name in this folder below that of the hunt, which no other of the entries
 // and no file has.

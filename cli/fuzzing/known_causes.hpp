@@ -35,8 +35,8 @@ struct ExpectedFailures {
 
 // By --expect or the files beside the suite that fit the device; nothing with --no-expect, and
 // where there is no suite. Errors: invalid files (3), an --expect that does not fit (5).
-OrStop<ExpectedFailures> expected_failures(const Program& program, const RunOptions& options,
-                                           const capture::DeviceInfo& device);
+ExpectedFailures expected_failures(const Program& program, const RunOptions& options,
+                                   const capture::DeviceInfo& device);
 
 struct KnownCauses {
     size_t failing = 0;  // cases that fail as expected
