@@ -19,6 +19,7 @@
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
 #include "report/journal/journal.hpp"
+#include "run/expected/date.hpp"
 #include "run/expected/expectation_update.hpp"
 #include "run/expected/seen_pictures.hpp"
 
