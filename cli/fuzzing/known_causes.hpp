@@ -45,7 +45,7 @@ struct KnownCauses {
     std::string failure;
 };
 // Keeps a known cause, which has no file yet.
-using KeepEntry = std::function<cases::Expected<void>(const fuzz::Entry&)>;
+using KeepEntry = std::function<void(const fuzz::Entry&)>;
 // Draws the cases, and reduces of what they show what neither `known` nor an earlier one explains;
 // each cause is kept at once.
 KnownCauses reduce_known(const ExpectedFailures& expected, const std::vector<fuzz::Entry>& known,
