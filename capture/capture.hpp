@@ -85,8 +85,6 @@ template <template <class> class Store>
 struct Planes {
     cases::Target target;
     bool has_primitive = false;  // Writer::primitive is meaningful
-    bool has_half_hits = false;  // hits were added up in binary16, not in binary32
-    uint32_t renderings = 1;     // in which the planes were drawn together
     uint32_t attribute_count = 0;
     // What the draws' queries counted, one number a draw, 0 where a draw has none: samples where an
     // occlusion query is precise, else 0 or 1 for any; a statistic; kNotCounted where it never had
@@ -108,8 +106,6 @@ struct Planes {
     static void fields(auto&& visit, auto&... p) {
         visit("target", p.target...);
         visit("has_primitive", p.has_primitive...);
-        visit("has_half_hits", p.has_half_hits...);
-        visit("renderings", p.renderings...);
         visit("attribute_count", p.attribute_count...);
         visit("counted", p.counted...);
     }

@@ -180,7 +180,7 @@ cases::Expected<double> draw_bare(capture::Renderer& renderer,
 
 // The child: one line "cold warm", seconds of the first and the second pass over all cases.
 int bare_command(const Program& program, const BenchOptions& options) {
-    LoadedSuite suite = must(load_and_select(program, options.suite));
+    LoadedSuite suite = load_and_select(program, options.suite);
     const std::vector<cases::Case> cases = selected_cases(suite);
     const auto renderer = renderer_of(options.device).make(options.device);
     if (!renderer) {
@@ -297,7 +297,7 @@ int carry_out(const Program& program, const BenchOptions& options) {
     if (options.bare) {
         return bare_command(program, options);
     }
-    LoadedSuite suite = must(load_and_select(program, options.suite));
+    LoadedSuite suite = load_and_select(program, options.suite);
     const std::string root = suite.root.string();
     const std::vector<cases::Case> cases = selected_cases(suite);
     Figures figures;

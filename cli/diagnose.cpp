@@ -61,16 +61,14 @@ EachCase each_of(const LoadedSuite& suite) {
 
 // The cases that a run was about: those of its suite, or of `root` if that is not empty, and files
 // of one's own.
-OrStop<LoadedSuite> cases_of(const Program& program, const report::Run& run,
-                             const std::string& root) {
+LoadedSuite cases_of(const Program& program, const report::Run& run, const std::string& root) {
     SuiteOptions suite;
     suite.suite = root.empty() ? run.suite_root : root;
-    if (const auto own = parse_run_arguments(run.arguments)) {
-        for (const std::string& selector : own->suite.selectors) {
-            if (selector.ends_with(".toml")) {
-                suite.selectors.push_back(selector);
-            }
-        }
+    try {
+        suite.selectors = parse_run_arguments(run.arguments).suite.selectors;
+        std::erase_if(suite.selectors, [](const auto& s) { return !s.ends_with(".toml"); });
+    } catch (const Stop&) {
+        // of another version: its own files are not known
     }
     return load_and_select(program, suite);
 }
@@ -91,9 +89,13 @@ void diagnose_again(const Program& program, report::Run& run) {
     if (!has_failed) {
         return;
     }
-    const OrStop<LoadedSuite> loaded = cases_of(program, run, "");
-    if (loaded && run.suite_hash == cases::hex(suite_hash(loaded->root))) {
-        diagnose(run, each_of(*loaded));
+    try {
+        const LoadedSuite loaded = cases_of(program, run, "");
+        if (run.suite_hash == cases::hex(suite_hash(loaded.root))) {
+            diagnose(run, each_of(loaded));
+        }
+    } catch (const Stop&) {
+        // without the cases of the run there is nothing to say
     }
 }
 
@@ -110,9 +112,9 @@ namespace {
 int carry_out(const Program& program, const DiagnoseOptions& options) {
     cases::Expected<report::Run> run = report::load_journal(options.directory);
     if (!run) {
-        throw Stop{report::kExitInvalidFile, {cases::to_string(run.error())}};
+        throw stop_with(report::kExitInvalidFile, cases::to_string(run.error()));
     }
-    const LoadedSuite loaded = must(cases_of(program, *run, options.suite.suite));
+    const LoadedSuite loaded = cases_of(program, *run, options.suite.suite);
     if (!run->suite_hash.empty() && run->suite_hash != cases::hex(suite_hash(loaded.root))) {
         complain("the suite has changed since that run; what is told of changed cases is wrong");
     }

@@ -265,11 +265,11 @@ struct Asked {
 Asked ask(const Program& program, const DiffOptions& options) {
     const RunOptions& o = options.run;
     try {
-        Asked asked{must(select_cases(program, o)), {}, {}, {}};
+        Asked asked{select_cases(program, o), {}, {}, {}};
         check_captures(options, asked.selection.known_ids);
         asked.left_out = keep_captured(options, asked.selection);
         asked.header = make_header(program, options, asked.selection);
-        asked.expected = must(expectations_of(o, asked.selection, asked.header));
+        asked.expected = expectations_of(o, asked.selection, asked.header);
         return asked;
     } catch (const Stop&) {
         // Nothing was judged; the reports of an earlier call would look like this one's.
@@ -289,7 +289,7 @@ int carry_out(const Program& program, const DiffOptions& given) {
     const ExpectedById& expected = asked.expected;
     report::Run& header = asked.header;
     const fs::path folder = o.output.empty() ? new_folder("out", "captures") : fs::path(o.output);
-    report::Journal journal = must(open_journal(folder, header, false));
+    report::Journal journal = open_journal(folder, header, false);
     remove_reports({folder, o.json, o.junit, o.html});
     std::vector<std::string> ids;
     for (const cases::Case& c : selection.cases) {

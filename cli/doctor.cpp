@@ -62,9 +62,13 @@ std::vector<Part> find_parts(const Program& program, const capture::Installed& i
         {"image files", "EXR and PNG files",
          find_file({folder / "../lib/edgecase", folder / "../lib", folder}, "edgecase-image-io.so"),
          "sudo apt install libopenimageio-dev && scripts/build release"}};
-    const OrStop<fs::path> suite = find_suite_root(program, "");
-    parts.push_back({"suite", "'edgecase run' without a selector", suite ? suite->string() : "",
+    parts.push_back({"suite", "'edgecase run' without a selector", "",
                      "name its folder with --suite or EDGECASE_SUITE"});
+    try {
+        parts.back().found = find_suite_root(program, "").string();
+    } catch (const Stop&) {
+        // it is missing
+    }
     return parts;
 }
 
@@ -102,9 +106,6 @@ cases::Expected<void> ask_worker(const Program& program, const DeviceOptions& op
     cases::Expected<run::WorkerClient> client = run::WorkerClient::start(
         worker_command(program), run::WorkerOptions{options},
         std::chrono::milliseconds(static_cast<int64_t>(options.timeout * 1000)), question);
-    if (!client) {
-        return tl::unexpected(client.error());
-    }
     const std::optional<run::WorkerEvent> answer = run::wait_for_answer(*client, signals);
     if (!answer) {
         return cases::failure("interrupted");
@@ -163,13 +164,15 @@ cases::Expected<void> ask(const Program& program, const DeviceOptions& options, 
 // Asks each usable device what of the suite it can draw. Without a suite nothing is asked.
 void ask_shares(const Program& program, const DeviceOptions& options, Diagnosis& d) {
     d.shares.resize(d.devices.size());
-    const OrStop<LoadedSuite> suite = load_and_select(program, {});
-    if (!suite) {
+    LoadedSuite suite;
+    try {
+        suite = load_and_select(program, {});
+    } catch (const Stop&) {
         return;
     }
     std::vector<const cases::Case*> asked;
-    for (const size_t k : suite->selected) {
-        asked.push_back(&suite->cases[k]);
+    for (const size_t k : suite.selected) {
+        asked.push_back(&suite.cases[k]);
     }
     run::SignalFd signals;
     for (size_t k = 0; k < d.devices.size(); ++k) {

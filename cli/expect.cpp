@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <set>
-#include <variant>
 
 #include "cases/base/counted.hpp"
 #include "cases/base/input_file.hpp"
@@ -20,6 +19,7 @@
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
 #include "report/journal/journal.hpp"
+#include "run/expected/date.hpp"
 #include "run/expected/expectation_update.hpp"
 #include "run/expected/seen_pictures.hpp"
 
@@ -48,11 +48,8 @@ std::vector<std::string> known_ids(const LoadedSuite& suite) {
 int show(const Program& program, const ExpectOptions& options) {
     const std::string& name = options.file;
     const auto file = must(run::load_expectations(name));
-    const LoadedSuite suite = must(load_and_select(program, options.suite, cases::Contents::ids));
-    if (const auto resolved = run::resolve_expectations({file}, known_ids(suite), true);
-        !resolved) {
-        return report_stop(invalid_files(resolved.error()));
-    }
+    const LoadedSuite suite = load_and_select(program, options.suite, cases::Contents::ids);
+    must(run::resolve_expectations({file}, known_ids(suite), true));
     std::array<size_t, report::kStatuses> count{};
     for (const run::ExpectationLine& line : file.lines) {
         ++count.at(static_cast<size_t>(line.status));
@@ -154,7 +151,7 @@ run::Update make_update(const Program& program, const ExpectOptions& options,
     if (suite.suite.empty()) {
         suite.suite = run->suite_root;
     }
-    const LoadedSuite loaded = must(load_and_select(program, suite));
+    const LoadedSuite loaded = load_and_select(program, suite);
     std::vector<std::string> ids = known_ids(loaded);
     const std::string left_out = settle_own_cases(*run, ids, is_beside(options.file, loaded.root));
     run::Update update = run::update_expectations(text, file, *run, ids, words);
@@ -167,7 +164,7 @@ run::Update make_update(const Program& program, const ExpectOptions& options,
 using Ids = std::set<std::string>;
 
 Ids ids_of_suite(const Program& program, const SuiteOptions& options) {
-    const LoadedSuite suite = must(load_and_select(program, options, cases::Contents::ids));
+    const LoadedSuite suite = load_and_select(program, options, cases::Contents::ids);
     const std::vector<std::string> ids = suite.ids();
     return Ids(ids.begin(), ids.end());
 }

@@ -35,7 +35,7 @@ int explain_rule(const Program& program, const ExplainOptions& options) {
             report::kExitNothingSelected,
             {"there is no rule '" + options.rule + "'; " + cases::rule_hint(options.rule, '\'')}};
     }
-    const LoadedSuite suite = must(load_and_select(program, options.suite));
+    const LoadedSuite suite = load_and_select(program, options.suite);
     say(rule_text(*rule, suite.cases));
     return report::kExitOk;
 }
@@ -44,7 +44,7 @@ int carry_out(const Program& program, const ExplainOptions& options) {
     if (!options.rule.empty()) {
         return explain_rule(program, options);
     }
-    cases::Case c = must(load_one_case(program, options.suite, options.judged));
+    cases::Case c = load_one_case(program, options.suite, options.judged);
     const cases::Target& target = c.target;
     if (options.x >= target.width || options.y >= target.height ||
         options.sample >= target.samples || options.layer >= target.layers) {

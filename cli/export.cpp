@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <variant>
 
 #include "capture/exchange/export_case.hpp"
 #include "capture/exchange/plane_files.hpp"
@@ -50,7 +49,7 @@ int export_reproducer(const Program& program, const ExportOptions& options) {
                    {"-o '" + cases::printable(options.output) +
                     "' is no name of a C file; write one that ends in .c"}};
     }
-    const cases::Case c = must(load_one_case(program, options.suite, options.judged));
+    const cases::Case c = load_one_case(program, options.suite, options.judged);
     const auto text = must(reproducer(c, limits_of(options.judged), options.profile, kVersion),
                            report::kExitUsage);
     must(write_text(options.output, text), report::kExitInternal);
@@ -63,7 +62,7 @@ int carry_out(const Program& program, const ExportOptions& options) {
     if (options.reproducer) {
         return export_reproducer(program, options);
     }
-    const LoadedSuite suite = must(load_selected(program, options.suite));
+    const LoadedSuite suite = load_selected(program, options.suite);
     const fs::path folder = options.output;
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     std::map<std::string, std::string> carried;  // files outside the suite, by their place

@@ -11,10 +11,9 @@
 #include <utility>
 
 #include "cases/base/counted.hpp"
-#include "cases/base/limits.hpp"
-#include "cases/base/output_file.hpp"
 #include "cases/base/printable.hpp"
 #include "cli/commands.hpp"
+#include "cli/fuzzing/hunt_end.hpp"
 #include "cli/fuzzing/hunt_folder.hpp"
 #include "cli/fuzzing/hunt_status.hpp"
 #include "cli/fuzzing/hunt_text.hpp"
@@ -22,7 +21,6 @@
 #include "cli/fuzzing/start_cases.hpp"
 #include "cli/options/shared_options.hpp"
 #include "cli/prepare/loop_config.hpp"
-#include "cli/prepare/outputs.hpp"
 #include "cli/prepare/run_plan.hpp"
 #include "fuzz/hunt.hpp"
 #include "fuzz/ledger.hpp"
@@ -70,18 +68,15 @@ class FuzzCommand {
         config.judging.profile = ledger_.profile;
         config.schedule.retries = 0;  // a reduction begins with drawing the case again
         run::SignalFd signals;
-        ReadyWorker first = must(ready_first_worker(config, signals));
+        ReadyWorker first = ready_first_worker(config, signals);
         name_device(first.device);
         RunOptions judging = options_.run;
         judging.profile = ledger_.profile;
         judging.suite.suite = ledger_.suite.empty() ? judging.suite.suite : ledger_.suite;
         judging.no_expect = ledger_.no_expect;
         judging.expect = ledger_.expect;
-        ExpectedFailures expected = must(expected_failures(program_, judging, first.device));
-        const auto folder = open_hunt_folder(folder_);
-        if (!folder) {
-            return report_stop(folder.error());
-        }
+        ExpectedFailures expected = expected_failures(program_, judging, first.device);
+        HuntFolder files(folder_, ledger_);
         if (!options_.run.quiet) {
             // A hunt that goes on has no end of its own: --cases and --time are of each command.
             const bool is_endless = options_.cases == 0 && !(options_.seconds > 0);
@@ -98,11 +93,11 @@ class FuzzCommand {
         // From here on the hunt can go on, whatever ends it.
         run::SignalFd::set_last_words(cases::printable(
             "interrupted; go on with 'edgecase fuzz --resume " + folder_.string() + "'"));
-        must(keep_earlier(), report::kExitInternal);
-        if (const std::optional<int> ended = know(expected, session)) {
+        files.keep_earlier();
+        if (const std::optional<int> ended = know(expected, session, files)) {
             return *ended;
         }
-        return hunt(session, std::move(expected.broken_doors));
+        return hunt(session, std::move(expected.broken_doors), files);
     }
 
   private:
@@ -158,7 +153,7 @@ class FuzzCommand {
         SuiteOptions suite = options_.run.suite;
         suite.selectors = ledger_.selectors;
         suite.suite = ledger_.suite.empty() ? suite.suite : ledger_.suite;
-        StartCases found = must(start_cases(program_, suite, ledger_.seed));
+        StartCases found = start_cases(program_, suite, ledger_.seed);
         if (!options_.run.resume.empty() && found.checksum != ledger_.cases_checksum) {
             throw stop_with(
                 report::kExitInvalidFile,
@@ -195,7 +190,8 @@ class FuzzCommand {
 
     // Reduces one case for each cause that expectation files explain, unless an earlier hunt has.
     // The exit code, if that is the end.
-    std::optional<int> know(const ExpectedFailures& expected, run::Session& session) {
+    std::optional<int> know(const ExpectedFailures& expected, run::Session& session,
+                            HuntFolder& files) {
         if (known_device_ == ledger_.device + ledger_.driver &&
             known_expectations_ == expected.checksum) {
             ledger_.expectations = expected.checksum;  // --known has brought the causes
@@ -218,7 +214,7 @@ class FuzzCommand {
         const KnownCauses known = reduce_known(
             expected, ledger_.entries, session,
             [this] { status_.show_words("reducing what expectation files explain"); },
-            [this](const Entry& entry) { return keep_known(entry); });
+            [&](const Entry& entry) { files.keep_known(entry); });
         status_.clear();
         if (!known.failure.empty()) {
             throw stop_with(report::kExitInternal, known.failure);
@@ -229,7 +225,7 @@ class FuzzCommand {
             return report::kExitInterrupted;
         }
         ledger_.expectations = expected.checksum;
-        must(write_ledger(), report::kExitInternal);
+        files.write_ledger();
         const auto causes = static_cast<size_t>(
             std::count_if(ledger_.entries.begin(), ledger_.entries.end(),
                           [](const Entry& entry) { return entry.file.starts_with(fuzz::kKnown); }));
@@ -252,41 +248,7 @@ class FuzzCommand {
         return std::nullopt;
     }
 
-    // A cause that expectation files explain, as soon as it is reduced: a hunt that is ended before
-    // all are goes on with it.
-    cases::Expected<void> keep_known(Entry entry) {
-        name_file(entry, fuzz::kKnown, ledger_.entries, folder_);
-        if (auto written = write_below(entry.file, found_text(entry, ledger_)); !written) {
-            return written;
-        }
-        ledger_.entries.push_back(std::move(entry));
-        return write_ledger();
-    }
-
-    // Copies what earlier hunts found, so that this one can go on without their folders.
-    cases::Expected<void> keep_earlier() {
-        for (Entry& entry : ledger_.entries) {
-            if (!entry.file.empty()) {
-                continue;
-            }
-            name_file(entry, fuzz::kEarlier, ledger_.entries, folder_);
-            if (auto written = write_below(entry.file, entry.text); !written) {
-                return written;
-            }
-        }
-        return write_ledger();
-    }
-
-    cases::Expected<void> write_below(const std::string& name, const std::string& text) const {
-        auto made = cases::make_folders(folder_, folder_ / name);
-        return made ? replace_text(folder_ / name, text) : made;
-    }
-
-    cases::Expected<void> write_ledger() const {
-        return replace_text(folder_ / fuzz::kLedgerFile, fuzz::to_json(ledger_));
-    }
-
-    int hunt(run::Session& session, std::set<cases::Door> broken_doors) {
+    int hunt(run::Session& session, std::set<cases::Door> broken_doors, HuntFolder& files) {
         fuzz::HuntOptions hunt;
         hunt.broken_doors = std::move(broken_doors);
         hunt.source = source_;
@@ -299,12 +261,7 @@ class FuzzCommand {
                             std::chrono::milliseconds(static_cast<int64_t>(options_.seconds * 1e3));
         }
         const fuzz::HuntCounts before = ledger_.counts;
-        std::erase_if(ledger_.entries, [&](const Entry& entry) {
-            if (!entry.is_reduced) {
-                not_reduced_.insert(entry.file);
-            }
-            return !entry.is_reduced;
-        });
+        files.take_out_not_reduced();
         hunt.left = ledger_.left;
         const run::DrawAndJudge draw = [&session](std::vector<cases::Case> cases,
                                                   const auto& on_progress) {
@@ -319,144 +276,16 @@ class FuzzCommand {
             if (!is_first) {
                 state = hunter.step();
             }
-            if (auto kept = keep(hunter, before, state == Hunt::State::done); !kept) {
+            ledger_.counts = sum_of(before, hunter.counts());
+            ledger_.seconds = seconds_before_ + status_.seconds();
+            ledger_.is_finished = state == Hunt::State::done;
+            files.keep(hunter, [this](const Entry& entry) {
                 status_.clear();
-                throw stop_with(report::kExitInternal, kept.error().message);
-            }
+                tell_cause(entry, folder_);
+            });
         }
         status_.clear();
-        return conclude_hunt(hunter, state);
-    }
-
-    // Writes new causes and the ledger: a hunt that is killed has lost nothing but its last step.
-    cases::Expected<void> keep(Hunt& hunter, const fuzz::HuntCounts& before, bool is_finished) {
-        std::set<std::string> stale;
-        for (Entry& entry : hunter.entries()) {
-            if (!entry.file.empty()) {
-                continue;
-            }
-            name_file(entry, fuzz::kFound, ledger_.entries, folder_);
-            if (auto written = write_below(entry.file, found_text(entry, ledger_)); !written) {
-                return written;
-            }
-            status_.clear();
-            tell_cause(entry, folder_);
-            if (!entry.stale_file.empty()) {
-                stale.insert(std::exchange(entry.stale_file, ""));
-            }
-        }
-        ledger_.entries = hunter.entries();
-        if (auto kept = keep_not_reduced(hunter); !kept) {
-            return kept;
-        }
-        ledger_.waiting = hunter.waiting();
-        ledger_.left = hunter.left();
-        ledger_.counts = sum_of(before, hunter.counts());
-        ledger_.seconds = seconds_before_ + status_.seconds();
-        ledger_.is_finished = is_finished;
-        if (auto written = write_ledger(); !written) {
-            return written;
-        }
-        for (const std::string& file : stale) {
-            std::error_code none;
-            fs::remove(folder_ / file, none);
-        }
-        return {};
-    }
-
-    // The files of what is not reduced change with each step: those that are reduced meanwhile go.
-    cases::Expected<void> keep_not_reduced(const Hunt& hunter) {
-        const std::set<std::string> before = std::exchange(not_reduced_, {});
-        for (Entry& entry : hunter.not_reduced()) {
-            entry.file = fuzz::file_of_not_reduced(entry.first_case);
-            not_reduced_.insert(entry.file);
-            if (!before.contains(entry.file)) {
-                entry.text = fuzz::described(entry.text, entry.symptom);
-                if (auto written = write_below(entry.file, found_text(entry, ledger_)); !written) {
-                    return written;
-                }
-            }
-            ledger_.entries.push_back(std::move(entry));
-        }
-        for (const std::string& file : before) {
-            std::error_code none;
-            if (!not_reduced_.contains(file)) {
-                fs::remove(folder_ / file, none);
-            }
-        }
-        return {};
-    }
-
-    int conclude_hunt(Hunt& hunter, Hunt::State state) {
-        size_t fresh = 0;
-        for (const Entry& entry : ledger_.entries) {
-            if (!entry.is_reduced) {
-                tell_cause(entry, folder_);
-            }
-            fresh += entry.is_reduced && !entry.is_known ? 1U : 0U;
-        }
-        tell_counts(ledger_, starts_);
-        const fuzz::HuntCounts& c = ledger_.counts;
-        if (!ledger_.waiting.empty()) {
-            say(
-                fmt::format("not reduced, and explained by no cause: {}; go on with 'edgecase fuzz "
-                            "--resume {}'\n",
-                            counted(ledger_.waiting.size(), "failing case"), folder_.string()));
-        }
-        if (!ledger_.left.empty()) {
-            say(fmt::format(
-                "not judged, as the hunt ended before: {}, which --resume draws first\n",
-                counted(ledger_.left.size(), "case")));
-        }
-        size_t number = 0;
-        for (const std::string& text : hunter.unrepeated()) {
-            const fs::path file = folder_ / fmt::format("unrepeated-{}.toml", ++number);
-            must(replace_text(file, text), report::kExitInternal);
-        }
-        if (c.unrepeated > 0) {
-            say(fmt::format("did not come again when drawn alone: {}; see {}\n",
-                            counted(c.unrepeated, "failing case"),
-                            (folder_ / "unrepeated-1.toml").string()));
-        }
-        std::set<std::string> told;
-        for (const auto& [text, reason] : hunter.unjudged()) {
-            if (!told.insert(reason).second) {
-                continue;
-            }
-            const fs::path file = folder_ / fmt::format("unjudged-{}.toml", told.size());
-            const auto written = replace_text(file, text);
-            const bool is_limited = !cases::tight_limits().empty();
-            complain("a case could not be judged: " + reason +
-                     (written ? "; it is kept as " + file.string() +
-                                    (is_limited ? "" : ", please report it")
-                              : ""));
-        }
-        if (fresh > 0 || !ledger_.waiting.empty()) {
-            say(fmt::format("look at them: edgecase run {} --no-expect\n",
-                            (folder_ / "found").string()));
-        }
-        if (state == Hunt::State::interrupted) {
-            say("interrupted; go on with 'edgecase fuzz --resume " + folder_.string() + "'\n");
-            std::fflush(stdout);  // while threads end that make cases
-            return report::kExitInterrupted;
-        }
-        if (state == Hunt::State::failed) {
-            throw stop_with(report::kExitInternal, hunter.failure());
-        }
-        if (c.unjudged > 0) {
-            return report::kExitInternal;
-        }
-        if (c.drawn == 0) {
-            complain(fmt::format("no case was judged, so nothing was proven: {}",
-                                 c.unsupported > 0
-                                     ? fmt::format("{} supports none of the {} that were made",
-                                                   ledger_.device, counted(c.unsupported, "case"))
-                                     : "none was drawn"));
-            return report::kExitAllSkipped;
-        }
-        // Nothing new may be said only of a hunt whose failures are all explained.
-        const bool is_explained = ledger_.waiting.empty() && c.unrepeated == 0;
-        return fresh > 0 || !is_explained ? report::kExitUnexpected : report::kExitOk;
+        return end_hunt(hunter, state, ledger_, folder_, starts_);
     }
 
     const Program& program_;
@@ -466,7 +295,6 @@ class FuzzCommand {
     fuzz::MakeSource source_;
     size_t starts_ = 0;  // cases that the hunt starts from; 0: it makes its own
     fs::path folder_;
-    std::set<std::string> not_reduced_;  // files of cases as they were drawn
     std::string device_of_earlier_;
     std::string known_expectations_, known_device_;  // of the last hunt of --known
     double seconds_before_ = 0;
@@ -474,7 +302,7 @@ class FuzzCommand {
 
 int carry_out(const Program& program, const FuzzOptions& options) {
     if (options.printed) {
-        const StartCases cases = must(start_cases(program, options.run.suite, options.run.seed));
+        const StartCases cases = start_cases(program, options.run.suite, options.run.seed);
         const std::string text = fuzz::text_of_case(*cases.source(), *options.printed);
         if (text.empty()) {
             throw stop_with(

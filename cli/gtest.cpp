@@ -118,7 +118,7 @@ class Filter {
 };
 
 int list_tests(const Program& program, const GtestOptions& options, const Filter& filter) {
-    const LoadedSuite suite = must(load_and_select(program, options.run.suite));
+    const LoadedSuite suite = load_and_select(program, options.run.suite);
     say(std::string(kGroup) + "\n");
     for (const size_t k : suite.selected) {
         if (filter.takes(suite.cases[k].id)) {

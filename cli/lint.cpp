@@ -229,11 +229,13 @@ void lint_readable(const Program& program, const LintOptions& options) {
     std::erase_if(readable.suite.selectors, [&](const std::string& selector) {
         SuiteOptions alone = options.suite;
         alone.selectors = {selector};
-        const bool is_wrong = !load_and_select(program, alone);
-        if (is_wrong) {
+        try {
+            load_and_select(program, alone);
+            return false;
+        } catch (const Stop&) {
             tell_no_strength(selector);
+            return true;
         }
-        return is_wrong;
     });
     if (!readable.suite.selectors.empty() &&
         readable.suite.selectors.size() < options.suite.selectors.size()) {
@@ -308,16 +310,17 @@ int carry_out(const Program& program, const LintOptions& options) {
                    {"--strength draws each case with each fault, which takes long for a "
                     "whole suite; name the cases"}};
     }
-    if (const auto root = find_suite_root(program, options.suite.suite); !root) {
-        return report_stop(root.error());  // nothing is wrong with what is selected
-    }
-    const OrStop<LoadedSuite> suite = load_selected(program, options.suite);
-    if (!suite) {
-        const int code = report_stop(suite.error());
+    find_suite_root(program,
+                    options.suite.suite);  // without it nothing is said of what is selected
+    LoadedSuite suite;
+    try {
+        suite = load_selected(program, options.suite);
+    } catch (const Stop& stop) {
+        const int code = report_stop(stop);
         if (!options.quiet && code == report::kExitInvalidFile) {
             std::printf("%s cannot be read, %s\n",
                         options.suite.selectors.empty() ? "the suite" : "what is selected",
-                        counted(suite.error().lines.size(), "error").c_str());
+                        counted(stop.lines.size(), "error").c_str());
         }
         if (options.strength && code == report::kExitInvalidFile) {
             lint_readable(program, options);
@@ -325,8 +328,8 @@ int carry_out(const Program& program, const LintOptions& options) {
         return code;
     }
     std::map<std::string, ClaimedFile> files =
-        claimed_files(suite->cases, suite->selected, suite->parts);
-    const size_t count = suite->selected.size();
+        claimed_files(suite.cases, suite.selected, suite.parts);
+    const size_t count = suite.selected.size();
     const bool is_told = !options.quiet && (options.verbose || count <= kFew);
     const bool is_short = !options.quiet && !options.suite.selectors.empty() && !is_told;
     const Depth depth = is_told                              ? Depth::samples
@@ -334,7 +337,7 @@ int carry_out(const Program& program, const LintOptions& options) {
                                                              : Depth::file;
     std::vector<Checked> checked(count);
     for_each_on_threads(count, [&](size_t k) {
-        const cases::Case& c = suite->cases[suite->selected[k]];
+        const cases::Case& c = suite.cases[suite.selected[k]];
         ClaimedFile& file = files.at(c.claim.where.file);
         Checked& out = checked[k];
         try {
@@ -350,23 +353,23 @@ int carry_out(const Program& program, const LintOptions& options) {
     };
     for (size_t k = 0; k < count; ++k) {
         if (is_told) {
-            const cases::Case& c = suite->cases[suite->selected[k]];
+            const cases::Case& c = suite.cases[suite.selected[k]];
             tell(c, checked[k], files.at(c.claim.where.file));
         }
         add(checked[k].errors);
     }
     if (depth == Depth::cases) {
-        tell_in_short(*suite, files, checked);
+        tell_in_short(suite, files, checked);
     }
-    add(check_claims(suite->cases, files));
-    add(check_open_values(*suite));
+    add(check_claims(suite.cases, files));
+    add(check_open_values(suite));
     // Expectation files are about the suite, so they are none of a selection's business.
     size_t expectation_files = 0;
     if (options.suite.selectors.empty()) {
-        add(check_expectation_files(*suite, expectation_files));
+        add(check_expectation_files(suite, expectation_files));
     }
     if (options.strength) {
-        add(tell_strength(*suite, without_errors(*suite, errors), options.quiet));
+        add(tell_strength(suite, without_errors(suite, errors), options.quiet));
     }
     for (const cases::Error& error : errors) {
         complain(cases::to_string(error));
@@ -380,7 +383,7 @@ int carry_out(const Program& program, const LintOptions& options) {
     if (!errors.empty()) {
         return report::kExitInvalidFile;
     }
-    return suite->selected.empty() ? report::kExitNothingSelected : report::kExitOk;
+    return suite.selected.empty() ? report::kExitNothingSelected : report::kExitOk;
 }
 
 void declare(CLI::App& app, LintOptions& o) {

@@ -83,9 +83,9 @@ int carry_out(const Program& program, const ListOptions& options) {
                                          options.suite.selectors.end(), [](const std::string& s) {
                                              return s.find('@') != std::string::npos || s == "-";
                                          });
-    const LoadedSuite suite =
-        must(names_only ? load_and_select(program, options.suite, cases::Contents::ids)
-                        : load_selected(program, options.suite));
+    const LoadedSuite suite = names_only
+                                  ? load_and_select(program, options.suite, cases::Contents::ids)
+                                  : load_selected(program, options.suite);
     nlohmann::ordered_json all = nlohmann::ordered_json::array();
     for (const size_t k : suite.selected) {
         const cases::Case& c = suite.cases[k];

@@ -53,7 +53,7 @@ probe::Datasheet measure(const Program& program, const ProbeOptions& options,
     how.jobs = 1;
     how.retries = 0;
     run::LoopConfig config = loop_config(program, how);
-    ReadyWorker first = must(ready_first_worker(config, signals));
+    ReadyWorker first = ready_first_worker(config, signals);
     const capture::DeviceInfo device = first.device;
     run::Session session(config, std::move(first.client), device, signals);
     bool is_interrupted = false;

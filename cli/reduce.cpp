@@ -42,7 +42,7 @@ run::Session start_session(const Program& program, const RunOptions& options,
     run::LoopConfig config = loop_config(program, options);
     config.judging.pictures = run::KeepPictures::symptoms;
     config.schedule.retries = 0;
-    ReadyWorker first = must(ready_first_worker(config, signals));
+    ReadyWorker first = ready_first_worker(config, signals);
     return run::Session(config, std::move(first.client), first.device, signals);
 }
 
@@ -60,9 +60,9 @@ run::DrawAndJudge make_drawer(const Program& program, const ReduceOptions& optio
         };
     }
     CapturesCommand command =
-        must(CapturesCommand::open({options.captures_command, options.run.device.timeout,
-                                    limits_of(options.judged), options.run.profile, on_wait},
-                                   signals));
+        CapturesCommand::open({options.captures_command, options.run.device.timeout,
+                               limits_of(options.judged), options.run.profile, on_wait},
+                              signals);
     return [all = std::make_shared<CapturesCommand>(std::move(command))](
                std::vector<cases::Case> cases, const auto&) {
         run::Session::Results results;
@@ -117,7 +117,7 @@ std::string size_text(const cases::Case& c) {
 }
 
 int carry_out(const Program& program, const ReduceOptions& options) {
-    const cases::Case loaded = must(load_one_case(program, options.run.suite));
+    const cases::Case loaded = load_one_case(program, options.run.suite);
     if (std::error_code none; !options.run.output.empty() && fs::exists(options.run.output, none)) {
         throw stop_with(
             report::kExitUsage,

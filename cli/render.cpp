@@ -301,7 +301,7 @@ Drawing allowed_picture(const cases::Case& c, const RenderOptions& options) {
 Drawing picture_of(const cases::Case& c, const RenderOptions& options) {
     if (!c.blit) {
         return options.renderer.empty() ? allowed_picture(c, options)
-                                        : must(draw_picture(c, options.renderer));
+                                        : draw_picture(c, options.renderer);
     }
     if (!options.renderer.empty() && options.renderer != "reference") {
         throw Stop{report::kExitUsage,
@@ -313,7 +313,7 @@ Drawing picture_of(const cases::Case& c, const RenderOptions& options) {
 }
 
 int carry_out(const Program& program, const RenderOptions& options) {
-    cases::Case c = must(load_one_case(program, options.suite, options.judged));
+    cases::Case c = load_one_case(program, options.suite, options.judged);
     if (auto placed = ref::as_drawn(c, limits_of(options.judged))) {
         c = std::move(*placed);
     }

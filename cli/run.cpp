@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <variant>
 
 #include "cases/base/counted.hpp"
 #include "cases/base/printable.hpp"
@@ -53,19 +52,16 @@ void check_pictures(std::vector<run::Task>& plan) {
     }
 }
 
-OrStop<std::monostate> check_required_device(const RunOptions& options,
-                                             const capture::DeviceInfo& device) {
+void check_required_device(const RunOptions& options, const capture::DeviceInfo& device) {
     if (options.require_device.empty()) {
-        return std::monostate{};
+        return;
     }
     const std::string text = device.name + " " + device.driver_name + " " + device.driver_info;
     if (!cases::find_regex(options.require_device, text)) {
-        return tl::unexpected(
-            stop_with(report::kExitDevice, "--require-device '" + options.require_device +
-                                               "' does not match the device '" + text +
-                                               "'; choose another with --device or --icd"));
+        throw stop_with(report::kExitDevice, "--require-device '" + options.require_device +
+                                                 "' does not match the device '" + text +
+                                                 "'; choose another with --device or --icd");
     }
-    return std::monostate{};
 }
 
 bool is_same_device(const capture::DeviceInfo& a, const capture::DeviceInfo& b) {
@@ -75,30 +71,25 @@ bool is_same_device(const capture::DeviceInfo& a, const capture::DeviceInfo& b) 
 }
 
 // One case, drawn once, by a worker that a person looks at.
-OrStop<std::monostate> set_debugger(const Program& program, const RunOptions& options,
-                                    std::vector<run::Task>& plan, run::LoopConfig& config) {
+void set_debugger(const Program& program, const RunOptions& options, std::vector<run::Task>& plan,
+                  run::LoopConfig& config) {
     if (plan.size() != 1) {
-        return tl::unexpected(stop_with(report::kExitUsage, "--debugger runs one case, and " +
-                                                                std::to_string(plan.size()) +
-                                                                " are selected; name one id"));
+        throw stop_with(report::kExitUsage, "--debugger runs one case, and " +
+                                                std::to_string(plan.size()) +
+                                                " are selected; name one id");
     }
-    cases::Expected<run::Command> command = debugged_worker_command(program, options.debugger);
-    if (!command) {
-        return tl::unexpected(stop_with(report::kExitUsage, command.error().message));
-    }
+    config.command = must(debugged_worker_command(program, options.debugger), report::kExitUsage);
     plan.front().alone = true;
-    config.command = std::move(*command);
     config.timeout = std::chrono::hours(24 * 365);
     config.worker.device.longest_wait_ms = 0;
     config.schedule.lanes = 1;
     config.schedule.repeat = 1;
     config.schedule.retries = 0;
-    return std::monostate{};
 }
 
 // Nothing was judged: there are no reports, so the CI is told here; those of an earlier run in the
 // same folder would look like this one's.
-int stopped(const RunOptions& options, const Stop& stop, bool owns_folder = true) {
+int stopped(const RunOptions& options, const Stop& stop, bool owns_folder) {
     if (owns_folder) {
         remove_reports_of_last_run(options);
     }
@@ -135,22 +126,23 @@ class Conduct {
           is_resumed_(!header_.device.name.empty()) {}
 
     int run(run::WorkerClient worker) {
+        try {
+            return conduct(std::move(worker));
+        } catch (const Stop& stop) {
+            return stopped(options_, stop, owns_folder_);
+        }
+    }
+
+  private:
+    int conduct(run::WorkerClient worker) {
         check_pictures(prepared_.plan);
-        OrStop<ReadyWorker> first = await_first_worker(std::move(worker), config_, signals_);
-        if (!first) {
-            return stopped(options_, with_load_problem(first.error()));
-        }
-        if (auto taken = take_device(first->device); !taken) {
-            return stopped(options_, taken.error());
-        }
-        if (auto applied = apply_expectations(prepared_); !applied) {
-            return stopped(options_, applied.error());
-        }
-        take_limits(first->device);
-        OrStop<report::Journal> journal = begin_journal(prepared_, is_resumed_);
-        if (!journal) {
-            return stopped(options_, journal.error(), false);
-        }
+        ReadyWorker first = await(std::move(worker));
+        take_device(first.device);
+        apply_expectations(prepared_);
+        take_limits(first.device);
+        owns_folder_ = false;  // another run may be writing there
+        report::Journal journal = begin_journal(prepared_, is_resumed_);
+        owns_folder_ = true;
         const std::vector<std::string> ids = this->ids();
         RunConsole console(options_, prepared_.folder, ids, prepared_.plan.size(),
                            teller_ != nullptr);
@@ -160,40 +152,42 @@ class Conduct {
             teller_->begin(ids);
         }
         if (limits_) {
-            if (auto written = journal->write_end(*limits_); !written) {
-                return stopped(options_, stop_with(report::kExitInternal, written.error().message));
-            }
+            must(journal.write_end(*limits_), report::kExitInternal);
             goes_on_ = on_record(console, *limits_);
         }
         // Judgements that are left to themselves use it still.
         const auto plan = std::make_shared<const std::vector<run::Task>>(std::move(prepared_.plan));
-        const std::string failure = draw(plan, std::move(*first), console, *journal);
+        const std::string failure = draw(plan, std::move(first), console, journal);
         Ending ending{failure, "the run stopped early", {}, "interrupted" + way_on()};
         if (options_.diagnosis && teller_ == nullptr && !header_.interrupted) {
-            ending.complete = [&](Run& run) { find_out(run, *plan, *journal); };
+            ending.complete = [&](Run& run) { find_out(run, *plan, journal); };
         }
         return conclude(prepared_.folder, options_, chosen_ci(options_.ci), console.file(),
                         console.style(), ending);
     }
 
-  private:
-    Stop with_load_problem(Stop stop) const {
-        const auto drivers = find_drivers(options_.device).drivers;
-        if (!options_.device.icd.empty() && !drivers.empty()) {
-            if (const std::string why = run::load_problem(drivers.front()); !why.empty()) {
-                stop.lines.push_back("  " + why);
+    // The first worker when it is ready; if it never is, what is wrong with the driver that was
+    // named is told, too.
+    ReadyWorker await(run::WorkerClient worker) {
+        try {
+            return await_first_worker(std::move(worker), config_, signals_);
+        } catch (Stop& stop) {
+            const auto drivers = find_drivers(options_.device).drivers;
+            if (!options_.device.icd.empty() && !drivers.empty()) {
+                if (const std::string why = run::load_problem(drivers.front()); !why.empty()) {
+                    stop.lines.push_back("  " + why);
+                }
             }
+            throw;
         }
-        return stop;
     }
 
     // The device goes into the header, and its limits into what is judged by.
-    OrStop<std::monostate> take_device(const capture::DeviceInfo& device) {
+    void take_device(const capture::DeviceInfo& device) {
         if (is_resumed_ && !is_same_device(device, header_.device)) {
-            return tl::unexpected(
-                stop_with(report::kExitDevice, "the run cannot go on: it was on '" +
-                                                   header_.device.name + "', this is '" +
-                                                   device.name + "' or another driver version"));
+            throw stop_with(report::kExitDevice, "the run cannot go on: it was on '" +
+                                                     header_.device.name + "', this is '" +
+                                                     device.name + "' or another driver version");
         }
         header_.device = device;
         config_.judging.limits = run::limits_of(device);
@@ -201,7 +195,7 @@ class Conduct {
                                                                       CaseRecord& record) {
             add_command_lines(program_, options_, judged, c, record);
         };
-        return check_required_device(options_, device);
+        check_required_device(options_, device);
     }
 
     void take_limits(const capture::DeviceInfo& device) {
@@ -295,47 +289,52 @@ class Conduct {
     bool is_resumed_;
     std::optional<CaseRecord> limits_;  // of the device: a case that no worker draws
     bool goes_on_ = true;
+    bool owns_folder_ = true;
 };
 
-int run_told(const Program& program, const RunOptions& options, const RunTeller* teller) {
+// The tests that a runner asks for, of all cases that are prepared.
+void take_told(Prepared& prepared, const RunTeller& teller) {
+    std::erase_if(prepared.plan, [&](const run::Task& c) { return !teller.takes(c.data.id); });
+    std::erase_if(prepared.header.cases,
+                  [&](const CaseRecord& record) { return !teller.takes(record.id); });
+    if (prepared.plan.empty()) {
+        throw stop_with(report::kExitNothingSelected,
+                        "no selected case is one of the tests that are asked for; "
+                        "'edgecase gtest --gtest_list_tests' lists their names");
+    }
+}
+
+int run_told(const Program& program, const RunOptions& options, const RunTeller* teller) try {
     run::SignalFd signals;
     const bool resumes = !options.resume.empty();
     // The driver's start takes as long as reading the suite, so both are done at once. What is
     // wrong with the suite is told first all the same.
-    std::optional<OrStop<run::WorkerClient>> worker;
+    std::optional<run::WorkerClient> worker;
+    std::optional<Stop> no_worker;
     if (!resumes && options.debugger.empty()) {
-        worker.emplace(start_first_worker(loop_config(program, options)));
+        try {
+            worker.emplace(start_first_worker(loop_config(program, options)));
+        } catch (const Stop& stop) {
+            no_worker = stop;
+        }
     }
-    OrStop<Prepared> prepared =
-        resumes ? prepare_resume(program, options) : prepare(program, options);
-    if (!prepared) {
-        return stopped(options, prepared.error());
-    }
+    Prepared prepared = resumes ? prepare_resume(program, options) : prepare(program, options);
     if (teller != nullptr) {
-        std::erase_if(prepared->plan,
-                      [&](const run::Task& c) { return !teller->takes(c.data.id); });
-        std::erase_if(prepared->header.cases,
-                      [&](const CaseRecord& record) { return !teller->takes(record.id); });
-        if (prepared->plan.empty()) {
-            return stopped(options,
-                           stop_with(report::kExitNothingSelected,
-                                     "no selected case is one of the tests that are asked for; "
-                                     "'edgecase gtest --gtest_list_tests' lists their names"));
-        }
+        take_told(prepared, *teller);
     }
-    run::LoopConfig config = loop_config(program, prepared->options);
-    if (!prepared->options.debugger.empty()) {
-        if (auto set = set_debugger(program, prepared->options, prepared->plan, config); !set) {
-            return stopped(options, set.error());
-        }
+    run::LoopConfig config = loop_config(program, prepared.options);
+    if (!prepared.options.debugger.empty()) {
+        set_debugger(program, prepared.options, prepared.plan, config);
+    }
+    if (no_worker) {
+        throw *no_worker;
     }
     if (!worker) {
         worker.emplace(start_first_worker(config));
     }
-    if (!*worker) {
-        return stopped(options, worker->error());
-    }
-    return Conduct(program, *prepared, std::move(config), signals, teller).run(std::move(**worker));
+    return Conduct(program, prepared, std::move(config), signals, teller).run(std::move(*worker));
+} catch (const Stop& stop) {
+    return stopped(options, stop, true);
 }
 
 int carry_out(const Program& program, const RunOptions& options) {

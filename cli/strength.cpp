@@ -75,7 +75,7 @@ void tell(const std::string& file, const Catches& catches) {
     std::ranges::stable_sort(lines, {}, &Line::others);
     const auto alone = std::ranges::count(lines, size_t{0}, &Line::others);
     std::string text = fmt::format("{} catches {} of {} known faults{}\n", file, catches.size(),
-                                   cases::kCodeFaults.size(),
+                                   cases::kFaults.size(),
                                    alone > 0 ? fmt::format(", {} of them alone", alone) : "");
     for (const Line& line : lines) {
         text += line.text;
@@ -88,7 +88,7 @@ void tell(const std::string& file, const Catches& catches) {
 cases::Errors tell_strength(const LoadedSuite& suite, const std::vector<size_t>& selected,
                             bool quiet) {
     std::vector<cases::Fault> faults;
-    for (const cases::FaultRow& info : cases::kCodeFaults) {
+    for (const cases::FaultRow& info : cases::kFaults) {
         faults.push_back(info.fault);
     }
     std::mutex mutex;

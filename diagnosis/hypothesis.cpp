@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <span>
 #include <utility>
 
 #include "cases/fault/fault.hpp"
@@ -63,10 +62,10 @@ std::vector<Hypothesis> choices(int subpixel_bits) {
 
 std::vector<Hypothesis> known_hypotheses(int subpixel_bits) {
     std::vector<Hypothesis> out;
-    const auto add_faults = [&](std::span<const cases::FaultRow> rows) {
-        for (const cases::FaultRow& row : rows) {
-            if (row.fault == "coarse-snapping"_fault) {
-                continue;  // a choice of subpixel bits
+    const auto add_faults = [&](bool with_code) {
+        for (const cases::FaultRow& row : cases::kFaults) {
+            if (cases::has_code(row.fault) != with_code || row.fault == "coarse-snapping"_fault) {
+                continue;  // the latter is a choice of subpixel bits
             }
             Hypothesis h{std::string(row.name), without_stop(row.sentence)};
             h.device.subpixel_bits = subpixel_bits;
@@ -74,11 +73,11 @@ std::vector<Hypothesis> known_hypotheses(int subpixel_bits) {
             out.push_back(std::move(h));
         }
     };
-    add_faults(cases::kStateFaultRows);
+    add_faults(false);
     for (Hypothesis& h : choices(subpixel_bits)) {
         out.push_back(std::move(h));
     }
-    add_faults(cases::kCodeFaults);
+    add_faults(true);
     return out;
 }
 

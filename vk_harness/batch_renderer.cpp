@@ -344,7 +344,6 @@ capture::PlaneSpans BatchRenderer::place_planes(const CasePlan& plan, Rendered& 
     capture::Capture& capture = result.capture;
     capture.target = target;
     capture.has_primitive = device_.capabilities().info.has_primitive_id;
-    capture.has_half_hits = counts_in_halves(plan.attachments);
     capture.attribute_count = target.has_instruments ? cases::attributes_of(*plan.test) : 0;
     return placed_planes(result, plan.slot, store);
 }

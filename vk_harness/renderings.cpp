@@ -48,8 +48,6 @@ Rendered join_parts(const cases::Case& test, std::span<const Part> parts, std::s
     out.capture = capture::Capture();
     out.capture.target = test.target;
     out.capture.has_primitive = first.has_primitive;
-    out.capture.has_half_hits = first.has_half_hits;
-    out.capture.renderings = static_cast<uint32_t>(parts.size());
     out.capture.attribute_count = cases::attributes_of(test);
     out.capture.counted = first.counted;
     const capture::PlaneSpans planes = placed_planes(out, slot, store);

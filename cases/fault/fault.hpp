@@ -23,7 +23,7 @@
 namespace cases {
 
 // All rows: those that the software device has code for, and behind them those that it draws by a
-// change of the case or the picture.
+// change of the case or the picture. Whoever asks for faults asks for all of them.
 inline constexpr size_t kCodeFaultCount = std::size(kGeometryFaults) + std::size(kValueFaults) +
                                           std::size(kTargetFaults) + std::size(kStencilFaults);
 inline constexpr auto kFaults = [] {
@@ -41,9 +41,6 @@ inline constexpr auto kFaults = [] {
     }
     return rows;
 }();
-inline constexpr std::span<const FaultRow> kCodeFaults(kFaults.data(), kCodeFaultCount);
-inline constexpr std::span<const FaultRow> kStateFaultRows(kFaults.data() + kCodeFaultCount,
-                                                           std::size(kStateFaults));
 
 // Whether the software device has code for a fault; not none.
 constexpr bool has_code(Fault fault) {

@@ -174,9 +174,15 @@ const Body kInputBodies[] = {
                 });
      }},
     {"sample-shading-halved"_fault,
-     [](Draw& d) {
-         std::optional<float>& least = d.multisample.min_sample_shading;
-         return least && *least > 0 && set(*least, *least / 2);
+     [](Case& c) {
+         return any_of(c.draws, [&](Draw& d) {
+             std::optional<float>& least = d.multisample.min_sample_shading;
+             const bool is_halved = least && *least > 0 && set(*least, *least / 2);
+             if (is_halved && *least * static_cast<float>(c.target.samples) <= 1) {
+                 least.reset();  // one invocation a fragment, as without sample shading
+             }
+             return is_halved;
+         });
      }},
     {"samples-one-two-exchanged"_fault,
      [](Case& c) { return locate(c, 4, [](Locations& at) { std::swap(at[1], at[2]); }); }},

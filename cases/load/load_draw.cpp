@@ -12,6 +12,8 @@
 #include "cases/generate/vertices.hpp"
 #include "cases/load/attributes.hpp"
 #include "cases/load/color.hpp"
+#include "cases/load/depth.hpp"
+#include "cases/load/distances.hpp"
 #include "cases/load/parts.hpp"
 #include "cases/load/transform.hpp"
 #include "cases/model/sample.hpp"

@@ -7,151 +7,141 @@
 #include "cases/base/float_bits.hpp"
 #include "cases/load/loader.hpp"
 #include "cases/model/words.hpp"
+#include "cases/toml/toml_text.hpp"
 #include "cases/wire/case_bytes.hpp"
-#include "cases/write/draw_text.hpp"
-#include "cases/write/toml_text.hpp"
+#include "cases/write/draw_tree.hpp"
+#include "cases/write/table_tree.hpp"
 
 namespace cases {
 
 namespace {
 
-std::string strings_text(const std::vector<std::string>& texts) {
-    std::vector<std::string> items;
+TomlValue strings(const std::vector<std::string>& texts) {
+    std::vector<TomlValue> items;
     for (const std::string& text : texts) {
-        items.push_back(string_toml(text));
+        items.push_back(tree::text(text));
     }
-    return array_toml(items, 0);
+    return tree::list(std::move(items));
 }
 
-std::string relations_text(const std::vector<Relation>& relations) {
-    std::vector<std::string> items;
+TomlValue relations_tree(const std::vector<Relation>& relations) {
+    std::vector<TomlValue> items;
     for (const Relation& relation : relations) {
-        const std::string_view word = word_of(relation.kind);
+        TomlValue arguments;
         switch (relation.kind) {
             case RelationKind::scissor_tiles:
-                items.push_back(
-                    fmt::format("{{ {} = [{}, {}] }}", word, relation.tile[0], relation.tile[1]));
+                arguments = whole_numbers({relation.tile[0], relation.tile[1]});
                 break;
             case RelationKind::door:
-                items.push_back(
-                    fmt::format("{{ {} = [{}] }}", word, string_toml(row_of(relation.door).word)));
+                arguments = strings({std::string(row_of(relation.door).word)});
                 break;
             default:
-                items.push_back(string_toml(word));
+                items.push_back(tree::text(word_of(relation.kind)));
+                continue;
         }
+        tree::set(items.emplace_back(), word_of(relation.kind), std::move(arguments));
     }
-    return array_toml(items, 0);
+    return tree::list(std::move(items));
 }
 
-std::string head_text(const Case& c) {
-    TableText table(kFileKeys);
-    table.add("format", "1");
-    table.add("description", string_toml(c.claim.description));
+TableTree head_tree(const Case& c) {
+    TableTree table(kFileKeys);
+    table.add("format", tree::number(1));
+    table.add("description", tree::text(c.claim.description));
     if (!c.claim.catches.empty()) {
-        table.add("catches", string_toml(c.claim.catches));
+        table.add("catches", tree::text(c.claim.catches));
     }
-    table.add("rules", strings_text(c.claim.rules));
+    table.add("rules", strings(c.claim.rules));
     if (!c.claim.links.empty()) {
-        table.add("links", strings_text(c.claim.links));
+        table.add("links", strings(c.claim.links));
     }
     if (!c.relations.empty()) {
-        table.add("relations", relations_text(c.relations));
+        table.add("relations", relations_tree(c.relations));
     }
-    return table.lines();
+    return table;
 }
 
-std::string locations_text(const std::vector<std::array<uint8_t, 2>>& locations) {
-    std::vector<std::string> items;
-    for (const std::array<uint8_t, 2>& location : locations) {
-        items.push_back(fmt::format("[{}, {}]", location[0], location[1]));
-    }
-    return array_toml(items, 0);
-}
-
-TableText color_target_text(const ColorTarget& target) {
-    TableText color(kTargetColorKeys);
-    color.add("format", string_toml(word_of(target.format)));
-    const std::string clear = color_text(target.clear);
-    if (clear != color_text(ColorTarget().clear)) {
-        color.add("clear", clear);
+TableTree color_target_tree(const ColorTarget& target) {
+    TableTree color(kTargetColorKeys);
+    color.add("format", tree::text(word_of(target.format)));
+    if (!same_color(target.clear, ColorTarget().clear)) {
+        color.add("clear", color_value(target.clear));
     }
     return color;
 }
 
-std::string target_text(const Target& t) {
-    TableText table(kTargetKeys);
+TableTree target_tree(const Target& t) {
+    TableTree table(kTargetKeys);
     table.add_all(t);
-    table.add("size", fmt::format("[{}, {}]", t.width, t.height));
+    table.add("size", whole_numbers({t.width, t.height}));
     if (t.names_depth) {
-        table.add("depth", string_toml(word_of(t.depth_format)));
+        table.add("depth", tree::text(word_of(t.depth_format)));
     }
     if (!t.sample_locations.empty()) {
-        table.add("sample_locations", locations_text(t.sample_locations));
+        std::vector<TomlValue> locations;
+        for (const std::array<uint8_t, 2>& at : t.sample_locations) {
+            locations.push_back(whole_numbers({at[0], at[1]}));
+        }
+        table.add("sample_locations", tree::list(std::move(locations)));
     }
     if (!t.has_instruments) {
-        table.add("attachments", string_toml(t.has_depth ? "color+depth" : "color"));
+        table.add("attachments", tree::text(t.has_depth ? "color+depth" : "color"));
     }
     if (!t.other_colors.empty()) {
-        std::vector<std::string> colors;
+        std::vector<TomlValue> colors;
         for (uint32_t k = 0; k < t.color_count(); ++k) {
-            colors.push_back(color_target_text(t.color_at(k)).in_line());
+            colors.push_back(color_target_tree(t.color_at(k)).value());
         }
-        table.add("color", list_toml(colors));
+        table.add("color", tree::list(std::move(colors)));
         if (t.judged_color != 0) {
-            table.add("judged", std::to_string(t.judged_color));
+            table.add("judged", tree::number(t.judged_color));
         }
-        return "\n[target]\n" + table.lines();
+    } else if (t.color) {
+        table.add("color", color_target_tree(*t.color));
     }
-    std::string out = "\n[target]\n" + table.lines();
-    if (t.color) {
-        out += "[target.color]\n" + color_target_text(*t.color).lines();
-    }
-    return out;
+    return table;
 }
 
-std::string corners_text(const Corners& c) {
-    return fmt::format("[{}, {}, {}, {}]", c.x0, c.y0, c.x1, c.y1);
+TomlValue corners_value(const Corners& c) {
+    return whole_numbers({c.x0, c.y0, c.x1, c.y1});
 }
 
-std::string blit_text(const Blit& b, const Target& t) {
+TableTree blit_tree(const Blit& b, const Target& t) {
     const auto whole = [](uint32_t width, uint32_t height) {
         return Corners{0, 0, static_cast<int32_t>(width), static_cast<int32_t>(height)};
     };
-    TableText table(kBlitKeys);
+    TableTree table(kBlitKeys);
     Blit usual;
     usual.source_format = t.color ? t.color->format : usual.source_format;
     table.add_all(b, usual);
-    table.add("size", fmt::format("[{}, {}]", b.source_width, b.source_height));
+    table.add("size", whole_numbers({b.source_width, b.source_height}));
     if (b.source != whole(b.source_width, b.source_height)) {
-        table.add("from", corners_text(b.source));
+        table.add("from", corners_value(b.source));
     }
     if (b.destination != whole(t.width, t.height)) {
-        table.add("to", corners_text(b.destination));
+        table.add("to", corners_value(b.destination));
     }
-    return "\n[blit]\n" + table.lines();
+    return table;
 }
 
 // One picture, or an array of them: one a sample, and one a layer.
-std::string expect_text(const ExpectedHits& expected, const Target& t) {
-    const size_t pictures = size_t{t.samples} * t.layers;
-    std::string out = pictures == 1 ? "\n[expect]\nhits = " : "\n[expect]\nhits = [\n";
-    for (size_t p = 0; p < pictures; ++p) {
-        out += "\"\"\"\n";
-        for (size_t j = p * t.height; j < (p + 1) * t.height && j < expected.rows.size(); ++j) {
-            out += expected.rows[j] + "\n";
-        }
-        out += pictures == 1 ? "\"\"\"\n" : "\"\"\",\n";
+TableTree expect_tree(const ExpectedHits& expected, const Target& t) {
+    std::vector<std::string> pictures(size_t{t.samples} * t.layers);
+    for (size_t j = 0; j < expected.rows.size() && j / t.height < pictures.size(); ++j) {
+        pictures[j / t.height] += expected.rows[j] + "\n";
     }
-    return out + (pictures == 1 ? "" : "]\n");
+    TableTree table(kExpectKeys);
+    table.add("hits", pictures.size() == 1 ? tree::text(pictures[0]) : strings(pictures));
+    return table;
 }
 
 std::vector<std::string> rows_of(const Case& c) {
     return c.claim.expected_hits ? c.claim.expected_hits->rows : std::vector<std::string>();
 }
 
-// Why the text does not say all that the case is; empty if it does.
-std::string objection(const std::string& text, const Case& c) {
-    const ExpectedAll<std::vector<Case>> loaded = load_text(text, "", c.id);
+// Why the document does not say all that the case is; empty if it does.
+std::string objection(const TomlValue& document, const Case& c) {
+    const ExpectedAll<std::vector<Case>> loaded = load_tree(document, c.id);
     if (!loaded) {
         return loaded.error().front().message;
     }
@@ -166,7 +156,7 @@ std::string objection(const std::string& text, const Case& c) {
 
 }  // namespace
 
-Expected<std::string> to_toml(const Case& c) {
+Expected<TomlValue> to_tree(const Case& c) {
     size_t vertices = 0;
     size_t indices = 0;
     for (const Draw& draw : c.draws) {
@@ -178,20 +168,30 @@ Expected<std::string> to_toml(const Case& c) {
             "{} has {} vertices and {} indices; a case file is written of at most {} and {}", c.id,
             vertices, indices, kMaxWrittenVertices, kMaxWrittenIndices);
     }
-    std::string text = head_text(c) + target_text(c.target);
+    TableTree table = head_tree(c);
+    table.add("target", target_tree(c.target));
+    std::vector<TomlValue> draws;
     for (const Draw& draw : c.draws) {
-        text += "\n" + draw_text(draw, c.target);
+        draws.push_back(draw_tree(draw, c.target));
+    }
+    if (!draws.empty()) {
+        table.add("draw", tree::list(std::move(draws)));
     }
     if (c.blit) {
-        text += blit_text(*c.blit, c.target);
+        table.add("blit", blit_tree(*c.blit, c.target));
     }
     if (c.claim.expected_hits) {
-        text += expect_text(*c.claim.expected_hits, c.target);
+        table.add("expect", expect_tree(*c.claim.expected_hits, c.target));
     }
-    if (const std::string why = objection(text, c); !why.empty()) {
+    if (const std::string why = objection(table.value(), c); !why.empty()) {
         return failure("{} cannot be written as a case file: {}", c.id, why);
     }
-    return text;
+    return table.value();
+}
+
+Expected<std::string> to_toml(const Case& c) {
+    const Expected<TomlValue> document = to_tree(c);
+    return document ? Expected<std::string>(to_text(*document)) : tl::unexpected(document.error());
 }
 
 }  // namespace cases

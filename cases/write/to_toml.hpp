@@ -8,6 +8,7 @@
 #include <string>
 
 #include "cases/model/case.hpp"
+#include "cases/toml/toml_reader.hpp"
 
 namespace cases {
 
@@ -16,12 +17,14 @@ namespace cases {
 inline constexpr size_t kMaxWrittenVertices = 4096;
 inline constexpr size_t kMaxWrittenIndices = 6 * kMaxWrittenVertices;
 
-// The text of a file without a matrix that loads to this case: to the same bytes (wire/), words for
-// readers and expected hits. What a file says of itself (id, place, matrix leaf, notes) is not in
-// it, nor are generators, expressions and transformations, of which the model holds the results.
+// The document of a file without a matrix that loads to this case: to the same bytes (wire/), words
+// for readers and expected hits. What a file says of itself (id, place, matrix leaf, notes) is not
+// in it, nor are generators, expressions and transformations, of which the model holds the results.
 // Keys at their default are left out. The vertices of a draw are written in pixels if that gives
-// the same clip-space bits, otherwise in clip space. The text is loaded again and compared before
-// it is returned. A case that is too large or that no file can say is an error.
+// the same clip-space bits, otherwise in clip space. The document is loaded again and compared
+// before it is returned. A case that is too large or that no file can say is an error.
+Expected<TomlValue> to_tree(const Case& c);
+// The same as text.
 Expected<std::string> to_toml(const Case& c);
 
 }  // namespace cases

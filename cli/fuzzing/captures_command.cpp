@@ -82,14 +82,13 @@ void read_all(int fd, run::HeadAndTail& to) {
 
 }  // namespace
 
-OrStop<CapturesCommand> CapturesCommand::open(CapturesOptions options, run::SignalFd& signals) {
+CapturesCommand CapturesCommand::open(CapturesOptions options, run::SignalFd& signals) {
     std::error_code error;
     const fs::path parent = fs::temp_directory_path(error);
     std::string name = ((error ? fs::path("/tmp") : parent) / "edgecase-reduce-XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr) {
-        return tl::unexpected(
-            stop_with(report::kExitInternal, "no folder for exported cases can be made in '" +
-                                                 parent.string() + "': " + std::strerror(errno)));
+        throw stop_with(report::kExitInternal, "no folder for exported cases can be made in '" +
+                                                   parent.string() + "': " + std::strerror(errno));
     }
     return CapturesCommand(std::move(options), signals, name);
 }

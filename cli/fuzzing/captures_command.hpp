@@ -30,7 +30,7 @@ struct CapturesOptions {
 class CapturesCommand {
   public:
     // Makes a folder of its own, which goes with the object.
-    static OrStop<CapturesCommand> open(CapturesOptions options, run::SignalFd& signals);
+    static CapturesCommand open(CapturesOptions options, run::SignalFd& signals);
     CapturesCommand(CapturesCommand&& other) noexcept;
     CapturesCommand(const CapturesCommand&) = delete;
     CapturesCommand& operator=(CapturesCommand&&) = delete;

@@ -109,58 +109,56 @@ std::vector<Open> failing_cases(const ExpectedFailures& expected, Reducer& reduc
 
 }  // namespace
 
-OrStop<ExpectedFailures> expected_failures(const Program& program, const RunOptions& options,
-                                           const capture::DeviceInfo& device) {
+ExpectedFailures expected_failures(const Program& program, const RunOptions& options,
+                                   const capture::DeviceInfo& device) {
     ExpectedFailures out;
     if (options.no_expect) {
         return out;
     }
     SuiteOptions whole;
     whole.suite = options.suite.suite;
-    OrStop<LoadedSuite> names = load_and_select(program, whole, cases::Contents::ids);
-    if (!names) {
+    LoadedSuite names;
+    try {
+        names = load_and_select(program, whole, cases::Contents::ids);
+    } catch (const Stop&) {
         // A hunt that makes its own cases needs no suite, unless somebody names one.
-        const bool is_asked = !options.expect.empty() || !options.suite.suite.empty();
-        return is_asked ? OrStop<ExpectedFailures>(tl::unexpected(names.error())) : out;
+        if (!options.expect.empty() || !options.suite.suite.empty()) {
+            throw;
+        }
+        return out;
     }
     Selection selection;
-    selection.root = names->root;
-    selection.known_ids = selection.suite_ids = names->ids();
+    selection.root = names.root;
+    selection.known_ids = selection.suite_ids = names.ids();
     report::Run header;
     header.device = device;
     RunOptions asking = options;
     asking.doors = "all";  // a hunt draws cases through any of them
     auto lines = expectations_of(asking, selection, header);
-    if (!lines) {
-        return tl::unexpected(lines.error());
-    }
     for (const auto& [word, bug] : header.skipped_doors) {
         if (const std::optional<cases::Door> door = cases::find_door(word)) {
             out.broken_doors.insert(*door);
         }
     }
     std::map<std::string, size_t> deaths;  // by line
-    std::erase_if(*lines, [&](const auto& named) {
+    std::erase_if(lines, [&](const auto& named) {
         const run::ExpectationLine& line = named.second;
         return !is_known_failure(line.status) || line.is_past ||
                (line.status != Status::fail &&
                 ++deaths[line.where.file + ":" + std::to_string(line.where.line)] > kMostDeaths);
     });
-    if (lines->empty()) {
+    if (lines.empty()) {
         return out;
     }
-    for (const auto& [id, line] : *lines) {
+    for (const auto& [id, line] : lines) {
         whole.selectors.push_back(id);
     }
-    OrStop<LoadedSuite> suite = load_selected(program, whole);
-    if (!suite) {
-        return tl::unexpected(suite.error());
-    }
+    LoadedSuite suite = load_selected(program, whole);
     uint64_t hash = 0;
     std::set<std::string> files;
-    for (const size_t k : suite->selected) {
-        cases::Case& c = suite->cases[k];
-        const run::ExpectationLine& line = lines->at(c.id);
+    for (const size_t k : suite.selected) {
+        cases::Case& c = suite.cases[k];
+        const run::ExpectationLine& line = lines.at(c.id);
         hash = cases::stable_hash(c.id + " " + line.bug + " " + to_text(line.cause), hash);
         files.insert(line.where.file);
         out.cases.push_back({std::move(c), line});
@@ -199,9 +197,7 @@ KnownCauses reduce_known(const ExpectedFailures& expected, const std::vector<Ent
             entry->bug = open.bug;
             entry->count = 0;
             ++reduced;
-            if (auto kept = keep(*entry); !kept) {
-                out.failure = kept.error().message;
-            }
+            keep(*entry);
             entries.push_back(std::move(*entry));
         }
     }

@@ -35,8 +35,8 @@ struct ExpectedFailures {
 
 // By --expect or the files beside the suite that fit the device; nothing with --no-expect, and
 // where there is no suite. Errors: invalid files (3), an --expect that does not fit (5).
-OrStop<ExpectedFailures> expected_failures(const Program& program, const RunOptions& options,
-                                           const capture::DeviceInfo& device);
+ExpectedFailures expected_failures(const Program& program, const RunOptions& options,
+                                   const capture::DeviceInfo& device);
 
 struct KnownCauses {
     size_t failing = 0;  // cases that fail as expected
@@ -45,7 +45,7 @@ struct KnownCauses {
     std::string failure;
 };
 // Keeps a known cause, which has no file yet.
-using KeepEntry = std::function<cases::Expected<void>(const fuzz::Entry&)>;
+using KeepEntry = std::function<void(const fuzz::Entry&)>;
 // Draws the cases, and reduces of what they show what neither `known` nor an earlier one explains;
 // each cause is kept at once.
 KnownCauses reduce_known(const ExpectedFailures& expected, const std::vector<fuzz::Entry>& known,

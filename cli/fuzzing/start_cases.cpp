@@ -69,7 +69,7 @@ cases::Errors check_open_values(const LoadedSuite& suite) {
     return check_open_values(suite, read_files(suite));
 }
 
-OrStop<StartCases> start_cases(const Program& program, const SuiteOptions& options, uint64_t seed) {
+StartCases start_cases(const Program& program, const SuiteOptions& options, uint64_t seed) {
     StartCases out;
     if (options.selectors.empty()) {
         out.source = [seed] { return std::make_unique<fuzz::GeneratedSource>(seed); };
@@ -78,31 +78,28 @@ OrStop<StartCases> start_cases(const Program& program, const SuiteOptions& optio
     if (std::find(options.selectors.begin(), options.selectors.end(), "-") !=
         options.selectors.end()) {
         // A hunt that goes on could not read them again.
-        return tl::unexpected(stop_with(
+        throw stop_with(
             report::kExitUsage,
-            "'-' does not go with fuzz; name the cases, or a file or folder of your own"));
+            "'-' does not go with fuzz; name the cases, or a file or folder of your own");
     }
-    OrStop<LoadedSuite> suite = load_selected(program, options);
-    if (!suite) {
-        return tl::unexpected(suite.error());
+    LoadedSuite suite = load_selected(program, options);
+    if (suite.selected.empty()) {
+        throw stop_with(report::kExitNothingSelected, "the selection is empty");
     }
-    if (suite->selected.empty()) {
-        return tl::unexpected(Stop{report::kExitNothingSelected, {"the selection is empty"}});
-    }
-    const std::map<std::string, File> files = read_files(*suite);
-    if (const cases::Errors errors = check_open_values(*suite, files); !errors.empty()) {
-        return tl::unexpected(invalid_files(errors));
+    const std::map<std::string, File> files = read_files(suite);
+    if (const cases::Errors errors = check_open_values(suite, files); !errors.empty()) {
+        throw invalid_files(errors);
     }
     std::vector<fuzz::Start> starts;
     uint64_t hash = 0;
-    for (const size_t k : suite->selected) {
-        cases::Case& c = suite->cases[k];
+    for (const size_t k : suite.selected) {
+        cases::Case& c = suite.cases[k];
         const File& file = files.at(c.claim.where.file);
         hash = cases::stable_hash(c.id + cases::hex(file.hash), hash);
         starts.push_back({std::move(c), file.open});
     }
     std::error_code none;
-    out.suite = std::filesystem::absolute(suite->root, none).lexically_normal().string();
+    out.suite = std::filesystem::absolute(suite.root, none).lexically_normal().string();
     out.checksum = cases::hex(hash);
     out.count = starts.size();
     out.source = [seed, all = std::make_shared<const std::vector<fuzz::Start>>(std::move(starts))] {

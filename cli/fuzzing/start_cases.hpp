@@ -25,6 +25,6 @@ cases::Errors check_open_values(const LoadedSuite& suite);
 
 // Errors: invalid files, or a value of [fuzz] with which no case can be loaded (3), a selector that
 // matches nothing (4).
-OrStop<StartCases> start_cases(const Program& program, const SuiteOptions& options, uint64_t seed);
+StartCases start_cases(const Program& program, const SuiteOptions& options, uint64_t seed);
 
 }  // namespace cli

@@ -108,7 +108,7 @@ void check_run(const CLI::App& run, const RunOptions& o, const Words& words) {
     check_fail_at(run, o);
 }
 
-OrStop<RunOptions> parse_run_arguments(const Words& arguments) {
+RunOptions parse_run_arguments(const Words& arguments) {
     RunOptions options;
     const Command run{{"run", kChecking, "", nullptr}, [&](CLI::App& app) {
                           declare_run(app, options);
@@ -118,15 +118,10 @@ OrStop<RunOptions> parse_run_arguments(const Words& arguments) {
                           };
                           return Action{check, {}};
                       }};
-    try {
-        if (arguments.size() < 2 || arguments[1] != "run") {
-            throw Stop{report::kExitInvalidFile,
-                       {"the journal's command line is not one of 'run'"}};
-        }
-        parse({&run, 1}, arguments);
-    } catch (Stop& stop) {
-        return tl::unexpected(std::move(stop));
+    if (arguments.size() < 2 || arguments[1] != "run") {
+        throw stop_with(report::kExitInvalidFile, "the journal's command line is not one of 'run'");
     }
+    parse({&run, 1}, arguments);
     return options;
 }
 

@@ -13,6 +13,6 @@ void check_run(const CLI::App& run, const RunOptions& o, const Words& words);
 
 // The options of `edgecase run` from the words of a command line (program and "run" included), as a
 // journal keeps them.
-OrStop<RunOptions> parse_run_arguments(const Words& arguments);
+RunOptions parse_run_arguments(const Words& arguments);
 
 }  // namespace cli

@@ -4,29 +4,19 @@
 
 #include <string>
 #include <string_view>
-#include <tl/expected.hpp>
+#include <type_traits>
 #include <vector>
 
 #include "cases/base/error.hpp"
 
 namespace cli {
 
-// Why a command cannot go on: lines for stderr and its exit code.
+// Why a command cannot go on: lines for stderr and its exit code. It is thrown, and edgecase_main
+// tells it.
 struct Stop {
     int exit_code = 0;
     std::vector<std::string> lines;
 };
-template <class T>
-using OrStop = tl::expected<T, Stop>;
-
-// The value. A command that cannot go on throws its Stop, which edgecase_main tells.
-template <class T>
-T must(OrStop<T> value) {
-    if (!value) {
-        throw std::move(value.error());
-    }
-    return *std::move(value);
-}
 
 inline Stop stop_with(int exit_code, const std::string& line) {
     return {exit_code, {line}};

@@ -55,16 +55,16 @@ Stop explain_death(const run::Death& death) {
     return stop;
 }
 
-OrStop<run::WorkerClient> start_first_worker(const run::LoopConfig& config) {
+run::WorkerClient start_first_worker(const run::LoopConfig& config) {
     const capture::RendererOptions& device = config.worker.device;
     if (std::string wrong = device.icd.empty() ? "" : find_drivers(device).problem;
         !wrong.empty()) {
-        return tl::unexpected(Stop{report::kExitDevice, {std::move(wrong)}});
+        throw stop_with(report::kExitDevice, wrong);
     }
     cases::Expected<run::WorkerClient> client =
         run::WorkerClient::start(config.command, config.worker, config.timeout);
     if (!client) {
-        return tl::unexpected(Stop{report::kExitInternal, {client.error().message}});
+        throw stop_with(report::kExitInternal, client.error().message);
     }
     return std::move(*client);
 }
@@ -86,8 +86,8 @@ const Stop kInterrupted{report::kExitInterrupted, {"interrupted before any case 
 
 }  // namespace
 
-OrStop<ReadyWorker> await_first_worker(run::WorkerClient client, const run::LoopConfig& config,
-                                       run::SignalFd& signals) {
+ReadyWorker await_first_worker(run::WorkerClient client, const run::LoopConfig& config,
+                               run::SignalFd& signals) {
     constexpr size_t kMostAlike = 3, kMostTimeouts = 2;  // each of which takes the time limit
     std::optional<run::WorkerClient> worker(std::move(client));
     run::StartPauses pauses;
@@ -95,13 +95,13 @@ OrStop<ReadyWorker> await_first_worker(run::WorkerClient client, const run::Loop
     for (size_t alike = 1;;) {
         const std::optional<run::WorkerEvent> answer = run::wait_for_answer(*worker, signals);
         if (!answer) {
-            return tl::unexpected(kInterrupted);
+            throw kInterrupted;
         }
         if (const auto* device = std::get_if<capture::DeviceInfo>(&*answer); device != nullptr) {
             return ReadyWorker{std::move(*worker), *device};
         }
         if (const auto* failure = std::get_if<capture::Failure>(&*answer); failure != nullptr) {
-            return tl::unexpected(explain_failure(*failure, worker->output_since_batch()));
+            throw explain_failure(*failure, worker->output_since_batch());
         }
         const auto& death = std::get<run::Death>(*answer);
         const std::string how = describe(death);
@@ -109,18 +109,14 @@ OrStop<ReadyWorker> await_first_worker(run::WorkerClient client, const run::Loop
         last = how;
         pauses.failed();
         if (alike >= (death.timed_out ? kMostTimeouts : kMostAlike) || pauses.is_over()) {
-            return tl::unexpected(explain_death(death));
+            throw explain_death(death);
         }
         complain(how + "; it is started again");
         worker.reset();
         if (!sleep_until(pauses.next(), signals)) {
-            return tl::unexpected(kInterrupted);
+            throw kInterrupted;
         }
-        OrStop<run::WorkerClient> again = start_first_worker(config);
-        if (!again) {
-            return tl::unexpected(again.error());
-        }
-        worker.emplace(std::move(*again));
+        worker.emplace(start_first_worker(config));
     }
 }
 

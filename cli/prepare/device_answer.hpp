@@ -17,12 +17,12 @@ struct ReadyWorker {
     capture::DeviceInfo device;
 };
 // Starts the first worker, which then gets its device ready while the parent does something else.
-OrStop<run::WorkerClient> start_first_worker(const run::LoopConfig& config);
+run::WorkerClient start_first_worker(const run::LoopConfig& config);
 // Waits until it is ready. One that dies before is started again after a pause, as later ones are,
 // but three deaths alike, or two time-outs, say that the driver is broken. Errors: no or wrong
 // device (5), interrupted (130).
-OrStop<ReadyWorker> await_first_worker(run::WorkerClient client, const run::LoopConfig& config,
-                                       run::SignalFd& signals);
+ReadyWorker await_first_worker(run::WorkerClient client, const run::LoopConfig& config,
+                               run::SignalFd& signals);
 
 // The first lines of what a worker printed, each for itself.
 std::vector<std::string> printed_lines(const std::string& output);

@@ -37,16 +37,16 @@ struct Wish {
     }
 };
 
-tl::unexpected<Stop> refuse(const std::string& sentence) {
-    return tl::unexpected(stop_with(report::kExitUsage, "--doors: " + sentence));
+[[noreturn]] void refuse(const std::string& sentence) {
+    throw stop_with(report::kExitUsage, "--doors: " + sentence);
 }
 
-OrStop<cases::Door> named_door(const std::string& word, bool is_first) {
+cases::Door named_door(const std::string& word, bool is_first) {
     if (const std::optional<cases::Door> door = cases::find_door(word)) {
         return *door;
     }
     if (is_set(word)) {
-        return refuse(fmt::format(
+        refuse(fmt::format(
             "'{}' stands first or not at all, and behind it only '-NAME', a door to leave out",
             word));
     }
@@ -55,12 +55,12 @@ OrStop<cases::Door> named_door(const std::string& word, bool is_first) {
         known.insert(known.begin(), std::begin(kSets), std::end(kSets));
     }
     const std::string nearest = cases::nearest_name(word, known);
-    return refuse(fmt::format("there is no door '{}'{}; 'edgecase doors' lists them", word,
-                              nearest.empty() ? "" : fmt::format(", did you mean '{}'?", nearest)));
+    refuse(fmt::format("there is no door '{}'{}; 'edgecase doors' lists them", word,
+                       nearest.empty() ? "" : fmt::format(", did you mean '{}'?", nearest)));
 }
 
 // "all,-index-8", "default", "index-8,secondary".
-OrStop<Wish> wish_of(const std::string& words) {
+Wish wish_of(const std::string& words) {
     Wish wish;
     std::istringstream in(words);
     bool is_first = true;
@@ -70,27 +70,24 @@ OrStop<Wish> wish_of(const std::string& words) {
             continue;
         }
         const bool is_left_out = word.starts_with('-');
-        const OrStop<cases::Door> door = named_door(word.substr(is_left_out ? 1 : 0), is_first);
-        if (!door) {
-            return tl::unexpected(door.error());
-        }
+        const cases::Door door = named_door(word.substr(is_left_out ? 1 : 0), is_first);
         const bool is_of_set = wish.set != "none";
         if (is_left_out && !is_of_set) {
-            return refuse(
+            refuse(
                 fmt::format("'{}' leaves a door out of a set, so 'all' or 'default' stands "
                             "first: all,{}",
                             word, word));
         }
         if (!is_left_out && words.starts_with("none,")) {
-            return refuse("'none' stands alone");
+            refuse("'none' stands alone");
         }
         if (!is_left_out && is_of_set) {
-            return refuse(fmt::format(
-                "behind '{}' stand only doors to leave out; did you mean '-{}'?", wish.set, word));
+            refuse(fmt::format("behind '{}' stand only doors to leave out; did you mean '-{}'?",
+                               wish.set, word));
         }
         std::vector<cases::Door>& list = is_left_out ? wish.without : wish.named;
-        if (std::find(list.begin(), list.end(), *door) == list.end()) {
-            list.push_back(*door);
+        if (std::find(list.begin(), list.end(), door) == list.end()) {
+            list.push_back(door);
         }
     }
     return wish;
@@ -148,21 +145,17 @@ void cover(std::span<cases::Case* const> selected, const Wish& wish) {
 
 }  // namespace
 
-OrStop<LeftOutDoors> choose_doors(const std::string& words,
-                                  std::span<cases::Case* const> selected) {
+LeftOutDoors choose_doors(const std::string& words, std::span<cases::Case* const> selected) {
     LeftOutDoors left_out;
-    const OrStop<Wish> wish = wish_of(words);
-    if (!wish) {
-        return tl::unexpected(wish.error());
-    }
-    if (wish->set == "default") {
-        cover(selected, *wish);
+    const Wish wish = wish_of(words);
+    if (wish.set == "default") {
+        cover(selected, wish);
         return left_out;
     }
-    std::vector<cases::Door> doors = wish->named;
-    if (wish->set == "all") {
+    std::vector<cases::Door> doors = wish.named;
+    if (wish.set == "all") {
         for (const cases::DoorRow& row : cases::all_doors()) {
-            if (wish->has(row.door)) {
+            if (wish.has(row.door)) {
                 doors.push_back(row.door);
             }
         }
@@ -177,12 +170,12 @@ OrStop<LeftOutDoors> choose_doors(const std::string& words,
                 left_out[c->id].emplace_back(cases::row_of(door).word);
             }
         }
-        if (taking == 0 && wish->set != "all") {
-            return tl::unexpected(stop_with(
+        if (taking == 0 && wish.set != "all") {
+            throw stop_with(
                 report::kExitNothingSelected,
                 fmt::format("no selected case can go through the door '{}', which takes {}; select "
                             "others, or leave it out",
-                            cases::row_of(door).word, cases::row_of(door).takes)));
+                            cases::row_of(door).word, cases::row_of(door).takes));
         }
     }
     return left_out;

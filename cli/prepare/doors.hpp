@@ -23,7 +23,7 @@ using LeftOutDoors = std::map<std::string, std::vector<std::string>>;
 // each door has one case of each family that has one which can take it, the cheapest to draw, and
 // those with fewer doors first. Errors: an unknown name, or words that make no sense together (2),
 // a name that no case can take (4).
-OrStop<LeftOutDoors> choose_doors(const std::string& words, std::span<cases::Case* const> selected);
+LeftOutDoors choose_doors(const std::string& words, std::span<cases::Case* const> selected);
 
 // The words that are given, or what a run takes without them: "default" if it draws the whole suite
 // that comes with the program on a driver, else "none".

@@ -210,7 +210,7 @@ capture::Image enlarged(const capture::Image& picture, uint32_t samples, uint32_
     return out;
 }
 
-OrStop<Drawing> draw_picture(const cases::Case& c, const std::string& renderer) {
+Drawing draw_picture(const cases::Case& c, const std::string& renderer) {
     cases::Case whole = c;
     whole.target.has_instruments = true;
     whole.target.has_depth = true;
@@ -218,12 +218,12 @@ OrStop<Drawing> draw_picture(const cases::Case& c, const std::string& renderer) 
     options.renderer = renderer;
     const auto made = renderer_of(options).make(options);
     if (!made) {
-        return tl::unexpected(Stop{report::kExitUsage, {made.error().message}});
+        throw stop_with(report::kExitUsage, made.error().message);
     }
     capture::Rendered drawn = std::move((*made)->render({&whole, 1}).front());
     if (drawn.status != capture::Rendered::Status::drawn) {
-        return tl::unexpected(
-            Stop{report::kExitUsage, {"'" + renderer + "' cannot draw the case: " + drawn.reason}});
+        throw stop_with(report::kExitUsage,
+                        "'" + renderer + "' cannot draw the case: " + drawn.reason);
     }
     const auto capture = std::make_shared<const capture::Capture>(std::move(drawn.capture));
     return Drawing{[&c, capture, renderer](const cases::Put& put) {

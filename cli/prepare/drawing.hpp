@@ -49,7 +49,7 @@ capture::Image enlarged(const capture::Image& picture, uint32_t samples, uint32_
 
 // What `renderer` draws of a case with draws: "reference", or an algorithm. Planes that the case
 // does not attach are drawn too. Error: why that renderer cannot draw it.
-OrStop<Drawing> draw_picture(const cases::Case& c, const std::string& renderer);
+Drawing draw_picture(const cases::Case& c, const std::string& renderer);
 
 // What the destination of a blit must hold, texel by texel.
 Drawing blit_picture(const cases::Case& c, cases::Profile profile);

@@ -36,8 +36,8 @@ std::vector<fs::path> files_beside(const fs::path& suite_root, std::string_view 
 
 // The files of pictures beside the suite, or those that stand beside the files of --expect by the
 // same names.
-OrStop<std::vector<run::SeenPictures>> find_pictures(const RunOptions& options,
-                                                     const fs::path& suite_root) {
+std::vector<run::SeenPictures> find_pictures(const RunOptions& options,
+                                             const fs::path& suite_root) {
     std::vector<run::SeenPictures> found;
     std::vector<fs::path> paths;
     for (fs::path path : options.expect) {
@@ -50,19 +50,15 @@ OrStop<std::vector<run::SeenPictures>> find_pictures(const RunOptions& options,
         paths = files_beside(suite_root, run::kPicturesEnd);
     }
     for (const fs::path& path : paths) {
-        cases::ExpectedAll<run::SeenPictures> file = run::load_pictures(path);
-        if (!file) {
-            return tl::unexpected(invalid_files(file.error()));
-        }
-        found.push_back(std::move(*file));
+        found.push_back(must(run::load_pictures(path)));
     }
     return found;
 }
 
 // The expectation files of --expect, or those beside the suite that fit the device.
-OrStop<std::vector<run::ExpectationFile>> find_expectations(const RunOptions& options,
-                                                            const fs::path& suite_root,
-                                                            const capture::DeviceInfo& device) {
+std::vector<run::ExpectationFile> find_expectations(const RunOptions& options,
+                                                    const fs::path& suite_root,
+                                                    const capture::DeviceInfo& device) {
     std::vector<run::ExpectationFile> found;
     if (options.no_expect) {
         return found;
@@ -73,18 +69,14 @@ OrStop<std::vector<run::ExpectationFile>> find_expectations(const RunOptions& op
         paths = files_beside(suite_root, ".txt");
     }
     for (const fs::path& path : paths) {
-        cases::ExpectedAll<run::ExpectationFile> file = run::load_expectations(path);
-        if (!file) {
-            return tl::unexpected(invalid_files(file.error()));
-        }
-        const std::string why_not = mismatch(*file, device, options.profile);
+        run::ExpectationFile file = must(run::load_expectations(path));
+        const std::string why_not = mismatch(file, device, options.profile);
         if (why_not.empty()) {
-            found.push_back(std::move(*file));
+            found.push_back(std::move(file));
         } else if (is_explicit) {
-            return tl::unexpected(
-                Stop{report::kExitDevice,
-                     {"the expectation file '" + path.string() + "' does not fit: " + why_not +
-                      "; choose another --device or --expect"}});
+            throw stop_with(report::kExitDevice, "the expectation file '" + path.string() +
+                                                     "' does not fit: " + why_not +
+                                                     "; choose another --device or --expect");
         }
     }
     return found;
@@ -92,35 +84,26 @@ OrStop<std::vector<run::ExpectationFile>> find_expectations(const RunOptions& op
 
 }  // namespace
 
-OrStop<std::map<std::string, run::ExpectationLine>> expectations_of(const RunOptions& options,
-                                                                    const Selection& selection,
-                                                                    report::Run& header) {
-    const OrStop<std::vector<run::ExpectationFile>> files =
+std::map<std::string, run::ExpectationLine> expectations_of(const RunOptions& options,
+                                                            const Selection& selection,
+                                                            report::Run& header) {
+    const std::vector<run::ExpectationFile> files =
         find_expectations(options, selection.root, header.device);
-    if (!files) {
-        return tl::unexpected(files.error());
-    }
     std::vector<std::string> ids =
         options.expect.empty() ? selection.suite_ids : selection.known_ids;
     ids.emplace_back(cases::kLimitsCase);
-    auto expected = run::resolve_expectations(*files, ids, selection.whole_suite);
-    if (!expected) {
-        return tl::unexpected(invalid_files(expected.error()));
-    }
+    auto expected = must(run::resolve_expectations(files, ids, selection.whole_suite));
     const auto pictures = find_pictures(options, selection.root);
-    if (!pictures) {
-        return tl::unexpected(pictures.error());
-    }
-    const bool is_known = run::tell_pictures(*expected, *pictures, header.device, options.strict);
-    if (options.strict && !is_known && !expected->empty()) {
-        return tl::unexpected(
-            stop_with(report::kExitUsage,
-                      "--strict asks how known failures look, and no file of pictures for this "
-                      "device stands beside the expectation files; write one with 'edgecase expect "
-                      "--update RUN FILE.pictures'"));
+    const bool is_known = run::tell_pictures(expected, pictures, header.device, options.strict);
+    if (options.strict && !is_known && !expected.empty()) {
+        throw stop_with(
+            report::kExitUsage,
+            "--strict asks how known failures look, and no file of pictures for this "
+            "device stands beside the expectation files; write one with 'edgecase expect "
+            "--update RUN FILE.pictures'");
     }
     header.skipped_doors.clear();
-    for (const run::ExpectationFile& file : *files) {
+    for (const run::ExpectationFile& file : files) {
         for (const run::ExpectationLine& line : file.doors) {
             if (asks_for_set(doors_of(options)) && !line.is_past) {
                 header.skipped_doors.emplace_back(line.glob, line.bug);
@@ -129,16 +112,16 @@ OrStop<std::map<std::string, run::ExpectationLine>> expectations_of(const RunOpt
     }
     header.expectation_file.clear();
     std::set<std::string> paths;
-    for (const run::ExpectationFile& file : *files) {
+    for (const run::ExpectationFile& file : files) {
         header.expectation_file +=
             (header.expectation_file.empty() ? "" : ", ") + file.path.string();
         paths.insert(file.path.string());
     }
-    for (const run::SeenPictures& file : *pictures) {
+    for (const run::SeenPictures& file : pictures) {
         paths.insert(file.path.string());
     }
     header.expectation_hash = hash_of_files(paths);
-    return std::move(*expected);
+    return expected;
 }
 
 }  // namespace cli

@@ -16,8 +16,8 @@ namespace cli {
 // What the expectation files say of each id, those of --expect or those beside the suite that fit
 // the header's device; their names go into the header. Files beside a suite speak of its cases
 // alone: a new case of one's own that fails is news, whatever its id.
-OrStop<std::map<std::string, run::ExpectationLine>> expectations_of(const RunOptions& options,
-                                                                    const Selection& selection,
-                                                                    report::Run& header);
+std::map<std::string, run::ExpectationLine> expectations_of(const RunOptions& options,
+                                                            const Selection& selection,
+                                                            report::Run& header);
 
 }  // namespace cli

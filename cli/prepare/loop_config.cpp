@@ -50,16 +50,10 @@ void warn_of_limits(const capture::DeviceInfo& device) {
     }
 }
 
-OrStop<ReadyWorker> ready_first_worker(run::LoopConfig& config, run::SignalFd& signals) {
-    OrStop<run::WorkerClient> worker = start_first_worker(config);
-    if (!worker) {
-        return tl::unexpected(worker.error());
-    }
-    OrStop<ReadyWorker> first = await_first_worker(std::move(*worker), config, signals);
-    if (first) {
-        config.judging.limits = run::limits_of(first->device);
-        warn_of_limits(first->device);
-    }
+ReadyWorker ready_first_worker(run::LoopConfig& config, run::SignalFd& signals) {
+    ReadyWorker first = await_first_worker(start_first_worker(config), config, signals);
+    config.judging.limits = run::limits_of(first.device);
+    warn_of_limits(first.device);
     return first;
 }
 

@@ -21,7 +21,7 @@ JudgedDevice judged_device(const capture::DeviceInfo& device);
 ref::Limits limits_of(const JudgedDevice& device);
 // Starts the first worker and waits until it is ready; the limits are then its device's. Errors: no
 // or wrong device (5), interrupted (130).
-OrStop<ReadyWorker> ready_first_worker(run::LoopConfig& config, run::SignalFd& signals);
+ReadyWorker ready_first_worker(run::LoopConfig& config, run::SignalFd& signals);
 
 // "llvmpipe (LLVM 15.0.6, 256 bits)" -> "llvmpipe-llvm-15.0.6-256-bits", for a folder's name.
 std::string file_name_of(const std::string& device);

@@ -93,6 +93,9 @@ class Progress {
   public:
     // `what` is counted: "cases".
     Progress(ProgressStyle style, size_t total, std::string_view what = "cases");
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+    ~Progress() { clear(); }
     void show(size_t done, std::optional<size_t> unexpected);
     // The same of what has no total: "312 cases drawn". The seconds so far follow.
     void show_words(const std::string& words);

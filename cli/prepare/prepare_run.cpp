@@ -169,31 +169,30 @@ Outside outside_of(const RunOptions& o) {
 }
 
 // A journal may be a stranger's, so whoever goes on with its run says these again.
-OrStop<std::monostate> check_agreed(const RunOptions& then, const RunOptions& now,
-                                    const Outside& agreed, bool has_icd) {
+void check_agreed(const RunOptions& then, const RunOptions& now, const Outside& agreed,
+                  bool has_icd) {
     if (!then.debugger.empty()) {
-        return tl::unexpected(stop_with(report::kExitUsage,
-                                        "the run began with --debugger, which "
-                                        "starts a program; start a new run"));
+        throw stop_with(report::kExitUsage,
+                        "the run began with --debugger, which "
+                        "starts a program; start a new run");
     }
     const Outside wanted = outside_of(then);
     const auto lacks = [](const Outside& all) {
         return [&all](const auto& one) { return std::ranges::find(all, one) == all.end(); };
     };
     if (std::ranges::any_of(wanted, lacks(agreed))) {
-        return tl::unexpected(stop_with(
+        throw stop_with(
             report::kExitUsage,
             "the run began with options that reach out of its folder, and its journal may be "
             "another one's; if you trust it, go on with 'edgecase run --resume " +
-                shell_quote(now.resume) + words_to_agree(then) + "'"));
+                shell_quote(now.resume) + words_to_agree(then) + "'");
     }
     const auto extra = std::ranges::find_if(agreed, lacks(wanted));
     if (extra != agreed.end() && (extra->first != "--icd" || !has_icd)) {
-        return tl::unexpected(stop_with(report::kExitUsage,
-                                        "the run did not begin with " + extra->first + " '" +
-                                            extra->second + "'; leave it out or start a new run"));
+        throw stop_with(report::kExitUsage, "the run did not begin with " + extra->first + " '" +
+                                                extra->second +
+                                                "'; leave it out or start a new run");
     }
-    return std::monostate{};
 }
 
 }  // namespace
@@ -206,7 +205,7 @@ std::string words_to_agree(const RunOptions& options) {
     return words;
 }
 
-OrStop<Prepared> prepare_resume(const Program& program, const RunOptions& now) {
+Prepared prepare_resume(const Program& program, const RunOptions& now) {
     Prepared p;
     const Outside agreed = outside_of(now);
     const bool has_icd = std::getenv("EDGECASE_ICD") != nullptr;
@@ -215,8 +214,7 @@ OrStop<Prepared> prepare_resume(const Program& program, const RunOptions& now) {
     p.folder = fs::absolute(now.resume, ignored);
     const cases::Expected<Run> earlier = report::load_journal(p.folder, &in_flight);
     if (!earlier) {
-        return tl::unexpected(
-            stop_with(report::kExitInvalidFile, "--resume: " + cases::to_string(earlier.error())));
+        throw stop_with(report::kExitInvalidFile, "--resume: " + cases::to_string(earlier.error()));
     }
     for (const auto& [name, value] : earlier->environment) {
         if (name == "PWD") {  // paths of the first command line count from there
@@ -233,14 +231,9 @@ OrStop<Prepared> prepare_resume(const Program& program, const RunOptions& now) {
             }
         }
     }
-    OrStop<RunOptions> options = parse_run_arguments(earlier->arguments);
-    if (!options) {
-        return tl::unexpected(options.error());
-    }
-    if (auto checked = check_agreed(*options, now, agreed, has_icd); !checked) {
-        return tl::unexpected(checked.error());
-    }
-    p.options = std::move(*options);
+    RunOptions options = parse_run_arguments(earlier->arguments);
+    check_agreed(options, now, agreed, has_icd);
+    p.options = std::move(options);
     p.options.resume = now.resume;  // its folder is not an earlier run's, whatever goes wrong
     p.options.jobs = now.jobs;
     p.options.quiet = now.quiet;
@@ -252,40 +245,37 @@ OrStop<Prepared> prepare_resume(const Program& program, const RunOptions& now) {
     std::erase_if(suite.selectors, [&](const std::string& s) {
         return !is_outside(s, earlier->suite_root);  // the journal has the ids
     });
-    OrStop<LoadedSuite> loaded = load_and_select(program, suite);
-    if (!loaded) {
-        return tl::unexpected(loaded.error());
-    }
+    LoadedSuite loaded = load_and_select(program, suite);
     p.header = *earlier;
-    p.selection.root = loaded->root;
-    p.selection.known_ids = loaded->ids();
-    p.selection.suite_ids = loaded->suite_ids();
+    p.selection.root = loaded.root;
+    p.selection.known_ids = loaded.ids();
+    p.selection.suite_ids = loaded.suite_ids();
     std::map<std::string, const cases::Case*> by_id;
-    for (const cases::Case& c : loaded->cases) {
+    for (const cases::Case& c : loaded.cases) {
         by_id.emplace(c.id, &c);
     }
     const auto is_of_device = [](const CaseRecord& r) { return r.id == cases::kLimitsCase; };
     p.selection.whole_suite =
         earlier->cases.size() ==
-        loaded->cases.size() + (std::ranges::any_of(earlier->cases, is_of_device) ? 1U : 0U);
+        loaded.cases.size() + (std::ranges::any_of(earlier->cases, is_of_device) ? 1U : 0U);
     const std::set<std::string> cut_off(in_flight.begin(), in_flight.end());
     for (const CaseRecord& record : earlier->cases) {
         const auto found = by_id.find(record.id);
         if (found != by_id.end() && !record.content.empty() &&
             run::planned_case(*found->second).content != record.content) {
-            return tl::unexpected(
-                stop_with(report::kExitInvalidFile,
-                          "the run cannot go on: '" + record.id +
-                              "' is another case under the same id than the run began with; start "
-                              "a new run"));
+            throw stop_with(
+                report::kExitInvalidFile,
+                "the run cannot go on: '" + record.id +
+                    "' is another case under the same id than the run began with; start "
+                    "a new run");
         }
         if (record.status != report::Status::not_run || is_of_device(record)) {
             continue;
         }
         if (found == by_id.end()) {
-            return tl::unexpected(stop_with(report::kExitInvalidFile,
-                                            "the run cannot go on: its case '" + record.id +
-                                                "' is no longer in the suite; start a new run"));
+            throw stop_with(report::kExitInvalidFile,
+                            "the run cannot go on: its case '" + record.id +
+                                "' is no longer in the suite; start a new run");
         }
         run::Task task;
         task.data = *found->second;
@@ -300,21 +290,18 @@ OrStop<Prepared> prepare_resume(const Program& program, const RunOptions& now) {
         p.plan.push_back(std::move(task));
     }
     if (const std::string changed = what_changed(*earlier); !changed.empty()) {
-        return tl::unexpected(stop_with(report::kExitInvalidFile,
-                                        "the run cannot go on: " + changed + "; start a new run"));
+        throw stop_with(report::kExitInvalidFile,
+                        "the run cannot go on: " + changed + "; start a new run");
     }
     p.is_resumed = true;
     return p;
 }
 
-OrStop<Prepared> prepare(const Program& program, const RunOptions& options) {
-    OrStop<Selection> selection = select_cases(program, options);
-    if (!selection) {
-        return tl::unexpected(selection.error());
-    }
+Prepared prepare(const Program& program, const RunOptions& options) {
+    Selection selection = select_cases(program, options);
     Prepared p;
     p.options = options;
-    p.selection = std::move(*selection);
+    p.selection = std::move(selection);
     warn_of_idle_faults(p.selection.known_ids);
     warn_of_claims(p.selection, options.suite, options.profile);
     Run& header = p.header = new_header(program, options, p.selection);
@@ -336,36 +323,28 @@ OrStop<Prepared> prepare(const Program& program, const RunOptions& options) {
     return p;
 }
 
-OrStop<report::Journal> open_journal(const fs::path& folder, const Run& header, bool resumed) {
+report::Journal open_journal(const fs::path& folder, const Run& header, bool resumed) {
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) {
-        return tl::unexpected(
-            stop_with(report::kExitUsage, "the folder '" + folder.string() + "' cannot be made: " +
-                                              error.message() + "; choose another with -o"));
+        throw stop_with(report::kExitUsage, "the folder '" + folder.string() +
+                                                "' cannot be made: " + error.message() +
+                                                "; choose another with -o");
     }
-    cases::Expected<report::Journal> journal = report::Journal::open(folder, resumed);
-    if (!journal) {
-        return tl::unexpected(stop_with(report::kExitUsage, journal.error().message));
-    }
+    report::Journal journal = must(report::Journal::open(folder, resumed), report::kExitUsage);
     if (!resumed) {
-        cases::Expected<void> written = journal->write_run(header);
-        if (written) {
-            written = journal->write_device(header.device);
-        }
-        if (!written) {
-            return tl::unexpected(stop_with(report::kExitInternal, written.error().message));
-        }
+        must(journal.write_run(header), report::kExitInternal);
+        must(journal.write_device(header.device), report::kExitInternal);
     }
-    return std::move(*journal);
+    return journal;
 }
 
-OrStop<report::Journal> begin_journal(Prepared& p, bool resumed) {
+report::Journal begin_journal(Prepared& p, bool resumed) {
     if (p.folder.empty()) {
         p.folder = new_folder("out", file_name_of(p.header.device.name));
     }
-    OrStop<report::Journal> journal = open_journal(p.folder, p.header, resumed);
-    if (journal && !resumed) {
+    report::Journal journal = open_journal(p.folder, p.header, resumed);
+    if (!resumed) {
         remove_reports({p.folder, p.options.json, p.options.junit, p.options.html});
     }
     return journal;
@@ -382,27 +361,23 @@ bool is_skipped(const Run& run, std::string_view word) {
 
 }  // namespace
 
-OrStop<std::monostate> apply_expectations(Prepared& p) {
+void apply_expectations(Prepared& p) {
     const std::string hash_before = p.header.expectation_hash;
     const auto expected = expectations_of(p.options, p.selection, p.header);
-    if (!expected) {
-        return tl::unexpected(expected.error());
-    }
     const bool tells_hash = !p.header.selection.empty();  // journals of older programs do not
     if (p.is_resumed && tells_hash && p.header.expectation_hash != hash_before) {
-        return tl::unexpected(
-            stop_with(report::kExitInvalidFile,
-                      "the run cannot go on: the expectation files are not those that it began "
-                      "with; start a new run"));
+        throw stop_with(report::kExitInvalidFile,
+                        "the run cannot go on: the expectation files are not those that it began "
+                        "with; start a new run");
     }
-    if (const auto found = expected->find(cases::kLimitsCase); found != expected->end()) {
+    if (const auto found = expected.find(cases::kLimitsCase); found != expected.end()) {
         p.of_limits = found->second;
     }
     const auto skip_words = [&](report::PlannedCase& planned) {
         std::erase_if(planned.doors, [&](const auto& word) { return is_skipped(p.header, word); });
     };
     for (run::Task& task : p.plan) {
-        if (const auto found = expected->find(task.data.id); found != expected->end()) {
+        if (const auto found = expected.find(task.data.id); found != expected.end()) {
             task.expected = found->second;
         }
         std::erase_if(task.data.doors, [&](cases::Door door) {
@@ -411,7 +386,6 @@ OrStop<std::monostate> apply_expectations(Prepared& p) {
         skip_words(task.planned);
     }
     std::ranges::for_each(p.header.cases, skip_words);
-    return std::monostate{};
 }
 
 std::optional<CaseRecord> limits_record(const Program& program, const Prepared& p,

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <filesystem>
-#include <variant>
 #include <vector>
 
 #include "cli/options/program.hpp"
@@ -28,22 +27,22 @@ struct Prepared {
     std::optional<run::ExpectationLine> of_limits;  // what is expected of cases::kLimitsCase
 };
 
-OrStop<Prepared> prepare(const Program& program, const RunOptions& options);
+Prepared prepare(const Program& program, const RunOptions& options);
 // A run that goes on from its journal.
-OrStop<Prepared> prepare_resume(const Program& program, const RunOptions& now);
+Prepared prepare_resume(const Program& program, const RunOptions& now);
 // The options by which a run reaches out of its folder (" --json FILE"), which go beside --resume.
 std::string words_to_agree(const RunOptions& options);
 
 // The folder with its journal, begun with the header or, of a resumed run, gone on with.
-OrStop<report::Journal> open_journal(const std::filesystem::path& folder, const report::Run& header,
-                                     bool resumed);
+report::Journal open_journal(const std::filesystem::path& folder, const report::Run& header,
+                             bool resumed);
 
 // The same of a prepared run, in a new folder if none was named; of reports of an earlier run in it
 // nothing stays.
-OrStop<report::Journal> begin_journal(Prepared& p, bool resumed);
+report::Journal begin_journal(Prepared& p, bool resumed);
 
 // Finds the expectation files for the device of the header and what they say of the planned cases.
-OrStop<std::monostate> apply_expectations(Prepared& p);
+void apply_expectations(Prepared& p);
 
 // The final record of cases::kLimitsCase, if the run has to tell of it and has not yet: where a
 // limit is wrong, where it is selected, or where an expectation file names it.

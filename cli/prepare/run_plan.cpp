@@ -30,11 +30,11 @@ namespace {
 
 // What ended unexpectedly in the run of --failed-in. Where no selector chooses, all of it is meant:
 // a case of one's own that nobody names must not look as if it passed.
-OrStop<std::set<std::string>> failed_ids(const RunOptions& options, const LoadedSuite& suite) {
+std::set<std::string> failed_ids(const RunOptions& options, const LoadedSuite& suite) {
     const cases::Expected<report::Run> earlier = report::load_journal(options.failed_in);
     if (!earlier) {
-        return tl::unexpected(
-            Stop{report::kExitInvalidFile, {"--failed-in: " + cases::to_string(earlier.error())}});
+        throw stop_with(report::kExitInvalidFile,
+                        "--failed-in: " + cases::to_string(earlier.error()));
     }
     std::set<std::string> failed, selected;
     for (const size_t k : suite.selected) {
@@ -61,9 +61,9 @@ OrStop<std::set<std::string>> failed_ids(const RunOptions& options, const Loaded
         complain("warning: " + what);
         return failed;
     }
-    return tl::unexpected(stop_with(
+    throw stop_with(
         report::kExitNothingSelected,
-        what + "; name files or folders of your own, too, and '**' for the suite's cases"));
+        what + "; name files or folders of your own, too, and '**' for the suite's cases");
 }
 
 // The same for the same cases, whatever selected them in whichever order.
@@ -78,72 +78,60 @@ std::string selection_text(std::vector<std::string> ids) {
 
 }  // namespace
 
-OrStop<Selection> select_cases(const Program& program, const RunOptions& options) {
+Selection select_cases(const Program& program, const RunOptions& options) {
     Selection selection;
     SuiteOptions wanted = options.suite;
     selection.names_limits = std::erase(wanted.selectors, cases::kLimitsCase) > 0;
     const bool is_alone = selection.names_limits && wanted.selectors.empty();
-    OrStop<LoadedSuite> suite = is_alone ? load_and_select(program, wanted, cases::Contents::ids)
-                                         : load_with_ids(program, wanted);
-    if (!suite) {
-        return tl::unexpected(suite.error());
-    }
+    LoadedSuite suite = is_alone ? load_and_select(program, wanted, cases::Contents::ids)
+                                 : load_with_ids(program, wanted);
     if (is_alone) {
-        suite->selected.clear();
+        suite.selected.clear();
     }
     std::set<std::string> failed;
     if (!options.failed_in.empty()) {
-        OrStop<std::set<std::string>> ids = failed_ids(options, *suite);
-        if (!ids) {
-            return tl::unexpected(ids.error());
-        }
-        failed = std::move(*ids);
+        failed = failed_ids(options, suite);
         selection.names_limits = selection.names_limits || failed.contains(cases::kLimitsCase);
     }
-    selection.root = suite->root;
-    selection.known_ids = suite->ids();
-    selection.suite_ids = suite->suite_ids();
-    for (size_t k = suite->outside; k < suite->cases.size(); ++k) {
-        selection.own_files.insert(suite->cases[k].claim.where.file);
+    selection.root = suite.root;
+    selection.known_ids = suite.ids();
+    selection.suite_ids = suite.suite_ids();
+    for (size_t k = suite.outside; k < suite.cases.size(); ++k) {
+        selection.own_files.insert(suite.cases[k].claim.where.file);
     }
     if (!options.doors.empty() && options.doors != "none" &&
         renderer_of(options.device).needs == nullptr) {
-        return tl::unexpected(
-            stop_with(report::kExitUsage,
-                      "--doors needs a Vulkan driver, and --renderer names another; "
-                      "leave one of them out"));
+        throw stop_with(report::kExitUsage,
+                        "--doors needs a Vulkan driver, and --renderer names another; "
+                        "leave one of them out");
     }
     std::map<std::string, size_t> left_out;  // leaves by file
-    for (const cases::Case& c : suite->cases) {
+    for (const cases::Case& c : suite.cases) {
         ++left_out[c.claim.where.file];
     }
     std::vector<std::string> ids;
     std::set<std::string> own;
     std::vector<cases::Case*> chosen;  // of all shards
     for (const size_t k :
-         options.quick ? run::first_and_last(suite->cases, suite->selected) : suite->selected) {
-        cases::Case& c = suite->cases[k];
+         options.quick ? run::first_and_last(suite.cases, suite.selected) : suite.selected) {
+        cases::Case& c = suite.cases[k];
         if (!options.failed_in.empty() && !failed.contains(c.id)) {
             continue;
         }
         ids.push_back(c.id);
-        if (k >= suite->outside) {
+        if (k >= suite.outside) {
             own.insert(c.claim.where.file);
         }
         chosen.push_back(&c);
     }
-    OrStop<LeftOutDoors> doors = choose_doors(doors_of(options), chosen);
-    if (!doors) {
-        return tl::unexpected(doors.error());
-    }
-    selection.left_out_doors = std::move(*doors);
+    selection.left_out_doors = choose_doors(doors_of(options), chosen);
     for (cases::Case* c : chosen) {
         if (run::shard_of(c->id, options.shard.count) == options.shard.index) {
             --left_out[c->claim.where.file];
             selection.cases.push_back(std::move(*c));
         }
     }
-    selection.part_files = suite->parts;
+    selection.part_files = suite.parts;
     for (const auto& [file, leaves] : left_out) {
         if (leaves > 0) {
             selection.part_files.insert(file);
@@ -154,15 +142,15 @@ OrStop<Selection> select_cases(const Program& program, const RunOptions& options
     selection.whole_suite = selection.cases.size() == selection.known_ids.size();
     if (selection.cases.empty() && !selection.names_limits) {
         std::string why = "no case is selected";
-        if (suite->cases.empty()) {
-            why = "the suite '" + suite->root.string() + "' holds no case";
+        if (suite.cases.empty()) {
+            why = "the suite '" + suite.root.string() + "' holds no case";
         } else if (!options.failed_in.empty()) {
             why += "; no case of this selection failed in '" + options.failed_in + "'";
         } else if (options.shard.count > 1) {
             why += "; the selection has none in shard " + std::to_string(options.shard.index) +
                    "/" + std::to_string(options.shard.count);
         }
-        return tl::unexpected(Stop{report::kExitNothingSelected, {why}});
+        throw stop_with(report::kExitNothingSelected, why);
     }
     if (options.shuffle) {
         run::shuffle(selection.cases, options.seed);

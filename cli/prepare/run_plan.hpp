@@ -32,7 +32,7 @@ struct Selection {
 };
 // Applies selectors, --quick, --failed-in, --shard and --shuffle. An empty selection is a Stop,
 // unless the device's limits are selected.
-OrStop<Selection> select_cases(const Program& program, const RunOptions& options);
+Selection select_cases(const Program& program, const RunOptions& options);
 
 // What is known of a run before its device is: how, where and when it was started, its suite and
 // what was selected.

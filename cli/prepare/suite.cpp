@@ -75,17 +75,17 @@ std::string left_out_files(const fs::path& selector, const fs::path& root) {
 
 // The suite's folder that an option or variable names. The folder above it has the same cases by
 // other ids, which no expectation file knows.
-OrStop<fs::path> named_root(const fs::path& folder, const std::string& by) {
-    const auto refused = [&](const std::string& why) {
-        return tl::unexpected(Stop{report::kExitInvalidFile,
-                                   {"no suite in '" + folder.string() + "' (" + by + "): " + why}});
+fs::path named_root(const fs::path& folder, const std::string& by) {
+    const auto refuse = [&](const std::string& why) {
+        throw stop_with(report::kExitInvalidFile,
+                        "no suite in '" + folder.string() + "' (" + by + "): " + why);
     };
     if (!is_folder(folder)) {
-        return refused("it is not a folder");
+        refuse("it is not a folder");
     }
     if (is_folder(folder / "suite") && is_folder(folder / "expectations")) {
-        return refused("it holds the suite's folder and its expectation files; name '" +
-                       (folder / "suite").string() + "'");
+        refuse("it holds the suite's folder and its expectation files; name '" +
+               (folder / "suite").string() + "'");
     }
     return folder;
 }
@@ -138,8 +138,18 @@ class FileIds {
     std::map<std::string, std::string> files_;
 };
 
+// All cases of the files below a folder.
+std::vector<cases::Case> cases_below(const fs::path& folder,
+                                     cases::Contents contents = cases::Contents::all) {
+    cases::Suite loaded = cases::load_suite(folder, contents);
+    if (!loaded.errors.empty()) {
+        throw invalid_files(loaded.errors);
+    }
+    return std::move(loaded.cases);
+}
+
 // Puts all of their contents into the place of selected cases of which the id is known.
-OrStop<LoadedSuite> load_contents(LoadedSuite suite) {
+LoadedSuite load_contents(LoadedSuite suite) {
     std::map<std::string, std::vector<cases::Case>> files;
     for (const size_t k : suite.selected) {
         if (k >= suite.outside) {
@@ -148,17 +158,13 @@ OrStop<LoadedSuite> load_contents(LoadedSuite suite) {
         cases::Case& c = suite.cases[k];
         const auto [file, fresh] = files.try_emplace(c.claim.where.file);
         if (fresh) {
-            auto loaded = cases::load_file(c.claim.where.file, suite.root);
-            if (!loaded) {
-                return tl::unexpected(invalid_files(loaded.error()));
-            }
-            file->second = std::move(*loaded);
+            file->second = must(cases::load_file(c.claim.where.file, suite.root));
         }
         const auto full = std::find_if(file->second.begin(), file->second.end(),
                                        [&](const cases::Case& other) { return other.id == c.id; });
         if (full == file->second.end()) {
-            return tl::unexpected(stop_with(report::kExitInvalidFile,
-                                            c.claim.where.file + " changed while it was read"));
+            throw stop_with(report::kExitInvalidFile,
+                            c.claim.where.file + " changed while it was read");
         }
         c = std::move(*full);
         full->id.clear();
@@ -168,55 +174,44 @@ OrStop<LoadedSuite> load_contents(LoadedSuite suite) {
 
 // Loads the case files outside the suite that selectors name, themselves or by their folder, and
 // returns the other selectors. Below a folder ids are paths, as in a suite.
-OrStop<std::vector<std::string>> load_outside_files(const SuiteOptions& options,
-                                                    LoadedSuite& suite) {
+std::vector<std::string> load_outside_files(const SuiteOptions& options, LoadedSuite& suite) {
     std::vector<std::string> selectors;
     FileIds files(suite);
     std::set<std::string> named;
     for (const std::string& selector : options.selectors) {
-        cases::ExpectedAll<std::vector<cases::Case>> loaded;
+        std::vector<cases::Case> loaded;
         const auto [file, leaf] = leaf_of_file(selector);
         if (is_outside_file(file, suite.root)) {
-            loaded = cases::load_file(file, suite.root);
+            loaded = must(cases::load_file(file, suite.root));
         } else if (is_outside_folder(selector, suite.root)) {
-            cases::Suite own = cases::load_suite(selector);
-            if (own.errors.empty()) {
-                loaded = std::move(own.cases);
-            } else {
-                loaded = tl::unexpected(std::move(own.errors));
-            }
+            loaded = cases_below(selector);
         } else {
             if (std::string wrong = left_out_files(selector, suite.root); !wrong.empty()) {
-                return tl::unexpected(Stop{report::kExitUsage, {std::move(wrong)}});
+                throw stop_with(report::kExitUsage, wrong);
             }
             selectors.push_back(selector);
             continue;
         }
-        if (!loaded) {
-            return tl::unexpected(invalid_files(loaded.error()));
-        }
         if (!leaf.empty()) {
-            suite.parts.insert(loaded->front().claim.where.file);
-            std::erase_if(*loaded, [&ending = leaf](const cases::Case& c) {
+            suite.parts.insert(loaded.front().claim.where.file);
+            std::erase_if(loaded, [&ending = leaf](const cases::Case& c) {
                 return c.id.substr(c.id.find(':') + 1) != ending;
             });
-            if (loaded->empty()) {
-                return tl::unexpected(Stop{report::kExitNothingSelected,
-                                           {"the file " + file + " has no leaf '" + leaf +
-                                            "'; 'edgecase list " + file + "' lists them"}});
+            if (loaded.empty()) {
+                throw stop_with(report::kExitNothingSelected,
+                                "the file " + file + " has no leaf '" + leaf +
+                                    "'; 'edgecase list " + file + "' lists them");
             }
         }
-        for (cases::Case& c : *loaded) {
+        for (cases::Case& c : loaded) {
             if (const std::string known = files.add(c); !known.empty()) {
-                return tl::unexpected(
-                    Stop{report::kExitInvalidFile,
-                         {c.claim.where.file + ": error: its id '" + id_of_file(c) +
-                          "' is already that of " + known + "; rename the file"}});
+                throw stop_with(report::kExitInvalidFile,
+                                c.claim.where.file + ": error: its id '" + id_of_file(c) +
+                                    "' is already that of " + known + "; rename the file");
             }
             if (!named.insert(c.id).second) {
-                return tl::unexpected(
-                    Stop{report::kExitUsage,
-                         {"the file " + c.claim.where.file + " is named twice; name it once"}});
+                throw stop_with(report::kExitUsage,
+                                "the file " + c.claim.where.file + " is named twice; name it once");
             }
             suite.cases.push_back(std::move(c));
         }
@@ -247,47 +242,35 @@ fs::path link_out_of(const fs::path& folder) {
 }
 
 // Adds the cases that an export carries, but for those that selectors have named already.
-OrStop<std::monostate> load_carried(const std::string& folder, LoadedSuite& suite) {
+void load_carried(const std::string& folder, LoadedSuite& suite) {
     if (folder.empty() || !is_folder(folder)) {
-        return std::monostate{};
+        return;
     }
     if (const fs::path link = link_out_of(folder); !link.empty()) {
-        return tl::unexpected(invalid_files(
+        throw invalid_files(
             {{{link.string(), 0, 0},
-              "the link leads out of the export; put a copy of what it names in its place"}}));
-    }
-    cases::Suite carried = cases::load_suite(folder);
-    if (!carried.errors.empty()) {
-        return tl::unexpected(invalid_files(carried.errors));
+              "the link leads out of the export; put a copy of what it names in its place"}});
     }
     std::set<std::string> known;
     for (const cases::Case& c : suite.cases) {
         known.insert(c.id);
     }
-    for (cases::Case& c : carried.cases) {
+    for (cases::Case& c : cases_below(folder)) {
         if (!known.contains(c.id)) {
             suite.cases.push_back(std::move(c));
         }
     }
-    return std::monostate{};
 }
 
-OrStop<LoadedSuite> select_of(LoadedSuite suite, const SuiteOptions& options) {
+LoadedSuite select_of(LoadedSuite suite, const SuiteOptions& options) {
     suite.outside = suite.cases.size();
-    const OrStop<std::vector<std::string>> selectors = load_outside_files(options, suite);
-    if (!selectors) {
-        return tl::unexpected(selectors.error());
-    }
+    const std::vector<std::string> selectors = load_outside_files(options, suite);
     std::vector<size_t> named(suite.cases.size() - suite.outside);
     std::iota(named.begin(), named.end(), suite.outside);
-    if (auto carried = load_carried(options.carried, suite); !carried) {
-        return tl::unexpected(carried.error());
-    }
-    cases::Expected<std::vector<size_t>> selected =
-        cases::select(suite.cases, *selectors, std::cin, named);
+    load_carried(options.carried, suite);
+    auto selected = cases::select(suite.cases, selectors, std::cin, named);
     if (!selected) {
-        return tl::unexpected(
-            Stop{report::kExitNothingSelected, {cases::to_string(selected.error())}});
+        throw stop_with(report::kExitNothingSelected, cases::to_string(selected.error()));
     }
     suite.selected = std::move(*selected);
     return suite;
@@ -313,7 +296,7 @@ std::vector<std::string> LoadedSuite::suite_ids() const {
     return all;
 }
 
-OrStop<fs::path> find_suite_root(const Program& program, const std::string& option) {
+fs::path find_suite_root(const Program& program, const std::string& option) {
     if (!option.empty()) {
         return named_root(option, "--suite");
     }
@@ -329,83 +312,67 @@ OrStop<fs::path> find_suite_root(const Program& program, const std::string& opti
             }
         }
     }
-    return tl::unexpected(
-        Stop{report::kExitInvalidFile,
-             {"no suite found: neither cases/suite nor share/edgecase/cases/suite is in a folder "
-              "above '" +
-              program.path + "'; name it with --suite DIR"}});
+    throw stop_with(
+        report::kExitInvalidFile,
+        "no suite found: neither cases/suite nor share/edgecase/cases/suite is in a folder "
+        "above '" +
+            program.path + "'; name it with --suite DIR");
 }
 
-OrStop<LoadedSuite> load_and_select(const Program& program, const SuiteOptions& options,
-                                    cases::Contents contents) {
-    const OrStop<fs::path> root = find_suite_root(program, options.suite);
-    if (!root) {
-        return tl::unexpected(root.error());
-    }
-    cases::Suite loaded = cases::load_suite(*root, contents);
-    if (!loaded.errors.empty()) {
-        return tl::unexpected(invalid_files(loaded.errors));
-    }
-    return select_of({*root, std::move(loaded.cases), {}, 0, {}}, options);
+LoadedSuite load_and_select(const Program& program, const SuiteOptions& options,
+                            cases::Contents contents) {
+    const fs::path root = find_suite_root(program, options.suite);
+    return select_of({root, cases_below(root, contents), {}, 0, {}}, options);
 }
 
-OrStop<LoadedSuite> load_with_ids(const Program& program, const SuiteOptions& options) {
+LoadedSuite load_with_ids(const Program& program, const SuiteOptions& options) {
     // What is no name is asked of the cases themselves.
     const auto is_asked = [](const std::string& s) { return s == "-" || s.find('@') != s.npos; };
     const std::vector<std::string>& all = options.selectors;
     if (all.empty() || std::any_of(all.begin(), all.end(), is_asked)) {
         return load_and_select(program, options);
     }
-    OrStop<LoadedSuite> suite = load_and_select(program, options, cases::Contents::ids);
-    return suite ? load_contents(std::move(*suite)) : suite;
+    return load_contents(load_and_select(program, options, cases::Contents::ids));
 }
 
-OrStop<LoadedSuite> load_selected(const Program& program, const SuiteOptions& options) {
-    const OrStop<fs::path> root = find_suite_root(program, options.suite);
-    if (!root) {
-        return tl::unexpected(root.error());
-    }
+LoadedSuite load_selected(const Program& program, const SuiteOptions& options) {
+    const fs::path root = find_suite_root(program, options.suite);
     const std::vector<std::string>& all = options.selectors;
-    const auto is_own = [&](const std::string& s) { return is_outside(s, *root); };
+    const auto is_own = [&](const std::string& s) { return is_outside(s, root); };
     return !all.empty() && std::all_of(all.begin(), all.end(), is_own)
-               ? select_of({*root, {}, {}, 0, {}}, options)
+               ? select_of({root, {}, {}, 0, {}}, options)
                : load_with_ids(program, options);
 }
 
-OrStop<cases::Case> load_one_case(const Program& program, const SuiteOptions& options) {
-    OrStop<LoadedSuite> suite = load_selected(program, options);
-    if (!suite) {
-        return tl::unexpected(suite.error());
+cases::Case load_one_case(const Program& program, const SuiteOptions& options) {
+    LoadedSuite suite = load_selected(program, options);
+    if (suite.selected.empty()) {
+        throw stop_with(report::kExitNothingSelected, "the selection is empty");
     }
-    if (suite->selected.empty()) {
-        return tl::unexpected(Stop{report::kExitNothingSelected, {"the selection is empty"}});
-    }
-    if (suite->selected.size() != 1) {
+    if (suite.selected.size() != 1) {
         std::string some;
-        for (size_t k = 0; k < suite->selected.size() && k < 3; ++k) {
-            some += (k == 0 ? "'" : ", '") + suite->cases[suite->selected[k]].id + "'";
+        for (size_t k = 0; k < suite.selected.size() && k < 3; ++k) {
+            some += (k == 0 ? "'" : ", '") + suite.cases[suite.selected[k]].id + "'";
         }
-        return tl::unexpected(
-            Stop{report::kExitUsage,
-                 {"this command works on one case, and " + std::to_string(suite->selected.size()) +
-                  " are selected: " + some + (suite->selected.size() > 3 ? ", ..." : "") +
-                  "; give the id of one"}});
+        throw stop_with(report::kExitUsage,
+                        "this command works on one case, and " +
+                            std::to_string(suite.selected.size()) + " are selected: " + some +
+                            (suite.selected.size() > 3 ? ", ..." : "") + "; give the id of one");
     }
-    return std::move(suite->cases[suite->selected.front()]);
+    return std::move(suite.cases[suite.selected.front()]);
 }
 
-OrStop<cases::Case> load_one_case(const Program& program, const SuiteOptions& options,
-                                  const JudgedDevice& device) {
-    OrStop<cases::Case> c = load_one_case(program, options);
+cases::Case load_one_case(const Program& program, const SuiteOptions& options,
+                          const JudgedDevice& device) {
+    cases::Case c = load_one_case(program, options);
     const ref::Limits limits = limits_of(device);
-    if (c && c->target.samples > 1 && c->target.sample_locations.empty() &&
+    if (c.target.samples > 1 && c.target.sample_locations.empty() &&
         !limits.sample_locations.empty() &&
-        ref::as_drawn(*c, limits).value_or(*c).target.sample_locations.empty()) {
-        return tl::unexpected(
-            Stop{report::kExitUsage,
-                 {fmt::format("--sample-locations has no list of {} locations, and '{}' has {} "
-                              "samples a pixel; give one, or leave the option out",
-                              c->target.samples, c->id, c->target.samples)}});
+        ref::as_drawn(c, limits).value_or(c).target.sample_locations.empty()) {
+        throw stop_with(report::kExitUsage,
+                        fmt::format("--sample-locations has no list of {} locations, and '{}' has "
+                                    "{} samples a pixel; give one, or leave the option out",
+                                    c.target.samples, c.id, c.target.samples));
     }
     return c;
 }

@@ -20,7 +20,7 @@ namespace cli {
 // --suite, else EDGECASE_SUITE, else "cases/suite" or, where it is installed,
 // "share/edgecase/cases/suite" in a folder above the program, else the source tree that the program
 // was built from.
-OrStop<std::filesystem::path> find_suite_root(const Program& program, const std::string& option);
+std::filesystem::path find_suite_root(const Program& program, const std::string& option);
 
 // Whether a selector names case files outside the suite: a file, a leaf of one, or a folder.
 bool is_outside(const std::string& selector, const std::filesystem::path& root);
@@ -48,21 +48,21 @@ struct LoadedSuite {
     std::vector<std::string> suite_ids() const;  // of the suite's alone
 };
 // Loads all and selects. Errors: invalid files (3), a selector that matches nothing (4).
-OrStop<LoadedSuite> load_and_select(const Program& program, const SuiteOptions& options,
-                                    cases::Contents contents = cases::Contents::all);
+LoadedSuite load_and_select(const Program& program, const SuiteOptions& options,
+                            cases::Contents contents = cases::Contents::all);
 
 // As load_and_select, for commands that look at selected cases only: of the other cases of the
 // suite the ids are read.
-OrStop<LoadedSuite> load_with_ids(const Program& program, const SuiteOptions& options);
+LoadedSuite load_with_ids(const Program& program, const SuiteOptions& options);
 
 // As load_with_ids, but no id is read if all selectors name files outside of the suite.
-OrStop<LoadedSuite> load_selected(const Program& program, const SuiteOptions& options);
+LoadedSuite load_selected(const Program& program, const SuiteOptions& options);
 
 // As load_selected, for commands on a single case.
-OrStop<cases::Case> load_one_case(const Program& program, const SuiteOptions& options);
+cases::Case load_one_case(const Program& program, const SuiteOptions& options);
 // The same for a device that is not asked; an error (2), too, if the case has several samples and
 // the locations that are given are of other sample counts.
-OrStop<cases::Case> load_one_case(const Program& program, const SuiteOptions& options,
-                                  const JudgedDevice& device);
+cases::Case load_one_case(const Program& program, const SuiteOptions& options,
+                          const JudgedDevice& device);
 
 }  // namespace cli

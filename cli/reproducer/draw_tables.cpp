@@ -41,23 +41,30 @@ std::string array_text(std::string_view name, std::span<const uint32_t> words) {
     return text + (words.empty() ? "0};\n" : "\n};\n");
 }
 
-// Arrays of SPIR-V, each written once; a name is the initialiser of a struct Code.
-class Modules {
+// Arrays by their names: "kPositions0", of another drawing "kPositions0b"; each is written once.
+class Arrays {
   public:
-    std::string name(std::span<const uint32_t> code) {
-        const auto [found, is_new] = names_.emplace(std::vector(code.begin(), code.end()),
-                                                    fmt::format("kCode{}", names_.size()));
+    // The name of the first array with these words.
+    std::string add(const std::string& name, std::span<const uint32_t> words) {
+        const auto [found, is_new] = names_.emplace(std::vector(words.begin(), words.end()), name);
         if (is_new) {
-            text_ += array_text(found->second, code);
+            text_ += array_text(name, words);
         }
-        return fmt::format("{{{0}, sizeof {0}}}", found->second);
+        return found->second;
     }
+    size_t size() const { return names_.size(); }
     const std::string& text() const { return text_; }
 
   private:
     std::map<std::vector<uint32_t>, std::string> names_;
     std::string text_;
 };
+
+// SPIR-V in one of these arrays, as the initialiser of a struct Code.
+std::string code_text(std::span<const uint32_t> code, Arrays& modules) {
+    return fmt::format("{{{0}, sizeof {0}}}",
+                       modules.add(fmt::format("kCode{}", modules.size()), code));
+}
 
 // Places of FragCoord.xy (ref/value/sample_values.cpp).
 std::string_view places_of(const cases::Draw& d, uint32_t samples, cases::Profile profile) {
@@ -187,24 +194,6 @@ std::string rare_text(const cases::Case& c, const cases::Draw& d, const Inputs& 
     return text;
 }
 
-// Names of arrays: "kPositions0", of another drawing "kPositions0b"; each text is written once.
-class Arrays {
-  public:
-    std::string add(const std::string& name, std::span<const uint32_t> words) {
-        const std::string body = array_text("", words);
-        const auto [found, is_new] = names_.emplace(body, name);
-        if (is_new) {
-            text_ += array_text(name, words);
-        }
-        return found->second;
-    }
-    const std::string& text() const { return text_; }
-
-  private:
-    std::map<std::string, std::string> names_;
-    std::string text_;
-};
-
 std::vector<uint32_t> words_of(const std::vector<glm::vec4>& vectors) {
     std::vector<uint32_t> words;
     for (const glm::vec4& v : vectors) {
@@ -217,7 +206,7 @@ std::vector<uint32_t> words_of(const std::vector<glm::vec4>& vectors) {
 
 // One row of a table of draws; `name` ends the names of its arrays.
 std::string draw_row(const cases::Case& c, const cases::Draw& d, const std::string& name,
-                     cases::Profile profile, Modules& modules, Arrays& arrays) {
+                     cases::Profile profile, Arrays& modules, Arrays& arrays) {
     constexpr size_t kFirstAttribute = 1, kClip = 5, kCull = 6;  // locations of capture.vert
     const Inputs shader = inputs_of(c, d);
     std::array<std::string, 7> inputs;
@@ -254,7 +243,7 @@ std::string draw_row(const cases::Case& c, const cases::Draw& d, const std::stri
         word(kTopologies, d.topology), d.primitive_restart, d.positions.size(),
         d.indices ? d.indices->size() : d.positions.size(), judged, d.distances.clip_count,
         d.distances.cull_count, flat, fmt::join(inputs, ", "), indices,
-        modules.name(vertex_code(c, d)), modules.name(shader.fragment_code(d)));
+        code_text(vertex_code(c, d), modules), code_text(shader.fragment_code(d), modules));
     text += fmt::format(
         "     {{{:a}F, {:a}F, {:a}F, {:a}F, {:a}F, {:a}F}}, {{{{{}, {}}}, {{{}U, {}U}}}},\n", v.x,
         v.y, v.width, v.height, v.min_depth, v.max_depth, d.scissor.x, d.scissor.y, d.scissor.width,
@@ -280,8 +269,7 @@ std::string drawing_row(const std::string& name, const std::string& draws, const
 }  // namespace
 
 std::string draw_tables(const cases::Case& c, cases::Profile profile) {
-    Modules modules;
-    Arrays arrays;
+    Arrays modules, arrays;
     std::string tables, drawings;
     const auto add_draws = [&](const cases::Case& drawn, const std::string& suffix) {
         tables += fmt::format("static const struct Draw kDraws{}[] = {{\n", suffix);
@@ -308,10 +296,10 @@ std::string draw_tables(const cases::Case& c, cases::Profile profile) {
     }
     std::vector<std::string> copies(4, "{NULL, 0}");  // by words of a sample / 2; the depth
     if (c.target.samples > 1) {
-        copies = {modules.name(shaders::copy_samples(false, 1)),
-                  modules.name(shaders::copy_samples(false, 2)),
-                  modules.name(shaders::copy_samples(false, 4)),
-                  modules.name(shaders::copy_samples(true, 1))};
+        copies = {code_text(shaders::copy_samples(false, 1), modules),
+                  code_text(shaders::copy_samples(false, 2), modules),
+                  code_text(shaders::copy_samples(false, 4), modules),
+                  code_text(shaders::copy_samples(true, 1), modules)};
     }
     return fmt::format(
         "// SPIR-V that glslang made of the test suite's shaders.\n{}\n"

@@ -28,11 +28,7 @@ Document document_of(cases::Case c) {
     c.claim.catches.clear();
     c.claim.links.clear();
     c.claim.expected_hits.reset();
-    const cases::Expected<std::string> text = cases::to_toml(c);
-    if (!text) {
-        return {};
-    }
-    return cases::read_toml(*text, "start").value_or(Document());
+    return cases::to_tree(c).value_or(Document());
 }
 
 Source::Made made_of(Document document, const std::string& description, uint64_t number) {

@@ -4,77 +4,11 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <utility>
 
 namespace fuzz {
-
-Document number(double value) {
-    constexpr double kLargestWhole = 0x1p53;
-    if (std::isnan(value) && std::signbit(value)) {
-        return text("-nan");
-    }
-    Document out;
-    const bool is_negative_zero = std::fpclassify(value) == FP_ZERO && std::signbit(value);
-    if (std::fabs(value) < kLargestWhole && std::floor(value) >= value && !is_negative_zero) {
-        out.kind = Kind::integer;
-        out.integer = static_cast<int64_t>(value);
-    } else {
-        out.kind = Kind::floating;
-        out.floating = value;
-    }
-    return out;
-}
-
-Document text(std::string value) {
-    Document out;
-    out.kind = Kind::string;
-    out.string = std::move(value);
-    return out;
-}
-
-Document boolean(bool value) {
-    Document out;
-    out.kind = Kind::boolean;
-    out.boolean = value;
-    return out;
-}
-
-Document list(std::vector<Document> elements) {
-    Document out;
-    out.kind = Kind::array;
-    out.array = std::move(elements);
-    return out;
-}
-
-Document numbers(const std::vector<double>& values) {
-    std::vector<Document> elements;
-    elements.reserve(values.size());
-    for (const double value : values) {
-        elements.push_back(number(value));
-    }
-    return list(std::move(elements));
-}
-
-Document table() {
-    return {};
-}
-
-Document* find(Document& table, std::string_view key) {
-    const auto entry = std::find_if(table.table.begin(), table.table.end(),
-                                    [&](const cases::TomlEntry& e) { return e.key == key; });
-    return entry == table.table.end() ? nullptr : &entry->value;
-}
-
-Document& set(Document& table, std::string_view key, Document value) {
-    if (Document* entry = find(table, key)) {
-        return *entry = std::move(value);
-    }
-    table.table.push_back({std::string(key), {}, std::move(value)});
-    return table.table.back().value;
-}
 
 bool erase(Document& table, std::string_view key) {
     return std::erase_if(table.table, [&](const cases::TomlEntry& e) { return e.key == key; }) > 0;

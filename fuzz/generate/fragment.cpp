@@ -30,7 +30,7 @@ double mapped(const Pose& pose, std::array<double, 2> viewport, double z) {
 }
 
 // Which layout the draw's numbers can keep: beyond all depths of its triangles by more than the
-// loader asks for (cases/load/load_depth.cpp).
+// loader asks for (cases/load/depth.cpp).
 constexpr double kMargin = 0x1p-12;
 
 }  // namespace

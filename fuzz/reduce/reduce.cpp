@@ -298,21 +298,6 @@ class Reducer {
 
 }  // namespace
 
-std::vector<Simpler> simpler(const Document& document) {
-    const Measure before = measure(document);
-    std::vector<Simpler> out;
-    std::unordered_set<std::string> seen = {to_text(document)};
-    for (const Stage stage : kStages) {
-        const std::vector<Step> steps = steps_of(document, stage);
-        for (Stepped& c : stepped(document, steps, [](const auto&) { return true; })) {
-            if (seen.insert(std::move(c.text)).second) {
-                out.push_back({*applied(*c.step, document, before), c.step->words, c.step->need});
-            }
-        }
-    }
-    return out;
-}
-
 Reduced reduce(Document document, const Shows& shows, const ReduceOptions& options) {
     return Reducer(shows, options).reduce(std::move(document));
 }

@@ -15,19 +15,6 @@
 
 namespace fuzz {
 
-// A document that is one step simpler than another.
-struct Simpler {
-    Document document;
-    std::string step;  // "without draw 1", "with 1 sample", "draw 0 without scissor"
-    // What it means that this one does not show the finding: "not with 1 sample". Empty for steps
-    // that only make numbers simpler.
-    std::string need;
-};
-
-// Everything one step simpler than a document, what makes a case easiest for a person first. What
-// does not load, stays the same text or is no simpler by measure.hpp is left out.
-std::vector<Simpler> simpler(const Document& document);
-
 // A case that may show the finding still, and the text of its file.
 struct Candidate {
     std::string text;

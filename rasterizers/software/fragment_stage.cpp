@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
 #include <utility>
 
 #include "rasterizers/software/depth.hpp"
-#include "rasterizers/software/probes.hpp"
 #include "rasterizers/software/snapping.hpp"
 #include "rasterizers/software/target/neighbour.hpp"
 
@@ -24,7 +22,8 @@ FragmentStage::FragmentStage(const cases::Draw& draw, const cases::Case& c, uint
       rect_(rect),
       out_(out),
       attachments_(attachments),
-      samples_(sample_offsets(c.target, device)) {
+      samples_(sample_offsets(c.target, device)),
+      shader_(draw, first_, c.target, device, samples_) {
     if (device.fault == "bounds-at-draw-start"_fault) {
         other_depth_ = out.depth;
     } else if (device.fault == "bounds-of-clear"_fault) {
@@ -165,182 +164,6 @@ size_t FragmentStage::index_in(uint32_t layer, const Fragment& at) const {
     return (row * target.width + static_cast<size_t>(at.i)) * target.samples + at.s;
 }
 
-// What the shader has of attribute a.
-glm::vec4 FragmentStage::attribute_value(const Fragment& at, size_t a) const {
-    const Invocation& invocation = at.invocation;
-    const Fault fault = device_.fault;
-    const float corner = fault == "values-at-corner"_fault ? -0.5F : 0.0F;
-    const float x = invocation.centre.x + corner;
-    const float y = invocation.centre.y + corner;
-    const float inverse_w = at.planes.inverse_w(x, y);
-    const cases::Attribute& attribute = draw_.attributes[a];
-    const bool is_smooth = attribute.interpolation == cases::Interpolation::smooth;
-    const bool flat =
-        (attribute.interpolation == cases::Interpolation::flat && fault != "flat-smooth"_fault) ||
-        (is_smooth && fault == "smooth-flat"_fault);
-    const bool is_sample = attribute.auxiliary == cases::Auxiliary::sample;
-    const bool is_centroid = attribute.auxiliary == cases::Auxiliary::centroid;
-    Place place{x, y};
-    if (samples_.size() > 1 && (is_sample || is_centroid)) {
-        place = is_sample ? invocation.sample : invocation.centroid;
-    }
-    glm::vec4 value =
-        flat ? at.facet.first.values[a]
-             : probe(draw_, device_, at.planes, samples_, a, at.i, at.j, place, invocation);
-    if (fault == "one-over-w-cached"_fault && !flat && !interpolates(attribute.probe) &&
-        is_smooth) {
-        value *= at.planes.inverse_w(place.x, place.y) / inverse_w;
-    }
-    switch (attribute.source) {
-        case cases::Source::sample_mask_in:
-            value = glm::vec4(static_cast<float>(invocation.mask_in), 0, 0, 0);
-            break;
-        case cases::Source::sample_id:
-            value = glm::vec4(static_cast<float>(invocation.sample_id), 0, 0, 0);
-            break;
-        case cases::Source::sample_position:
-            value = {invocation.sample_position.x, invocation.sample_position.y, 0, 0};
-            break;
-        case cases::Source::shading_rate:
-            value = glm::vec4(static_cast<float>(invocation.rate), 0, 0, 0);
-            break;
-        case cases::Source::vertex:
-        case cases::Source::barycentric:
-            break;
-    }
-    if (fault == "values-clamped"_fault) {
-        value = glm::clamp(value, 0.0F, 1.0F);
-    }
-    if (fault == "components-rotated"_fault) {
-        value = {value.y, value.z, value.w, value.x};
-    }
-    if (fault == "values-half"_fault && !flat) {
-        for (int k = 0; k < 4; ++k) {
-            value[k] = to_half_precision(value[k]);
-        }
-    }
-    return value;
-}
-
-// Whether the shader discards by the sign of an attribute.
-bool FragmentStage::is_negative(Fragment at) const {
-    const Fault fault = device_.fault;
-    const size_t a = fault == "discard-value-of-first"_fault ? 0 : draw_.discard_attribute;
-    if (a >= draw_.attributes.size()) {
-        return false;
-    }
-    if (fault == "discard-value-at-centre"_fault) {
-        at.invocation.sample = at.invocation.centroid = {static_cast<float>(at.i) + 0.5F,
-                                                         static_cast<float>(at.j) + 0.5F};
-    }
-    const glm::vec4 value = fault == "discard-value-of-vertex"_fault ? at.facet.first.values[a]
-                                                                     : attribute_value(at, a);
-    const float tested = fault == "discard-value-of-second"_fault ? value.y : value.x;
-    return fault == "discard-value-or-zero"_fault ? tested <= 0 : tested < 0;
-}
-
-// Whether alpha to coverage leaves the sample out.
-bool FragmentStage::is_left_out_by_alpha(const Fragment& at) const {
-    const Fault fault = device_.fault;
-    const cases::ColorOutput& output = draw_.color;
-    const bool is_on = fault == "alpha-to-coverage-of-first-draw"_fault
-                           ? first_.color.alpha_to_coverage
-                           : output.alpha_to_coverage;
-    if (!is_on || !out_.target.color || fault == "alpha-to-coverage-ignored"_fault ||
-        (cases::is_integer(out_.target.color->format) &&
-         fault != "alpha-to-coverage-of-integers"_fault)) {
-        return false;
-    }
-    const float alpha = fault == "alpha-to-coverage-of-one"_fault && output.alpha_to_one ? 1.0F
-                        : output.attribute < 0
-                            ? output.value.w
-                            : attribute_value(at, static_cast<size_t>(output.attribute)).w;
-    const auto count = static_cast<float>(samples_.size());
-    // Of four neighbours each has another threshold.
-    const float threshold = device_.alpha_mask == AlphaMask::dithered
-                                ? 0.125F + 0.25F * static_cast<float>((at.i & 1) * 2 + (at.j & 1))
-                                : 0.5F;
-    float kept = alpha > 0 ? std::floor(std::min(alpha, 1.0F) * count + threshold) : 0.0F;
-    if (fault == "alpha-to-coverage-rounded-up"_fault) {
-        kept = std::max(kept, 1.0F);
-    } else if (fault == "alpha-to-coverage-never-full"_fault) {
-        kept = std::min(kept, count - 1);
-    }
-    switch (device_.alpha_mask) {
-        case AlphaMask::none:
-            return true;
-        case AlphaMask::all:
-            return false;
-        case AlphaMask::last:
-            return static_cast<float>(at.s) < count - kept;
-        default:
-            return static_cast<float>(at.s) >= kept;
-    }
-}
-
-// Whether the fragment shader discards the fragment.
-bool FragmentStage::is_discarded(const Fragment& at) const {
-    const Fault fault = device_.fault;
-    if (fault == "discard-fragment-ignored"_fault ||
-        (fault == "discard-sample-zero"_fault && at.s != 0)) {
-        return false;
-    }
-    const bool is_demoted = draw_.discard_by == cases::DiscardBy::demote;
-    const bool is_terminated = draw_.discard_by == cases::DiscardBy::terminate;
-    if ((fault == "demote-ignored"_fault && is_demoted) ||
-        (fault == "terminate-ignored"_fault && is_terminated)) {
-        return false;
-    }
-    const bool is_quad =
-        fault == "discard-by-quad"_fault || (fault == "terminate-by-quad"_fault && is_terminated);
-    const bool has_odd_x = ((is_quad ? at.i >> 1 : at.i) & 1) != 0;
-    const bool has_odd_y = ((is_quad ? at.j >> 1 : at.j) & 1) != 0;
-    const bool is_turned = fault == "discard-turned"_fault;
-    switch (fault == "discard-of-first-draw"_fault ? first_.discard : draw_.discard) {
-        case cases::Discard::odd_columns:
-            return has_odd_x != is_turned;
-        case cases::Discard::odd_rows:
-            return has_odd_y != is_turned;
-        case cases::Discard::checker:
-            return (has_odd_x != has_odd_y) != is_turned;
-        case cases::Discard::front:
-            return at.facet.front != is_turned;
-        case cases::Discard::back:
-            return at.facet.front == is_turned;
-        case cases::Discard::negative:
-            return is_negative(at) != is_turned;
-        case cases::Discard::none:
-            break;
-    }
-    return false;
-}
-
-// What the fragment shader writes to gl_FragDepth, if that replaces the fragment's own depth.
-std::optional<float> FragmentStage::written_depth(const Fragment& at) const {
-    const Fault fault = device_.fault;
-    const std::optional<cases::FragDepth>& asked =
-        fault == "frag-depth-of-first-draw"_fault ? first_.frag_depth : draw_.frag_depth;
-    const bool is_early = draw_.early_tests && fault != "frag-depth-after-early-tests"_fault;
-    if (!asked || is_early || fault == "frag-depth-ignored"_fault ||
-        (fault == "frag-depth-of-sample-zero"_fault && at.s != 0)) {
-        return std::nullopt;
-    }
-    if (asked->is_coord) {
-        const Place place =
-            fault == "frag-depth-coord-at-sample"_fault ? sample_place(at) : at.invocation.centre;
-        return at.planes.depth(place.x, place.y);
-    }
-    const bool is_quad = fault == "frag-depth-by-quad"_fault;
-    const bool has_odd_x = ((is_quad ? at.i >> 1 : at.i) & 1) != 0;
-    const bool has_odd_y = ((is_quad ? at.j >> 1 : at.j) & 1) != 0;
-    const bool is_other = (asked->where == cases::Discard::odd_columns && has_odd_x) ||
-                          (asked->where == cases::Discard::odd_rows && has_odd_y) ||
-                          (asked->where == cases::Discard::checker && has_odd_x != has_odd_y);
-    const float z = is_other ? asked->other : asked->value;
-    const cases::Viewport& v = draw_.viewport;
-    return fault == "frag-depth-in-range"_fault ? v.min_depth + z * (v.max_depth - v.min_depth) : z;
-}
-
 // Whether a fragment of depth z passes the depth bounds test against what sample `at` holds.
 bool FragmentStage::is_in_bounds(float z, size_t at) const {
     const Fault fault = device_.fault;
@@ -355,14 +178,6 @@ bool FragmentStage::is_in_bounds(float z, size_t at) const {
     const size_t tested = fault == "bounds-of-sample-zero"_fault ? at - at % samples_.size() : at;
     return lies_within(fault == "bounds-of-fragment"_fault ? z : out_.depth[tested], *bounds,
                        device_);
-}
-
-// Where the sample is evaluated.
-Place FragmentStage::sample_place(const Fragment& at) const {
-    const float unit = std::ldexp(1.0F, -device_.subpixel_bits);
-    return {
-        static_cast<float>(at.i) + static_cast<float>(samples_[at.s].x) * unit + device_.place_x,
-        static_cast<float>(at.j) + static_cast<float>(samples_[at.s].y) * unit + device_.place_y};
 }
 
 // The depth of the triangle's plane there.
@@ -384,7 +199,7 @@ float FragmentStage::plane_depth(const Fragment& at) const {
         return at.planes.depth(2 * i + 1 - (i + static_cast<float>(samples_[at.s].x) * unit),
                                j + static_cast<float>(samples_[at.s].y) * unit);
     }
-    const Place place = sample_place(at);
+    const Place place = shader_.sample_place(at);
     return at.planes.depth(place.x, place.y);
 }
 
@@ -430,7 +245,7 @@ FragmentStage::Depths FragmentStage::depths_of(const Fragment& at) const {
     out.bias =
         depth_bias(draw_, format, at.planes.depth_dx(), at.planes.depth_dy(), largest, device_);
     out.own = out.z = fragment_depth(z, out.bias, draw_, format, device_);
-    if (const std::optional<float> written = written_depth(at)) {
+    if (const std::optional<float> written = shader_.written_depth(at)) {
         out.z = fragment_depth(*written, fault == "frag-depth-biased"_fault ? out.bias : 0, draw_,
                                format, device_);
     }
@@ -458,7 +273,7 @@ void FragmentStage::shade_in_layer(Fragment at) {
         place->x += device_.place_x;
         place->y += device_.place_y;
     }
-    const bool discarded = is_discarded(at);
+    const bool discarded = shader_.is_discarded(at);
     const bool is_demoted = draw_.discard_by == cases::DiscardBy::demote;
     const bool is_early = fault == "discard-tests-early"_fault ||
                           (fault == "demote-stores-depth"_fault && is_demoted) ||
@@ -467,7 +282,7 @@ void FragmentStage::shade_in_layer(Fragment at) {
         end(Ending::discarded);
         return;
     }
-    const bool is_left_out = is_left_out_by_alpha(at);
+    const bool is_left_out = shader_.is_left_out_by_alpha(at);
     if (is_left_out && fault != "alpha-to-coverage-stores-depth"_fault) {
         end(Ending::masked);
         return;
@@ -516,7 +331,7 @@ void FragmentStage::show(const Fragment& at, float bias) {
     for (size_t a = 0; a < draw_.attributes.size(); ++a) {
         const size_t location =
             fault == "attributes-swapped"_fault && draw_.attributes.size() > 1 && a < 2 ? 1 - a : a;
-        out_.attributes[location][index] = attribute_value(at, a);
+        out_.attributes[location][index] = shader_.attribute_value(at, a);
     }
     write_color(index, facet.primitive.id);
 }

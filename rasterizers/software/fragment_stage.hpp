@@ -5,15 +5,12 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <tuple>
 #include <vector>
 
 #include "capture/capture.hpp"
 #include "cases/model/case.hpp"
-#include "rasterizers/software/assembly.hpp"
-#include "rasterizers/software/multisample.hpp"
-#include "rasterizers/software/planes.hpp"
+#include "rasterizers/software/fragment_shader.hpp"
 #include "rasterizers/software/target/blend_unit.hpp"
 #include "rasterizers/software/target/query_unit.hpp"
 #include "rasterizers/software/target/stencil_unit.hpp"
@@ -25,16 +22,6 @@ struct Attachments {
     ColorAttachment color;
     StencilAttachment stencil;
     QueryUnit queries;
-};
-
-// What all fragments of a triangle, clipped or not, have in common.
-struct Facet {
-    const Primitive& primitive;
-    const WindowVertex& first;  // of the polygon that is left: flat values
-    bool front = false;
-    float largest_z = 0;       // of that polygon
-    bool tests_depth = false;  // its samples are tested by depth
-    uint32_t id = 0;           // gl_PrimitiveID as the device counts
 };
 
 class FragmentStage {
@@ -57,14 +44,6 @@ class FragmentStage {
                      uint32_t covered);
 
   private:
-    struct Fragment {
-        const Facet& facet;
-        const TrianglePlanes& planes;
-        int64_t i = 0, j = 0;
-        uint32_t s = 0, covered = 0;  // the sample, and all of its pixel
-        uint32_t layer = 0;
-        Invocation invocation = {};
-    };
     struct Depths {
         float z = 0, own = 0, bias = 0;  // that is tested, that of the triangle, what it holds
     };
@@ -74,14 +53,8 @@ class FragmentStage {
     bool is_before_scissor(int64_t i, int64_t j, uint32_t s) const;
     void shade(Fragment fragment);
     void shade_in_layer(Fragment at);
-    bool is_discarded(const Fragment& at) const;
-    bool is_negative(Fragment at) const;
-    bool is_left_out_by_alpha(const Fragment& at) const;
-    glm::vec4 attribute_value(const Fragment& at, size_t a) const;
-    Place sample_place(const Fragment& at) const;
     float plane_depth(const Fragment& at) const;
     Depths depths_of(const Fragment& at) const;
-    std::optional<float> written_depth(const Fragment& at) const;
     bool is_in_bounds(float z, size_t at) const;
     Ending test(const Fragment& at, const Depths& depths, bool hidden);
     void show(const Fragment& at, float bias);
@@ -96,6 +69,7 @@ class FragmentStage {
     capture::Capture& out_;
     Attachments& attachments_;
     std::vector<SampleOffset> samples_;
+    FragmentShader shader_;
     std::vector<float> other_depth_;  // what faults of the depth bounds take for the stored one
     // Samples of the fragments of the triangle at hand: by pixel (row first) and planes.
     std::map<std::tuple<int64_t, int64_t, const TrianglePlanes*>, uint32_t> covered_;

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
+#include "ref/exercise/case_facts.hpp"
+
 #include <algorithm>
 #include <cmath>
 
-#include "ref/exercise/view.hpp"
 #include "ref/position/position.hpp"
 
 namespace ref {

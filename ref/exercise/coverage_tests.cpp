@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
+#include "ref/exercise/coverage_tests.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "ref/coverage/exact/exact.hpp"
-#include "ref/exercise/tests.hpp"
 
 namespace ref {
 

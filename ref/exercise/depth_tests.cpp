@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
+#include "ref/exercise/depth_tests.hpp"
+
 #include "cases/model/sample.hpp"
-#include "ref/exercise/tests.hpp"
 
 namespace ref {
 

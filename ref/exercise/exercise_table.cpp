@@ -7,6 +7,9 @@
 
 #include "cases/fault/fault.hpp"
 #include "cases/model/rule_ids.hpp"
+#include "ref/exercise/coverage_tests.hpp"
+#include "ref/exercise/depth_tests.hpp"
+#include "ref/exercise/value_tests.hpp"
 
 namespace ref {
 

@@ -32,45 +32,6 @@ bool is_written_by_draw(const View& view, const Test& test) {
     return is_written_by(view, [&](uint32_t t) { return test(view.facts.draw_of(t)); });
 }
 
-// What the triangles cover, or not (coverage_tests.cpp).
-bool is_surely_covered(const View& view, std::string_view rule);
-bool is_outside_one(const View& view, std::string_view rule);
-bool is_in_set(const View& view, std::string_view rule);
-bool is_settled(const View& view, std::string_view rule);
-bool is_settled_by_snapping(const View& view, std::string_view rule);
-bool is_overestimated(const View& view, std::string_view rule);
-bool has_reason_of_area(const View& view, std::string_view rule);
-bool is_kept_away(const View& view, std::string_view rule);
-bool is_beside_bad_number(const View& view, std::string_view rule);
-bool crosses_border(const View& view, std::string_view rule);
-bool reaches_volume(const View& view, std::string_view rule);
-
-// With instruments, which count front and back faces apart.
-bool shows_face(const View& view, std::string_view rule);
-
-// Order, depth and stencil (depth_tests.cpp).
-bool is_overwritten(const View& view, std::string_view rule);
-bool is_compared(const View& view, std::string_view rule);
-bool is_depth_kept(const View& view, std::string_view rule);
-bool is_depth_rounded(const View& view, std::string_view rule);
-bool is_clamped(const View& view, std::string_view rule);
-bool has_coord_depth(const View& view, std::string_view rule);
-bool is_counted_by_stencil(const View& view, std::string_view rule);
-bool is_counted_by_query(const View& view, std::string_view rule);
-bool is_of_statistics(const View& view, std::string_view rule);
-
-// Values and what is stored of them (value_tests.cpp).
-bool has_value(const View& view, std::string_view rule);
-bool has_sample_number(const View& view, std::string_view rule);
-bool has_interpolated(const View& view, std::string_view rule);
-bool has_barycentric(const View& view, std::string_view rule);
-bool has_rate_of_several(const View& view, std::string_view rule);
-bool is_of_shared_fragment(const View& view, std::string_view rule);
-bool is_at_sample(const View& view, std::string_view rule);
-bool is_sample_shaded(const View& view, std::string_view rule);
-bool is_written(const View& view, std::string_view rule);
-bool is_passed_by_logic(const View& view, std::string_view rule);
-
 // With instruments, which tell the provoking vertex of what was written last.
 template <cases::ProvokingVertex convention>
 bool is_provoked_by(const View& view, std::string_view) {

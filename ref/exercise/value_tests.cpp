@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
+#include "ref/exercise/value_tests.hpp"
+
 #include <algorithm>
 
 #include "cases/model/sample.hpp"
 #include "ref/coverage/exact/exact.hpp"
-#include "ref/exercise/tests.hpp"
 #include "ref/value/fragment/shading_rate.hpp"
 
 namespace ref {

@@ -14,6 +14,7 @@
 #include "cases/base/regex.hpp"
 #include "cases/model/door.hpp"
 #include "cases/select/selector.hpp"
+#include "run/expected/date.hpp"
 
 namespace run {
 
@@ -493,6 +494,20 @@ void apply(const ExpectationLine& line, report::CaseRecord& record) {
 
 bool skips(const ExpectationLine& line) {
     return line.status == report::Status::skip && !line.is_past;
+}
+
+cases::Errors past_lines(const ExpectationFile& file) {
+    cases::Errors errors;
+    for (const auto* lines : {&file.doors, &file.lines}) {
+        for (const ExpectationLine& line : *lines) {
+            if (line.is_past) {
+                errors.push_back({line.where, "the expectation of '" + line.glob + "' ended on " +
+                                                  line.until +
+                                                  "; re-check it, or extend the date"});
+            }
+        }
+    }
+    return errors;
 }
 
 }  // namespace run

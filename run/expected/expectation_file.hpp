@@ -100,10 +100,5 @@ void apply(const ExpectationLine& line, report::CaseRecord& record);
 bool skips(const ExpectationLine& line);
 // One error for each line whose date is past.
 cases::Errors past_lines(const ExpectationFile& file);
-// True for a day of the calendar, YYYY-MM-DD.
-bool is_date(std::string_view s);
-
-// Today in UTC, YYYY-MM-DD.
-std::string today_utc();
 
 }  // namespace run

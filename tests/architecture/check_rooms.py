@@ -26,14 +26,6 @@ ONLY_IN = {
     r"CLI/": "cli",
     r"toml(\+\+/|\.hpp)": "cases/toml",
 }
-# Sources that still stand without a header, or with functions of a class that lives elsewhere: none may be added.
-TO_MEND = set("""
-    capture/planes.cpp cases/generate/generate.cpp cases/load/load_case.cpp cases/load/load_clip.cpp
-    cases/load/load_depth.cpp rasterizers/algorithm_capture.cpp rasterizers/algorithms/scan_edges.cpp
-    rasterizers/reference_capture.cpp rasterizers/software/target/logic_unit.cpp ref/exercise/case_facts.cpp
-    ref/exercise/coverage_tests.cpp ref/exercise/depth_tests.cpp ref/exercise/value_tests.cpp
-    run/expected/expectation_dates.cpp vk_harness/device/loader.cpp vk_harness/renderer.cpp
-""".split())
 FACTORY = "cli/renderers"  # the table of renderers, which alone knows the harness
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^">]+)[">]')
 SUFFIXES = {".cpp", ".hpp", ".js"}
@@ -178,7 +170,7 @@ def home_problems(root, table):
                 homes[name].add(path.with_suffix(".cpp"))
         for path, text in texts.items():
             name = str(path.relative_to(root))
-            if path.suffix != ".cpp" or name in TO_MEND:
+            if path.suffix != ".cpp":
                 continue
             if not has_header(path, text):
                 yield f"{name}: error: this source has no header; give it one, or the name of what a header declares"

@@ -86,7 +86,7 @@ bool print_faults(const Matrix& matrix, const Sources& sources) {
     bool is_complete = true;
     std::string table;
     size_t found = 0, count = 0;
-    for (const FaultRow& info : cases::kCodeFaults) {
+    for (const FaultRow& info : cases::kFaults) {
         const std::vector<Kill> kills = software::kills_of(matrix, info.fault);
         const std::string where = sources.of(info);
         if (kills.size() < 2 || where.empty()) {
@@ -107,7 +107,7 @@ bool print_faults(const Matrix& matrix, const Sources& sources) {
                              top, cases::to_string(software::loosest(kills)), kills.size(), cases);
     }
     const auto count_of = [&](auto&& is_counted) {
-        return std::count_if(cases::kCodeFaults.begin(), cases::kCodeFaults.end(),
+        return std::count_if(cases::kFaults.begin(), cases::kFaults.end(),
                              [&](const FaultRow& info) {
                                  return is_counted(software::kills_of(matrix, info.fault).size());
                              });
@@ -125,31 +125,6 @@ bool print_faults(const Matrix& matrix, const Sources& sources) {
             count_of([](size_t kills) { return kills > 1; }), count,
             count_of([](size_t kills) { return kills == 0; }), found,
             100.0 * static_cast<double>(found) / static_cast<double>(count))),
-        table);
-    return is_complete;
-}
-
-// Faults that the device draws by a change of the case or the picture; false if one has no body.
-bool print_changes(const Sources& sources) {
-    bool is_complete = true;
-    std::string table;
-    for (const FaultRow& info : cases::kStateFaultRows) {
-        const std::string where = sources.of(info);
-        if (where.empty()) {
-            fmt::print(stderr, "error: {} is in no source\n", info.name);
-            is_complete = false;
-        }
-        table += fmt::format("| `{}` | {} | {} | {} |\n", info.name, info.sentence, where,
-                             code_words(info.rules));
-    }
-    fmt::print(
-        "\n## Faults that take a case for another one\n\n{}\n"
-        "| fault | what the device does | where | breaks |\n| --- | --- | --- | --- |\n{}",
-        wrapped(fmt::format("These {} have no code in the device, which draws the case as a device "
-                            "with the fault takes it, or changes the picture. `edgecase diagnose` "
-                            "tries them as it does those above; how often cases catch them is not "
-                            "recorded.",
-                            cases::kStateFaultRows.size())),
         table);
     return is_complete;
 }
@@ -196,7 +171,7 @@ void print_families(const Matrix& matrix) {
         std::vector<std::string> needed;  // one of two that catch it at all
     };
     std::map<std::string, Family> families;
-    for (const FaultRow& info : cases::kCodeFaults) {
+    for (const FaultRow& info : cases::kFaults) {
         const std::vector<Kill> kills = software::kills_of(matrix, info.fault);
         const cases::Profile level = software::loosest(kills);
         const auto at_level = std::count_if(kills.begin(), kills.end(),
@@ -262,10 +237,9 @@ int main(int argc, char** argv) try {
             matrix.leaves, matrix.files)));
     const Sources sources(argv[1]);
     const bool all_caught = print_faults(matrix, sources);
-    const bool all_drawn = print_changes(sources);
     const bool all_legal = print_legal(matrix);
     print_families(matrix);
-    return all_caught && all_drawn && all_legal ? 0 : 3;
+    return all_caught && all_legal ? 0 : 3;
 } catch (const std::exception& error) {
     fmt::print(stderr, "error: {}\n", error.what());
     return 3;

@@ -35,7 +35,7 @@ report::CaseRecord judged(const cases::Case& c, const software::Device& device) 
 
 std::vector<std::string> software_faults() {
     std::vector<std::string> names;
-    for (const cases::FaultRow& info : cases::kCodeFaults) {
+    for (const cases::FaultRow& info : cases::kFaults) {
         names.emplace_back(info.name);
     }
     return names;

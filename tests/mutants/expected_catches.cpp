@@ -409,7 +409,8 @@ std::vector<ExpectedCatch> expected_catches() {
          {"derivative/linear", "lod/powers", "combination/probes-together"}},
         {"lod-norm"_fault, Profile::vulkan, {"combination/probes-together", "lod/one-axis"}},
     };
-    for (const auto& part : {expected_color_catches(), expected_fragment_catches()}) {
+    for (const auto& part :
+         {expected_color_catches(), expected_fragment_catches(), expected_state_catches()}) {
         out.insert(out.end(), part.begin(), part.end());
     }
     return out;

@@ -18,9 +18,10 @@ struct ExpectedCatch {
 };
 // One row for each fault.
 std::vector<ExpectedCatch> expected_catches();
-// The parts of it that are about colours, resolves and blits, and about the stencil, discards,
-// written depths and depth bounds.
+// The parts of it that are about colours, resolves and blits, about the stencil, discards, written
+// depths and depth bounds, and about devices that take a case for another one.
 std::vector<ExpectedCatch> expected_color_catches();
 std::vector<ExpectedCatch> expected_fragment_catches();
+std::vector<ExpectedCatch> expected_state_catches();
 
 }  // namespace mutants

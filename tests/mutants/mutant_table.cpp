@@ -34,7 +34,7 @@ std::vector<size_t> leaves_of(const std::vector<cases::Case>& suite) {
 void print_faults(const std::vector<cases::Case>& suite, const std::set<std::string>& wanted,
                   bool with_cases, bool all) {
     std::vector<mutants::MatrixRow> rows;
-    for (const auto& info : cases::kCodeFaults) {
+    for (const auto& info : cases::kFaults) {
         if (wanted.empty() || wanted.count(std::string(info.name)) > 0) {
             mutants::MatrixRow row;
             row.fault = info.fault;

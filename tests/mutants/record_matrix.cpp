@@ -211,7 +211,7 @@ void thin_out(std::vector<const cases::Case*>& leaves) {
 int record_faults(const cases::Suite& suite, const char* path, Plan plan) {
     const bool some_faults = !plan.faults.empty();
     if (!some_faults) {
-        for (const cases::FaultRow& info : cases::kCodeFaults) {
+        for (const cases::FaultRow& info : cases::kFaults) {
             plan.faults.push_back(info.fault);
         }
     }

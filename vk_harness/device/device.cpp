@@ -157,8 +157,10 @@ Device::~Device() {
     }
 }
 
-Handle<VkBuffer> make_buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage) {
+Handle<VkBuffer> make_buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage,
+                             const void* next) {
     VkBufferCreateInfo info = Typed{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
+    info.pNext = next;
     info.size = size;
     info.usage = usage;
     info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;

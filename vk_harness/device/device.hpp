@@ -68,7 +68,9 @@ Handle<T> make(const Device& device, Stage stage, std::string_view name,
     return Handle<T>(device.get(), handle, destroy);
 }
 
-// A buffer of the device, not bound to memory yet.
-Handle<VkBuffer> make_buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage);
+// A buffer of the device, not bound to memory yet. `next` extends the structure that it is made
+// from.
+Handle<VkBuffer> make_buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage,
+                             const void* next = nullptr);
 
 }  // namespace vk_harness

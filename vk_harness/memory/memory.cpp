@@ -152,16 +152,25 @@ bool has_linear(VkPhysicalDevice physical, const VkImageCreateInfo& info) {
            limits.maxExtent.height >= info.extent.height;
 }
 
+Buffer::Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage, const void* next)
+    : device_(&device), buffer_(make_buffer(device, size, usage, next)), size_(size) {}
+
+VkMemoryRequirements Buffer::needs() const {
+    VkMemoryRequirements needs{};
+    device_->vk().vkGetBufferMemoryRequirements(device_->get(), get(), &needs);
+    return needs;
+}
+
+void Buffer::bind(Handle<VkDeviceMemory> memory) {
+    memory_ = std::move(memory);
+    check(Stage::memory, device_->vk().vkBindBufferMemory(device_->get(), get(), memory_.get(), 0),
+          "vkBindBufferMemory");
+}
+
 Buffer Buffer::create(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage,
                       HostAccess access) {
-    const VolkDeviceTable& vk = device.vk();
-    Buffer buffer;
-    buffer.device_ = &device;
-    buffer.buffer_ = make_buffer(device, size, usage);
-    buffer.size_ = size;
-
-    VkMemoryRequirements needs{};
-    vk.vkGetBufferMemoryRequirements(device.get(), buffer.get(), &needs);
+    Buffer buffer(device, size, usage);
+    const VkMemoryRequirements needs = buffer.needs();
     const VkPhysicalDeviceMemoryProperties& memory = device.capabilities().memory;
     const auto type =
         find_memory_type(memory, needs.memoryTypeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT,
@@ -172,12 +181,10 @@ Buffer Buffer::create(const Device& device, VkDeviceSize size, VkBufferUsageFlag
     }
     buffer.coherent_ =
         (memory.memoryTypes[*type].propertyFlags & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT) != 0;
-    buffer.memory_ = allocate(device, needs.size, *type);
-    check(Stage::memory, vk.vkBindBufferMemory(device.get(), buffer.get(), buffer.memory_.get(), 0),
-          "vkBindBufferMemory");
+    buffer.bind(allocate(device, needs.size, *type));
     void* data = nullptr;
     check(Stage::memory,
-          vk.vkMapMemory(device.get(), buffer.memory_.get(), 0, VK_WHOLE_SIZE, 0, &data),
+          device.vk().vkMapMemory(device.get(), buffer.memory_.get(), 0, VK_WHOLE_SIZE, 0, &data),
           "vkMapMemory");
     buffer.data_ = static_cast<std::byte*>(data);
     return buffer;
@@ -186,22 +193,11 @@ Buffer Buffer::create(const Device& device, VkDeviceSize size, VkBufferUsageFlag
 Buffer Buffer::import(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage) {
     constexpr VkExternalMemoryHandleTypeFlagBits kHost =
         VK_EXTERNAL_MEMORY_HANDLE_TYPE_HOST_ALLOCATION_BIT_EXT;
-    const VolkDeviceTable& vk = device.vk();
     VkExternalMemoryBufferCreateInfo external =
         Typed{VK_STRUCTURE_TYPE_EXTERNAL_MEMORY_BUFFER_CREATE_INFO};
     external.handleTypes = kHost;
-    VkBufferCreateInfo info = Typed{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
-    info.pNext = &external;
-    info.size = size;
-    info.usage = usage;
-    info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
-    Buffer buffer;
-    buffer.device_ = &device;
-    buffer.size_ = size;
-    buffer.buffer_ =
-        make(device, Stage::memory, "vkCreateBuffer", vk.vkCreateBuffer, vk.vkDestroyBuffer, info);
-    VkMemoryRequirements needs{};
-    vk.vkGetBufferMemoryRequirements(device.get(), buffer.get(), &needs);
+    Buffer buffer(device, size, usage, &external);
+    const VkMemoryRequirements needs = buffer.needs();
     // A power of two, of which address and size are multiples.
     const VkDeviceSize alignment =
         std::max({device.capabilities().doors.host_alignment, needs.alignment,
@@ -215,7 +211,8 @@ Buffer Buffer::import(const Device& device, VkDeviceSize size, VkBufferUsageFlag
     VkMemoryHostPointerPropertiesEXT offered =
         Typed{VK_STRUCTURE_TYPE_MEMORY_HOST_POINTER_PROPERTIES_EXT};
     check(Stage::memory,
-          vk.vkGetMemoryHostPointerPropertiesEXT(device.get(), kHost, buffer.host_.get(), &offered),
+          device.vk().vkGetMemoryHostPointerPropertiesEXT(device.get(), kHost, buffer.host_.get(),
+                                                          &offered),
           "vkGetMemoryHostPointerPropertiesEXT");
     const auto type = find_memory_type(
         device.capabilities().memory, needs.memoryTypeBits & offered.memoryTypeBits,
@@ -227,9 +224,7 @@ Buffer Buffer::import(const Device& device, VkDeviceSize size, VkBufferUsageFlag
         Typed{VK_STRUCTURE_TYPE_IMPORT_MEMORY_HOST_POINTER_INFO_EXT};
     imported.handleType = kHost;
     imported.pHostPointer = buffer.host_.get();
-    buffer.memory_ = allocate(device, bytes, *type, &imported);
-    check(Stage::memory, vk.vkBindBufferMemory(device.get(), buffer.get(), buffer.memory_.get(), 0),
-          "vkBindBufferMemory");
+    buffer.bind(allocate(device, bytes, *type, &imported));
     buffer.data_ = buffer.host_.get();
     return buffer;
 }

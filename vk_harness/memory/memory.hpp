@@ -36,6 +36,11 @@ class Buffer {
     void invalidate() const;
 
   private:
+    // Not bound to memory yet. `next` extends the structure that it is made from.
+    Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage,
+           const void* next = nullptr);
+    VkMemoryRequirements needs() const;
+    void bind(Handle<VkDeviceMemory> memory);
     // Flushes or invalidates all of the memory by `call`, unless it is coherent.
     void synchronize(PFN_vkFlushMappedMemoryRanges VolkDeviceTable::*call, Stage stage,
                      std::string_view name) const;

@@ -351,11 +351,6 @@ void decode_attribute(const std::vector<Attachment>& attachments, const Readback
 
 }  // namespace
 
-bool counts_in_halves(const std::vector<Attachment>& attachments) {
-    return std::any_of(attachments.begin(), attachments.end(),
-                       [](const Attachment& a) { return a.halves; });
-}
-
 void read_planes(const std::vector<Attachment>& attachments, const ReadbackLayout& layout,
                  std::span<const std::byte> memory, const capture::PlaneSpans& to) {
     size_t attribute = 0;

@@ -44,8 +44,6 @@ capture::ColorCodes decode_texel(cases::ColorFormat format, const std::byte* tex
 glm::vec4 decode_hits(uint32_t bits, const HitCode& code = kBinary32Hits);
 // The same of two numbers, for front and back hits.
 glm::vec4 decode_hits(uint32_t front_bits, uint32_t back_bits, const HitCode& code = kBinary32Hits);
-// Whether hits were counted in binary16.
-bool counts_in_halves(const std::vector<Attachment>& attachments);
 
 // An id that the device wrote as binary32: an integer below 2^24, -1 and -3 for 'cleared' and -2
 // for 'this device has no gl_PrimitiveID'. Poison stays poison; anything else becomes kMalformedId.

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "rasterizers/software/target/blend_math.hpp"
+#include "rasterizers/software/target/logic_unit.hpp"
 #include "rasterizers/software/target/neighbour.hpp"
 
 namespace software {
@@ -203,8 +204,9 @@ Texel BlendUnit::write(const cases::ColorOutput& output, const glm::vec4& writte
         codes[3] = store_channel(1.0F, channels[3], device_);
     }
     for (size_t k = 0; operates && k < 4; ++k) {
-        if (has_logic(k)) {
-            codes[k] = operated(*output.logic, codes[k], before[layout_.position[k]], k);
+        if (has_logic(layout_, k, device_.fault)) {
+            codes[k] = operated(*output.logic, codes[k], before[layout_.position[k]],
+                                layout_.channels[k].bits, device_.fault);
         }
     }
     Texel out = before;

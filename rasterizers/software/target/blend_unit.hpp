@@ -42,10 +42,6 @@ class BlendUnit {
                                         const std::array<uint32_t, 4>& source,
                                         const std::array<uint32_t, 4>& destination) const;
     bool is_fixed() const;  // the target is of fixed point
-    // Whether component k takes logical operations (logic_unit.cpp).
-    bool has_logic(size_t k) const;
-    // The code of component k after an operation.
-    uint32_t operated(cases::LogicOp op, uint32_t source, uint32_t before, size_t k) const;
 
     const Device& device_;
     cases::ColorFormat format_;

@@ -45,7 +45,7 @@ TEST(DefaultDoors, TakeTheCaseThatIsCheapestToDraw) {
     for (cases::Case& c : all) {
         selected.push_back(&c);
     }
-    ASSERT_TRUE(choose_doors("default", selected));
+    choose_doors("default", selected);
     for (const cases::DoorRow& row : cases::all_doors()) {
         for (const size_t family : {0U, 2U}) {
             const cases::Case& crowded = all[family];

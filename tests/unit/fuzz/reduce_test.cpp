@@ -17,6 +17,7 @@
 #include "cases/wire/case_bytes.hpp"
 #include "fuzz/reduce/measure.hpp"
 #include "reduce_documents.hpp"
+#include "simpler.hpp"
 #include "suite_documents.hpp"
 #include "tests/share.hpp"
 

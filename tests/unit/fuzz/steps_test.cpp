@@ -15,6 +15,7 @@
 #include "fuzz/reduce/measure.hpp"
 #include "fuzz/reduce/reduce.hpp"
 #include "reduce_documents.hpp"
+#include "simpler.hpp"
 
 namespace fuzz {
 namespace {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "run/expected/date.hpp"
 #include "run/worker/fault.hpp"
 
 namespace run {

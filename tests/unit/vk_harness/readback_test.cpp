@@ -360,8 +360,7 @@ TEST(ReadCapture, NarrowAttachmentsHoldTheSame) {
     EXPECT_EQ(split.attributes[1][1], glm::vec4(0, 8, 0, 0));
 }
 
-// Hits that were counted in binary16, in either layout: the capture is the same to the bit, and
-// says how they were counted.
+// Hits that were counted in binary16, in either layout: the capture is the same to the bit.
 TEST(ReadCapture, HalvesHoldTheSame) {
     cases::Case c = target_case({3, 1, 1}, 0);
     c.draws.resize(5);
@@ -371,7 +370,6 @@ TEST(ReadCapture, HalvesHoldTheSame) {
                           const std::vector<std::vector<uint16_t>>& halves,
                           const std::vector<std::vector<float>>& words) {
         const std::vector<Attachment> attachments = attachments_of(c, layout);
-        EXPECT_EQ(counts_in_halves(attachments), layout.halves);
         const ReadbackLayout places = make_layout(c.target, attachments, 0, 64);
         std::vector<std::byte> memory(places.end);
         poison(memory);

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
+#include "cases/load/depth.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,8 +10,6 @@
 #include <optional>
 #include <string_view>
 #include <utility>
-
-#include "cases/load/parts.hpp"
 
 namespace cases {
 

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
+#include "cases/toml/toml_text.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,24 +13,25 @@
 #include <utility>
 
 #include "cases/key/key.hpp"
-#include "fuzz/document/document.hpp"
 
-namespace fuzz {
+namespace cases {
 
 namespace {
+
+using Kind = TomlValue::Kind;
 
 constexpr size_t kColumns = 100;  // of a line, where values allow it
 
 // Keys stand as their rows do, those of triangles behind the others, and last those without a row.
-std::vector<const cases::TomlEntry*> ordered(const Document& table, const cases::KeyTable* keys) {
-    std::vector<std::pair<std::pair<int, const cases::Key*>, const cases::TomlEntry*>> entries;
-    for (const cases::TomlEntry& entry : table.table) {
-        const cases::Key* row = cases::find_key(keys, entry.key);
-        const int group = row == nullptr ? 2 : row->has(cases::Key::kShape) ? 1 : 0;
+std::vector<const TomlEntry*> ordered(const TomlValue& table, const KeyTable* keys) {
+    std::vector<std::pair<std::pair<int, const Key*>, const TomlEntry*>> entries;
+    for (const TomlEntry& entry : table.table) {
+        const Key* row = find_key(keys, entry.key);
+        const int group = row == nullptr ? 2 : row->has(Key::kShape) ? 1 : 0;
         entries.push_back({{group, row}, &entry});
     }
     std::ranges::stable_sort(entries, {}, [](const auto& e) { return e.first; });
-    std::vector<const cases::TomlEntry*> out;
+    std::vector<const TomlEntry*> out;
     std::ranges::transform(entries, std::back_inserter(out),
                            [](const auto& e) { return e.second; });
     return out;
@@ -78,17 +81,17 @@ std::string key_text(const std::string& key) {
                                                                              : quoted(key, true);
 }
 
-std::string inline_text(const Document& value, const cases::KeyTable* keys);
+std::string inline_text(const TomlValue& value, const KeyTable* keys);
 
-std::string array_text(const Document& value, const cases::KeyTable* keys) {
+std::string array_text(const TomlValue& value, const KeyTable* keys) {
     std::string out = "[";
-    for (const Document& element : value.array) {
+    for (const TomlValue& element : value.array) {
         out += (out.size() > 1 ? ", " : "") + inline_text(element, keys);
     }
     return out + "]";
 }
 
-std::string inline_text(const Document& value, const cases::KeyTable* keys) {
+std::string inline_text(const TomlValue& value, const KeyTable* keys) {
     switch (value.kind) {
         case Kind::boolean:
             return value.boolean ? "true" : "false";
@@ -102,9 +105,9 @@ std::string inline_text(const Document& value, const cases::KeyTable* keys) {
             return array_text(value, keys);
         case Kind::table: {
             std::string out;
-            for (const cases::TomlEntry* entry : ordered(value, keys)) {
+            for (const TomlEntry* entry : ordered(value, keys)) {
                 out += fmt::format("{}{} = {}", out.empty() ? "" : ", ", key_text(entry->key),
-                                   inline_text(entry->value, cases::keys_in(keys, entry->key)));
+                                   inline_text(entry->value, keys_in(keys, entry->key)));
             }
             return out.empty() ? "{}" : "{ " + out + " }";
         }
@@ -115,10 +118,10 @@ std::string inline_text(const Document& value, const cases::KeyTable* keys) {
 }
 
 // An array over several lines: one element a line if they are arrays, as many as fit otherwise.
-std::string wrapped(const Document& value, const cases::KeyTable* keys) {
+std::string wrapped(const TomlValue& value, const KeyTable* keys) {
     std::string out = "[";
     std::string line;
-    for (const Document& element : value.array) {
+    for (const TomlValue& element : value.array) {
         const std::string next = inline_text(element, keys) + ",";
         if (!line.empty() &&
             (element.is(Kind::array) || line.size() + 1 + next.size() > kColumns)) {
@@ -133,13 +136,13 @@ std::string wrapped(const Document& value, const cases::KeyTable* keys) {
     return out + "\n" + line + "\n]";
 }
 
-bool is_all_tables(const Document& value) {
+bool is_all_tables(const TomlValue& value) {
     return value.is(Kind::array) && !value.array.empty() &&
-           std::ranges::all_of(value.array, [](const Document& d) { return d.is(Kind::table); });
+           std::ranges::all_of(value.array, [](const TomlValue& d) { return d.is(Kind::table); });
 }
 
 // Whether [name.key] tells it, not key = value inside of [name].
-bool has_header(const std::string& parent, const cases::TomlEntry& entry) {
+bool has_header(const std::string& parent, const TomlEntry& entry) {
     if (entry.value.is(Kind::table)) {
         return parent.empty() || parent == "target" || parent == "expect";
     }
@@ -147,41 +150,41 @@ bool has_header(const std::string& parent, const cases::TomlEntry& entry) {
            entry.key != "relations";
 }
 
-void write_entries(const std::string& parent, const Document& table, const cases::KeyTable* keys,
+void write_entries(const std::string& parent, const TomlValue& table, const KeyTable* keys,
                    std::string& out) {
-    const std::vector<const cases::TomlEntry*> entries = ordered(table, keys);
-    for (const cases::TomlEntry* entry : entries) {
+    const std::vector<const TomlEntry*> entries = ordered(table, keys);
+    for (const TomlEntry* entry : entries) {
         if (has_header(parent, *entry)) {
             continue;
         }
         const std::string line = key_text(entry->key) + " = ";
-        const cases::KeyTable* inner = cases::keys_in(keys, entry->key);
+        const KeyTable* inner = keys_in(keys, entry->key);
         const std::string plain = inline_text(entry->value, inner);
         const bool is_long = entry->value.is(Kind::array) && !entry->value.array.empty() &&
                              (entry->key == "vertices" || line.size() + plain.size() > kColumns);
         out += line + (is_long ? wrapped(entry->value, inner) : plain) + "\n";
     }
-    for (const cases::TomlEntry* entry : entries) {
+    for (const TomlEntry* entry : entries) {
         if (!has_header(parent, *entry)) {
             continue;
         }
         const std::string name = (parent.empty() ? "" : parent + ".") + key_text(entry->key);
         const bool is_list = entry->value.is(Kind::array);
-        const std::span<const Document> tables =
+        const std::span<const TomlValue> tables =
             is_list ? std::span(entry->value.array) : std::span(&entry->value, 1);
-        for (const Document& one : tables) {
+        for (const TomlValue& one : tables) {
             out += is_list ? fmt::format("\n[[{}]]\n", name) : fmt::format("\n[{}]\n", name);
-            write_entries(name, one, cases::keys_in(keys, entry->key), out);
+            write_entries(name, one, keys_in(keys, entry->key), out);
         }
     }
 }
 
 }  // namespace
 
-std::string to_text(const Document& document) {
+std::string to_text(const TomlValue& document) {
     std::string out;
-    write_entries("", document, &cases::kFileKeys, out);
+    write_entries("", document, &kFileKeys, out);
     return out;
 }
 
-}  // namespace fuzz
+}  // namespace cases

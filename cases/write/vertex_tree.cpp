@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cases/write/vertex_text.hpp"
+#include "cases/write/vertex_tree.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 #include "cases/base/float_bits.hpp"
 #include "cases/generate/vertices.hpp"
 #include "cases/toml/binary32.hpp"
-#include "cases/write/toml_text.hpp"
+#include "cases/write/table_tree.hpp"
 
 namespace cases {
 
@@ -28,7 +28,7 @@ constexpr int kLastDigits = 17;             // ... up to what tells binary64 num
 // A number of a file and its exact value.
 struct Written {
     Number number;
-    std::string text;
+    TomlValue value;
 };
 
 // How the loader goes from a position to clip space: (p - origin) * factor, rounded once.
@@ -40,20 +40,21 @@ struct Conversion {
     }
 };
 
-// The text of a rational: a TOML number or an expression such as "3+17/256", what is shorter.
-std::string text_of(const mpq_class& q) {
+// A rational: a TOML number or an expression such as "3+17/256", what is shorter.
+TomlValue value_of(const mpq_class& q) {
+    const double near = q.get_d();
     if (q.get_den() == 1) {
-        return q.get_num().get_str();
+        return tree::number(near);
     }
     const mpz_class whole = q.get_num() / q.get_den();  // towards 0
     const mpq_class rest = q - whole;
-    std::string expression = "\"";
-    expression += whole != 0 ? whole.get_str() : "";
+    std::string expression = whole != 0 ? whole.get_str() : "";
     expression += whole != 0 && rest > 0 ? "+" : "";
-    expression += rest.get_str() + "\"";
-    const double near = q.get_d();
-    const std::string plain = fmt::format("{}", near);
-    return exact(near) == q && plain.size() <= expression.size() ? plain : expression;
+    expression += rest.get_str();
+    constexpr size_t kQuotes = 2;
+    return exact(near) == q && fmt::format("{}", near).size() <= expression.size() + kQuotes
+               ? tree::number(near)
+               : tree::text(expression);
 }
 
 // The nearest multiple of 1/n.
@@ -82,12 +83,12 @@ std::optional<Written> simplest(const Conversion& conversion, float wanted) {
     for (unsigned bits = 0; bits <= kFinestGrid; ++bits) {
         const mpq_class q = multiple(about, mpz_class(1) << bits);
         if (is_right(q)) {
-            return Written{{q}, text_of(q)};
+            return Written{{q}, value_of(q)};
         }
     }
     const auto decimal = [&](const std::string& text) -> std::optional<Written> {
         const mpq_class q = exact(std::stod(text));
-        return is_right(q) ? std::optional(Written{{q}, text}) : std::nullopt;
+        return is_right(q) ? std::optional(Written{{q}, tree::number(q.get_d())}) : std::nullopt;
     };
     const double near = about.get_d();
     for (int digits = 1; digits <= kFewDecimals; ++digits) {
@@ -109,7 +110,7 @@ std::optional<Written> simplest(const Conversion& conversion, float wanted) {
         }
         const mpq_class q(h[0], k[0]);
         if (is_right(q)) {
-            return Written{{q}, text_of(q)};
+            return Written{{q}, value_of(q)};
         }
         rest -= whole;
         if (rest == 0) {
@@ -126,18 +127,17 @@ std::optional<Written> simplest(const Conversion& conversion, float wanted) {
 }
 
 // What is written of each vertex, all as long as the longest: z = 1/2 and w = 1 may be missing.
-std::vector<std::string> joined(const std::vector<std::array<std::string, 4>>& vertices,
-                                size_t numbers) {
-    std::vector<std::string> out;
+std::vector<TomlValue> joined(const std::vector<std::array<TomlValue, 4>>& vertices,
+                              size_t numbers) {
+    std::vector<TomlValue> out;
     out.reserve(vertices.size());
-    for (const std::array<std::string, 4>& v : vertices) {
-        out.push_back(
-            list_toml({v.begin(), v.begin() + static_cast<std::ptrdiff_t>(numbers)}, ","));
+    for (const std::array<TomlValue, 4>& v : vertices) {
+        out.push_back(tree::list({v.begin(), v.begin() + static_cast<std::ptrdiff_t>(numbers)}));
     }
     return out;
 }
 
-std::optional<std::vector<std::string>> in_pixels(const Draw& draw) {
+std::optional<std::vector<TomlValue>> in_pixels(const Draw& draw) {
     const Viewport& v = draw.viewport;
     if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.width) ||
         !std::isfinite(v.height)) {
@@ -151,7 +151,7 @@ std::optional<std::vector<std::string>> in_pixels(const Draw& draw) {
     const mpq_class origin_x = exact(static_cast<double>(v.x)) + half_x;
     const mpq_class origin_y = exact(static_cast<double>(v.y)) + half_y;
     std::vector<ExactVertex> exact_vertices;
-    std::vector<std::array<std::string, 4>> texts;
+    std::vector<std::array<TomlValue, 4>> values;
     size_t numbers = 2;
     for (const glm::vec4& p : draw.positions) {
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z) ||
@@ -166,12 +166,12 @@ std::optional<std::vector<std::string>> in_pixels(const Draw& draw) {
             return std::nullopt;
         }
         if (std::fpclassify(p.z) == FP_ZERO && std::signbit(p.z) != std::signbit(p.w)) {
-            *z = {{0, true}, "-0.0"};
+            *z = {{0, true}, tree::number(-0.0)};
         }
         const bool is_flat = z->number.value == mpq_class(1, 2);
         numbers = std::max<size_t>(numbers, w != 1 ? 4 : is_flat ? 2 : 3);
         exact_vertices.push_back({{x->number, y->number, z->number, {w}}});
-        texts.push_back({x->text, y->text, z->text, number_toml(p.w, Reading::nearest)});
+        values.push_back({x->value, y->value, z->value, number_value(p.w, Reading::nearest)});
     }
     // The loader has the last word, about the signs of zeros, too.
     LeafContext context({});
@@ -186,21 +186,20 @@ std::optional<std::vector<std::string>> in_pixels(const Draw& draw) {
                              draw.positions.end(), same)) {
         return std::nullopt;
     }
-    return joined(texts, numbers);
+    return joined(values, numbers);
 }
 
 }  // namespace
 
-VertexText vertex_text(const Draw& draw) {
-    if (std::optional<std::vector<std::string>> pixels = in_pixels(draw)) {
+VertexTree vertex_tree(const Draw& draw) {
+    if (std::optional<std::vector<TomlValue>> pixels = in_pixels(draw)) {
         return {true, std::move(*pixels)};
     }
-    VertexText out;
+    VertexTree out;
     for (const glm::vec4& p : draw.positions) {
         out.vertices.push_back(
-            list_toml({number_toml(p.x, Reading::exact), number_toml(p.y, Reading::exact),
-                       number_toml(p.z, Reading::exact), number_toml(p.w, Reading::exact)},
-                      ","));
+            tree::list({number_value(p.x, Reading::exact), number_value(p.y, Reading::exact),
+                        number_value(p.z, Reading::exact), number_value(p.w, Reading::exact)}));
     }
     return out;
 }

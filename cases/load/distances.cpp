@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
+#include "cases/load/distances.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,8 +9,6 @@
 #include <cmath>
 #include <string>
 #include <string_view>
-
-#include "cases/load/parts.hpp"
 
 namespace cases {
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
+#include "run/expected/date.hpp"
+
 #include <array>
 #include <chrono>
 #include <ctime>
-
-#include "run/expected/expectation_file.hpp"
 
 namespace run {
 
@@ -24,20 +24,6 @@ bool is_date(std::string_view s) {
     return year_month_day(year(number(0, 4)), month(static_cast<unsigned>(number(5, 2))),
                           day(static_cast<unsigned>(number(8, 2))))
         .ok();
-}
-
-cases::Errors past_lines(const ExpectationFile& file) {
-    cases::Errors errors;
-    for (const auto* lines : {&file.doors, &file.lines}) {
-        for (const ExpectationLine& line : *lines) {
-            if (line.is_past) {
-                errors.push_back({line.where, "the expectation of '" + line.glob + "' ended on " +
-                                                  line.until +
-                                                  "; re-check it, or extend the date"});
-            }
-        }
-    }
-    return errors;
 }
 
 std::string today_utc() {

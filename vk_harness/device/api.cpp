@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
+#include "vk_harness/device/api.hpp"
+
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <map>
 #include <vector>
-
-#include "vk_harness/device/api.hpp"
 
 namespace vk_harness {
 
