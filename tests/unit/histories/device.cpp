@@ -1,0 +1,368 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "device.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace histories {
+
+namespace {
+
+using cases::Profile;
+
+// Depths of triangles that lie less far apart may be computed to lie in any order: those of scenes
+// are equal or 1/1024 apart, and what a triangle's depth may be off is about 1e-5.
+constexpr double kNear = 1.0 / 4096;
+
+struct Depth {
+    double number = 0;     // exact
+    double computed = 0;   // by a device
+    bool is_exact = true;  // nobody computes it: cleared or written by a shader
+};
+
+double stored_depth(const Scene& scene, double depth) {
+    const DepthFormat format = scene.depth.value_or(DepthFormat::d32);
+    if (format == DepthFormat::d32) {
+        return static_cast<float>(depth);
+    }
+    const double all = format == DepthFormat::d24 ? 16777215 : 65535;
+    return std::nearbyint(depth * all) / all;
+}
+
+// The relations that `a` may have to `b`.
+uint8_t relations(const Scene& scene, const Freedom& freedom, const Depth& a, const Depth& b) {
+    if (freedom.is_device) {
+        return a.computed < b.computed ? kLess : a.computed > b.computed ? kGreater : kEqual;
+    }
+    if (std::abs(a.number - b.number) >= kNear) {
+        return a.number < b.number ? kLess : kGreater;
+    }
+    const bool is_float = scene.depth.value_or(DepthFormat::d32) == DepthFormat::d32;
+    const bool is_end =
+        is_same(a.number, b.number) && (is_same(a.number, 0) || is_same(a.number, 1));
+    return a.is_exact && b.is_exact && (is_float || is_end) ? kEqual : kAlways;
+}
+
+bool asked(uint8_t passing, uint8_t possible, const Pick& pick) {
+    if ((passing & possible) == 0 || (possible & ~passing) == 0) {
+        return (passing & possible) != 0;
+    }
+    return pick(2) != 0;
+}
+
+uint8_t relation(uint32_t a, uint32_t b) {
+    return a < b ? kLess : a > b ? kGreater : kEqual;
+}
+
+uint32_t operated(StencilOp op, uint32_t stored, uint32_t reference) {
+    switch (op) {
+        case StencilOp::keep:
+            return stored;
+        case StencilOp::zero:
+            return 0;
+        case StencilOp::replace:
+            return reference;
+        case StencilOp::inc:
+            return std::min(stored + 1, 255U);
+        case StencilOp::dec:
+            return stored == 0 ? 0 : stored - 1;
+        case StencilOp::invert:
+            return ~stored & 255;
+        case StencilOp::inc_wrap:
+            return (stored + 1) & 255;
+        case StencilOp::dec_wrap:
+            return (stored - 1) & 255;
+    }
+    return stored;
+}
+
+bool is_of_pixel(Discard which, const Place& place) {
+    return (which == Discard::odd_columns && place.x % 2 == 1) ||
+           (which == Discard::odd_rows && place.y % 2 == 1) ||
+           (which == Discard::checker && (place.x + place.y) % 2 == 1);
+}
+
+double attribute_at(const Draw& draw, const Place& place) {
+    return draw.discard == Discard::negative ? draw.sign * (place.x + 0.5 - draw.zero) : 1;
+}
+
+// The fragments of one sample, and what is stored there.
+class Sample {
+  public:
+    Sample(const Scene& scene, const Place& place, const Freedom& freedom, const Kept& kept,
+           const Pick& pick, const Fault& fault)
+        : scene_(scene), place_(place), freedom_(freedom), kept_(kept), pick_(pick), fault_(fault) {
+        depth_ = {scene.depth_clear, stored_depth(scene, scene.depth_clear), true};
+        seen_.stencil = scene.stencil_clear;
+        if (!scene.colors.empty()) {
+            seen_.color = clear_codes(scene.colors[scene.judged]);
+        }
+    }
+
+    void draw(size_t number) {
+        for (size_t t = 0; t < scene_.draws[number].triangles.size(); ++t) {
+            draw_triangle(number, t);
+        }
+    }
+
+    Seen seen() const {
+        Seen seen = seen_;
+        seen.depth = freedom_.is_device ? depth_.computed : depth_.number;
+        return seen;
+    }
+
+  private:
+    const Scene& scene_;
+    const Place& place_;
+    const Freedom& freedom_;
+    const Kept& kept_;
+    const Pick& pick_;
+    const Fault& fault_;
+    Depth depth_;
+    Seen seen_;
+    std::map<int, bool> first_of_pair_;  // whether the pair's first triangle has the sample
+
+    bool is_wrong(Wrong what, size_t number) const {
+        return fault_.what == what && fault_.draw == number;
+    }
+
+    bool is_culled(size_t number, const Triangle& triangle) const {
+        const Draw& draw = scene_.draws[number];
+        return !is_wrong(Wrong::cull_ignored, number) &&
+               (is_front(draw, triangle) ? draw.culls_front : draw.culls_back);
+    }
+
+    // Of the pair both are drawn, by one draw and with one facing: only then the text speaks of it.
+    bool is_pair_held(size_t number, int pair) const {
+        int drawn = 0, fronts = 0;
+        for (const Triangle& t : scene_.draws[number].triangles) {
+            if (t.pair == pair && !is_culled(number, t)) {
+                ++drawn;
+                fronts += is_front(scene_.draws[number], t) ? 1 : 0;
+            }
+        }
+        return drawn == 2 && fronts != 1;
+    }
+
+    bool covers(size_t number, const Triangle& triangle) {
+        const Shape& shape = triangle.shape;
+        if (shape.cut == Shape::Cut::none) {
+            return true;
+        }
+        const double at = shape.cut == Shape::Cut::x ? place_.at_x : place_.at_y;
+        if (!is_same(at, shape.edge)) {
+            return (at > shape.edge) == shape.is_beyond;
+        }
+        // What lies beyond has a left edge there, or a top one.
+        if (freedom_.profile == Profile::direct3d) {
+            return shape.is_beyond;
+        }
+        // The text leaves each alone where it does not speak of both, but a device does not.
+        if (triangle.pair < 0 || (!freedom_.is_device && !is_pair_held(number, triangle.pair))) {
+            return pick_(2) != 0;
+        }
+        const auto found = first_of_pair_.find(triangle.pair);
+        if (found != first_of_pair_.end()) {
+            return !found->second;
+        }
+        return first_of_pair_[triangle.pair] = pick_(2) != 0;
+    }
+
+    // Whether the fragment shader keeps the fragment.
+    bool is_kept(size_t number, size_t t) {
+        const Draw& draw = scene_.draws[number];
+        if (is_wrong(Wrong::discard_ignored, number)) {
+            return true;
+        }
+        const bool is_front_face = is_front(draw, draw.triangles[t]);
+        switch (draw.discard) {
+            case Discard::none:
+                return !is_wrong(Wrong::discards_all, number);
+            case Discard::front:
+                return !is_front_face;
+            case Discard::back:
+                return is_front_face;
+            case Discard::negative:
+                if (!is_sign_open(draw, place_)) {
+                    return attribute_at(draw, place_) > 0;
+                }
+                return is_shared(scene_, freedom_) ? kept_[number][t] : pick_(2) != 0;
+            default:
+                return !is_of_pixel(draw.discard, place_);
+        }
+    }
+
+    bool survives_alpha(const Draw& draw) {
+        if (!draw.alpha_to_coverage || scene_.colors.empty() ||
+            scene_.colors[0].about().kind == ColorFormat::Kind::integer) {
+            return true;
+        }
+        const double alpha = draw.colors[0].value[3];
+        const bool is_end = alpha <= 0 || alpha >= 1;
+        const bool is_decided = freedom_.profile == Profile::direct3d && scene_.samples > 1;
+        if (is_end && (freedom_.is_device || (is_decided && !draw.shader_mask))) {
+            return alpha > 0;
+        }
+        return pick_(2) != 0;
+    }
+
+    Depth depth_of(const Draw& draw, const Triangle& triangle) const {
+        if (draw.frag_depth && !draw.early) {
+            const FragDepth& written = *draw.frag_depth;
+            const double number =
+                is_of_pixel(written.where, place_) ? written.other : written.value;
+            return {number, stored_depth(scene_, number), true};
+        }
+        const double number = triangle.z0 + triangle.slope * (place_.at_x - triangle.x0);
+        double computed = number;
+        if (!is_same(triangle.slope, 0)) {  // the same plane has the same depth again
+            uint64_t hash = freedom_.seed;
+            for (const double part :
+                 {triangle.z0, triangle.slope, triangle.x0, triangle.shape.edge,
+                  static_cast<double>(triangle.shape.cut), triangle.shape.is_beyond ? 1.0 : 2.0,
+                  triangle.is_reversed ? 1.0 : 2.0, place_.at_x, place_.at_y}) {
+                hash = (hash ^ static_cast<uint64_t>(part * 4096)) * 0x9e3779b97f4a7c15U;
+                hash ^= hash >> 29;
+            }
+            computed += (static_cast<double>(hash % 3) - 1) * 0x1p-24;
+        }
+        return {number, stored_depth(scene_, computed), false};
+    }
+
+    bool is_within_bounds(size_t number) {
+        const Draw& draw = scene_.draws[number];
+        if (!draw.bounds || is_wrong(Wrong::bounds_ignored, number)) {
+            return true;
+        }
+        const auto bound = [&](double b) { return Depth{b, stored_depth(scene_, b), true}; };
+        const Depth low = bound((*draw.bounds)[0]), high = bound((*draw.bounds)[1]);
+        return asked(kEqual | kGreater, relations(scene_, freedom_, depth_, low), pick_) &&
+               asked(kEqual | kLess, relations(scene_, freedom_, depth_, high), pick_);
+    }
+
+    // Depth bounds, stencil and depth: whether the fragment passes them all.
+    bool passes(size_t number, const Triangle& triangle) {
+        const Draw& draw = scene_.draws[number];
+        if (scene_.has_depth() && !is_within_bounds(number)) {
+            return false;
+        }
+        const bool is_front_face =
+            is_front(draw, triangle) != is_wrong(Wrong::face_exchanged, number);
+        StencilFace face;  // of a draw that counts
+        face.pass = is_front_face ? StencilOp::inc_wrap : StencilOp::dec_wrap;
+        if (draw.stencil) {
+            face = (*draw.stencil)[is_front_face ? 0 : 1];
+        }
+        const auto operate = [&](StencilOp op) {
+            if (!is_wrong(Wrong::stencil_kept, number)) {
+                const uint32_t mask = face.write_mask & 255;
+                seen_.stencil =
+                    (seen_.stencil & ~mask) | (operated(op, seen_.stencil, face.reference) & mask);
+            }
+        };
+        if (scene_.has_stencil && !is_wrong(Wrong::stencil_ignored, number)) {
+            const uint32_t mask = face.compare_mask & 255;
+            if ((relation(face.reference & mask, seen_.stencil & mask) & face.compare) == 0) {
+                operate(face.fail);
+                return false;
+            }
+        }
+        const Depth depth = depth_of(draw, triangle);
+        bool is_passed = true;
+        if (scene_.has_depth() && !is_wrong(Wrong::depth_ignored, number)) {
+            const auto compare = static_cast<uint8_t>(
+                is_wrong(Wrong::depth_reversed, number) ? ~draw.compare & 7 : draw.compare);
+            is_passed = asked(compare, relations(scene_, freedom_, depth, depth_), pick_);
+        }
+        if (scene_.has_stencil && !is_wrong(Wrong::stencil_ignored, number)) {
+            operate(is_passed ? face.pass : face.depth_fail);
+        }
+        if (is_passed && draw.writes_depth != is_wrong(Wrong::depth_kept, number)) {
+            depth_ = depth;
+        }
+        return is_passed;
+    }
+
+    void draw_triangle(size_t number, size_t t) {
+        const Draw& draw = scene_.draws[number];
+        const Triangle& triangle = draw.triangles[t];
+        if (draw.rasterizer_discard || draw.layer != place_.layer || is_culled(number, triangle) ||
+            is_wrong(Wrong::is_lost, number)) {
+            return;
+        }
+        if (!covers(number, triangle)) {
+            return;
+        }
+        if (draw.scissor) {
+            const auto& [x, y, width, height] = *draw.scissor;
+            if (place_.x < x || place_.x >= x + width || place_.y < y || place_.y >= y + height) {
+                return;
+            }
+        }
+        const bool has_masks = !is_wrong(Wrong::mask_ignored, number);
+        if (has_masks && (draw.sample_mask >> place_.sample & 1) == 0) {
+            return;
+        }
+        const bool kept = is_kept(number, t);
+        const bool is_early = draw.early && !is_wrong(Wrong::early_as_late, number);
+        if (!is_early && !kept) {
+            return;
+        }
+        if (has_masks && draw.shader_mask && (*draw.shader_mask >> place_.sample & 1) == 0) {
+            return;
+        }
+        if (!survives_alpha(draw)) {
+            return;
+        }
+        if (passes(number, triangle) && kept) {
+            write(number, t);
+            if (is_wrong(Wrong::written_twice, number)) {
+                write(number, t);
+            }
+        }
+    }
+
+    void write(size_t number, size_t t) {
+        const Draw& draw = scene_.draws[number];
+        const Triangle& triangle = draw.triangles[t];
+        ++(is_front(draw, triangle) != is_wrong(Wrong::face_exchanged, number) ? seen_.front
+                                                                               : seen_.back);
+        seen_.draw = static_cast<int>(number);
+        seen_.triangle = static_cast<int>(t);
+        seen_.z = triangle.z0 + triangle.slope * (place_.x + 0.5 - triangle.x0);
+        seen_.a = attribute_at(draw, place_);
+        if (!scene_.colors.empty()) {
+            ColorState state = draw.colors[scene_.judged];
+            if (is_wrong(Wrong::blend_ignored, number)) {
+                state.blend.reset();
+            }
+            seen_.color = written(scene_.colors[scene_.judged].about(), seen_.color, draw, state);
+        }
+    }
+};
+
+}  // namespace
+
+bool is_sign_open(const Draw& draw, const Place& place) {
+    return draw.discard == Discard::negative && is_same(attribute_at(draw, place), 0);
+}
+
+// Where the text lets invocations be repeated, a device may decide anew for each sample: to be sure
+// of what is wrong, at practice too; a device that does so is one of profile vulkan.
+bool is_shared(const Scene& scene, const Freedom& freedom) {
+    return scene.samples == 1 || freedom.profile == Profile::direct3d ||
+           (freedom.is_device && freedom.profile == Profile::practice);
+}
+
+Seen draw_sample(const Scene& scene, const Place& place, const Freedom& freedom, const Kept& kept,
+                 const Pick& pick, const Fault& fault) {
+    Sample sample(scene, place, freedom, kept, pick, fault);
+    for (size_t number = 0; number < scene.draws.size(); ++number) {
+        sample.draw(number);
+    }
+    return sample.seen();
+}
+
+}  // namespace histories

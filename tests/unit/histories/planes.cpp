@@ -1,0 +1,215 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "planes.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+namespace histories {
+
+namespace {
+
+using capture::HitDetail;
+
+constexpr std::array<const char*, kPlaneCount> kNames = {"hits", "writer", "frag_coord", "v",
+                                                         "a",    "depth",  "color",      "stencil"};
+constexpr std::array<const char*, 4> kDetails = {"none", "coverage", "total", "faces"};
+
+// The judge may not take stencils yet.
+template <class D>
+constexpr bool takes_stencil() {
+    return requires(D d) { d.stencil; };
+}
+template <class D>
+void put_stencil(D& to, uint32_t stencil) {
+    if constexpr (takes_stencil<D>()) {
+        to.stencil.push_back(stencil);
+    }
+}
+
+bool is_hit(const Seen& seen) {
+    return seen.draw >= 0;
+}
+
+bool is_equal(double a, double b) {
+    return std::abs(a - b) < 1.0 / 64;
+}
+
+bool has_same_hits(HitDetail detail, const Seen& a, const Seen& b) {
+    switch (detail) {
+        case HitDetail::none:
+            return true;
+        case HitDetail::coverage:
+            return (a.front + a.back == 0) == (b.front + b.back == 0);
+        case HitDetail::total:
+            return a.front + a.back == b.front + b.back;
+        case HitDetail::faces:
+            return a.front == b.front && a.back == b.back;
+    }
+    return false;
+}
+
+float value_v(const Seen& seen) {
+    return is_hit(seen) ? static_cast<float>(value_of(static_cast<size_t>(seen.draw),
+                                                      static_cast<size_t>(seen.triangle)))
+                        : capture::kClearValue;
+}
+float value_a(const Seen& seen) {
+    return is_hit(seen) ? static_cast<float>(seen.a) : capture::kClearValue;
+}
+
+}  // namespace
+
+Shown shown(const Seen& seen) {
+    Shown out;
+    out.fill(seen);
+    return out;
+}
+
+std::vector<Shown> shown(const std::vector<Seen>& picture) {
+    std::vector<Shown> out;
+    for (const Seen& seen : picture) {
+        out.push_back(shown(seen));
+    }
+    return out;
+}
+
+std::vector<Planes> subsets_of(const Scene& scene) {
+    uint32_t has = 0;
+    if (scene.has_instruments()) {
+        has |=
+            1U << kHits | 1U << kWriter | 1U << kFragCoord | 1U << kAttributeV | 1U << kAttributeA;
+    }
+    has |= scene.has_depth() ? 1U << kDepth : 0U;
+    has |= scene.colors.empty() ? 0U : 1U << kColor;
+    has |= scene.has_stencil && takes_stencil<capture::Delivered>() ? 1U << kStencil : 0U;
+    std::vector<Planes> out;
+    for (uint32_t set = 1; set < 1U << kPlaneCount; ++set) {
+        if ((set & ~has) != 0) {
+            continue;
+        }
+        if ((set & 1U << kHits) == 0) {
+            out.push_back({set, HitDetail::none});
+            continue;
+        }
+        for (const HitDetail detail : {HitDetail::coverage, HitDetail::total, HitDetail::faces}) {
+            out.push_back({set, detail});
+        }
+    }
+    return out;
+}
+
+capture::Delivered delivered(const Scene& scene, const Planes& planes,
+                             const std::vector<Shown>& picture) {
+    capture::Delivered out;
+    out.detail = planes.detail;
+    for (size_t index = 0; index < picture.size(); ++index) {
+        const Place place = place_of(scene, index);
+        const Shown& s = picture[index];
+        const uint32_t front = s[kHits].front, back = s[kHits].back;
+        if (planes.detail == HitDetail::faces) {
+            out.front.push_back(front);
+            out.back.push_back(back);
+        } else if (planes.detail != HitDetail::none) {
+            const uint32_t total = front + back;
+            out.front.push_back(planes.detail == HitDetail::total ? total : total > 0 ? 1 : 0);
+        }
+        if (planes.has(kWriter)) {
+            const Seen& w = s[kWriter];
+            out.draws.push_back(is_hit(w) ? static_cast<uint32_t>(w.draw) : capture::kClearId);
+            out.primitives.push_back(is_hit(w) ? static_cast<uint32_t>(w.triangle)
+                                               : capture::kClearId);
+        }
+        if (planes.has(kFragCoord)) {
+            const Seen& w = s[kFragCoord];
+            out.frag_coord.push_back(is_hit(w) ? glm::vec4(place.x + 0.5, place.y + 0.5, w.z, 1)
+                                               : glm::vec4(capture::kClearValue, 0, 0, 0));
+        }
+        if (planes.has(kAttributeV)) {
+            out.attributes[0].push_back({value_v(s[kAttributeV]), 0, 0, 0});
+        }
+        if (planes.has(kAttributeA)) {
+            out.attributes[1].push_back({value_a(s[kAttributeA]), 0, 0, 0});
+        }
+        if (planes.has(kDepth)) {
+            out.depth.push_back(static_cast<float>(s[kDepth].depth));
+        }
+        if (planes.has(kColor)) {
+            out.color.push_back(s[kColor].color);
+        }
+        if (planes.has(kStencil)) {
+            put_stencil(out, s[kStencil].stencil);
+        }
+    }
+    return out;
+}
+
+bool shows(const Scene& scene, const Planes& planes, const Shown& picture, const Seen& history) {
+    if (!has_same_hits(planes.detail, picture[kHits], history)) {
+        return false;
+    }
+    const Seen& w = picture[kWriter];
+    if (planes.has(kWriter) && (w.draw != history.draw || w.triangle != history.triangle)) {
+        return false;
+    }
+    const bool is_known_clear = planes.has(kHits) ? picture[kHits].front + picture[kHits].back == 0
+                                                  : planes.has(kWriter) && !is_hit(w);
+    if (!is_known_clear) {
+        if (planes.has(kFragCoord) &&
+            (is_hit(picture[kFragCoord]) != is_hit(history) ||
+             (is_hit(history) && !is_equal(picture[kFragCoord].z, history.z)))) {
+            return false;
+        }
+        if (planes.has(kAttributeV) && !is_same(value_v(picture[kAttributeV]), value_v(history))) {
+            return false;
+        }
+        if (planes.has(kAttributeA) &&
+            (is_hit(picture[kAttributeA]) != is_hit(history) ||
+             (is_hit(history) && !is_equal(picture[kAttributeA].a, history.a)))) {
+            return false;
+        }
+    }
+    return !(planes.has(kDepth) && !is_equal(picture[kDepth].depth, history.depth)) &&
+           !(planes.has(kColor) &&
+             !is_near(scene.colors[scene.judged].about(), picture[kColor].color, history.color)) &&
+           !(planes.has(kStencil) && picture[kStencil].stencil != history.stencil);
+}
+
+std::string names_of(const Planes& planes) {
+    std::string out;
+    for (uint32_t p = 0; p < kPlaneCount; ++p) {
+        if (planes.has(static_cast<PlaneNumber>(p))) {
+            out += (out.empty() ? "" : ", ") + std::string(kNames[p]);
+            out += p == kHits ? fmt::format(" ({})", kDetails[static_cast<size_t>(planes.detail)])
+                              : "";
+        }
+    }
+    return out;
+}
+
+std::string text_of(const Scene& scene, const Planes& planes, const Shown& picture) {
+    const auto writer = [](const Seen& s) {
+        return is_hit(s) ? fmt::format("{}.{}", s.draw, s.triangle) : std::string("nobody");
+    };
+    std::string out;
+    if (planes.has(kHits)) {
+        out += fmt::format(" hits {}+{}", picture[kHits].front, picture[kHits].back);
+    }
+    out += planes.has(kWriter) ? " writer " + writer(picture[kWriter]) : "";
+    if (planes.has(kFragCoord)) {
+        out += fmt::format(" z {} of {}", picture[kFragCoord].z, writer(picture[kFragCoord]));
+    }
+    out += planes.has(kAttributeV) ? " v of " + writer(picture[kAttributeV]) : "";
+    out += planes.has(kAttributeA) ? " a of " + writer(picture[kAttributeA]) : "";
+    out += planes.has(kDepth) ? fmt::format(" depth {}", picture[kDepth].depth) : "";
+    if (planes.has(kColor)) {
+        out += fmt::format(" color {:#x} of {}", fmt::join(picture[kColor].color, ","),
+                           scene.colors[scene.judged].about().name);
+    }
+    out += planes.has(kStencil) ? fmt::format(" stencil {}", picture[kStencil].stencil) : "";
+    return out;
+}
+
+}  // namespace histories

@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "trial.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <utility>
+
+#include "cases/load/loader.hpp"
+#include "diff/delivered/delivered.hpp"
+#include "random_scene.hpp"
+#include "scene_text.hpp"
+#include "wrong_picture.hpp"
+
+namespace histories {
+
+namespace {
+
+using cases::Profile;
+
+// A case of a seed, and what is expected of it.
+class Trial {
+  public:
+    Trial(uint64_t seed, Tally& tally) : random(seed), seed_(seed), tally_(tally) {
+        scene = random_scene(random);
+        auto loaded = cases::load_text(text_of(scene), "histories.toml", "histories");
+        if (!loaded) {
+            tally.contradictions.push_back(fmt::format("seed {}: not loaded: {}\n{}", seed,
+                                                       cases::to_string(loaded.error()[0]),
+                                                       text_of(scene)));
+            return;
+        }
+        case_ = std::move(loaded->at(0));
+        ++tally.scenes;
+    }
+
+    bool is_loaded() const { return case_.has_value(); }
+
+    diff::Verdict judge(const Planes& planes, const std::vector<Shown>& picture, Profile profile) {
+        auto& expectation = expectations_[static_cast<size_t>(profile)];
+        if (!expectation) {
+            expectation = ref::expect(*case_, ref::Limits{8}, profile);
+        }
+        return diff::compare_delivered(*case_, *expectation, delivered(scene, planes, picture));
+    }
+
+    void contradict(const std::string& what, Profile profile, const Planes& planes,
+                    const std::vector<Shown>& picture, const diff::Verdict& verdict) {
+        std::string out = fmt::format("seed {}: {} at {}; planes: {}\n", seed_, what,
+                                      to_string(profile), names_of(planes));
+        for (const diff::Finding& f : verdict.findings) {
+            out += fmt::format(
+                "  finding at ({},{}) sample {} layer {}: {} {} [{}] {}: expected "
+                "{}, got {}; {}\n",
+                f.x, f.y, f.sample, f.layer.value_or(0), to_string(f.kind), f.rule,
+                to_string(f.level), f.quantity, f.expected, f.got, f.why);
+        }
+        for (size_t i = 0; i < picture.size(); ++i) {
+            const Place p = place_of(scene, i);
+            out += fmt::format("  ({},{}) sample {} layer {}:{}\n", p.x, p.y, p.sample, p.layer,
+                               text_of(scene, planes, picture[i]));
+        }
+        tally_.contradictions.push_back(out + text_of(scene));
+    }
+
+    Scene scene;
+    Random random;
+
+  private:
+    uint64_t seed_;
+    Tally& tally_;
+    std::optional<cases::Case> case_;
+    std::array<std::optional<ref::Expectation>, 3> expectations_;
+};
+
+}  // namespace
+
+void try_right(uint64_t seed, bool every_subset, Tally& tally) {
+    Trial trial(seed, tally);
+    if (!trial.is_loaded()) {
+        return;
+    }
+    const Profile strictest = cases::kProfiles[trial.random.of<uint32_t>({0, 1, 2, 2})];
+    const std::vector<Shown> picture = shown(picture_of(trial.scene, strictest, trial.random));
+    std::vector<Planes> subsets = subsets_of(trial.scene);
+    if (!every_subset) {
+        subsets = {trial.random.of(subsets)};
+    }
+    for (const Planes& planes : subsets) {
+        for (const Profile profile : cases::kProfiles) {
+            if (profile > strictest) {
+                continue;
+            }
+            const diff::Verdict verdict = trial.judge(planes, picture, profile);
+            if (!verdict.error.empty()) {
+                ++tally.errors;
+            } else if (!verdict.ok()) {
+                trial.contradict(
+                    fmt::format("false accusation of a device of {}", to_string(strictest)),
+                    profile, planes, picture, verdict);
+                return;
+            } else {
+                ++tally.right[static_cast<size_t>(profile)];
+            }
+        }
+    }
+}
+
+void try_wrong(uint64_t seed, Tally& tally) {
+    Trial trial(seed, tally);
+    if (!trial.is_loaded()) {
+        return;
+    }
+    const auto right = picture_of(trial.scene, Profile::direct3d, trial.random);
+    const auto wrong = wrong_picture(trial.scene, right, trial.random);
+    if (!wrong) {
+        ++tally.none_wrong;
+        return;
+    }
+    const Place p = place_of(trial.scene, wrong->index);
+    const std::string how =
+        fmt::format("({},{}) sample {} layer {}, {}", p.x, p.y, p.sample, p.layer, wrong->how);
+    for (const Profile profile : cases::kProfiles) {
+        if (profile < wrong->loosest) {
+            continue;
+        }
+        const diff::Verdict verdict = trial.judge(wrong->planes, wrong->picture, profile);
+        if (!verdict.error.empty()) {
+            ++tally.errors;
+        } else if (verdict.ok()) {
+            trial.contradict("hole: " + how, profile, wrong->planes, wrong->picture, verdict);
+            return;
+        } else if (verdict.level > wrong->loosest) {
+            trial.contradict(fmt::format("wrong level, {} for {}: {}", to_string(verdict.level),
+                                         to_string(wrong->loosest), how),
+                             profile, wrong->planes, wrong->picture, verdict);
+            return;
+        } else {
+            ++tally.wrong[static_cast<size_t>(profile)];
+        }
+    }
+}
+
+}  // namespace histories

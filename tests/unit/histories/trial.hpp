@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Right and wrong pictures of random scenes, before the judge.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace histories {
+
+struct Tally {
+    // Pictures judged, by profile.
+    std::array<uint64_t, 3> right{}, wrong{};
+    // Neither pass nor fail: an empty picture would pass, too; or nothing wrong was found.
+    uint64_t errors = 0, none_wrong = 0, scenes = 0;
+    std::vector<std::string> contradictions;
+};
+
+// One picture of a seed's scene, right at a random profile and stricter... looser ones, or wrong.
+void try_right(uint64_t seed, bool every_subset, Tally& tally);
+void try_wrong(uint64_t seed, Tally& tally);
+
+}  // namespace histories
