@@ -17,9 +17,11 @@ using cases::Profile;
 constexpr double kNear = 1.0 / 4096;
 
 struct Depth {
-    double number = 0;     // exact
-    double computed = 0;   // by a device
-    bool is_exact = true;  // nobody computes it: cleared or written by a shader
+    double number = 0;                   // exact
+    double computed = 0;                 // by a device
+    bool is_exact = true;                // nobody computes it: cleared or written by a shader
+    const Triangle* triangle = nullptr;  // whose plane it is, and by which viewport
+    bool has_wide_viewport = false;
 };
 
 double stored_depth(const Scene& scene, double depth) {
@@ -31,6 +33,11 @@ double stored_depth(const Scene& scene, double depth) {
     return std::nearbyint(depth * all) / all;
 }
 
+bool has_same_plane(const Triangle& a, const Triangle& b) {
+    return corners_of(a) == corners_of(b) && is_same(a.z0, b.z0) && is_same(a.slope, b.slope) &&
+           is_same(a.x0, b.x0);
+}
+
 // The relations that `a` may have to `b`.
 uint8_t relations(const Scene& scene, const Freedom& freedom, const Depth& a, const Depth& b) {
     if (freedom.is_device) {
@@ -39,9 +46,17 @@ uint8_t relations(const Scene& scene, const Freedom& freedom, const Depth& a, co
     if (std::abs(a.number - b.number) >= kNear) {
         return a.number < b.number ? kLess : kGreater;
     }
+    // Vulkan specification, "Invariance": what write masks and tests are has no part in a depth, by
+    // all that draws in earnest; the text says so of masks, and suggests it of tests.
     const bool is_float = scene.depth.value_or(DepthFormat::d32) == DepthFormat::d32;
     const bool is_end =
         is_same(a.number, b.number) && (is_same(a.number, 0) || is_same(a.number, 1));
+    const bool is_repeat = a.triangle != nullptr && b.triangle != nullptr &&
+                           a.has_wide_viewport == b.has_wide_viewport &&
+                           has_same_plane(*a.triangle, *b.triangle);
+    if (is_repeat && freedom.profile >= (is_float ? Profile::practice : Profile::direct3d)) {
+        return kEqual;
+    }
     return a.is_exact && b.is_exact && (is_float || is_end) ? kEqual : kAlways;
 }
 
@@ -94,7 +109,7 @@ class Sample {
     Sample(const Scene& scene, const Place& place, const Freedom& freedom, const Kept& kept,
            const Pick& pick, const Fault& fault)
         : scene_(scene), place_(place), freedom_(freedom), kept_(kept), pick_(pick), fault_(fault) {
-        depth_ = {scene.depth_clear, stored_depth(scene, scene.depth_clear), true};
+        depth_ = {scene.depth_clear, stored_depth(scene, scene.depth_clear), true, nullptr, false};
         seen_.stencil = scene.stencil_clear;
         if (!scene.colors.empty()) {
             seen_.color = clear_codes(scene.colors[scene.judged]);
@@ -122,7 +137,10 @@ class Sample {
     const Fault& fault_;
     Depth depth_;
     Seen seen_;
-    std::map<int, bool> first_of_pair_;  // whether the pair's first triangle has the sample
+    // Whether what lies beyond an edge has the sample on it: of all triangles that meet there, or
+    // of a pair.
+    std::map<std::pair<bool, double>, bool> is_beyond_owner_;
+    std::map<int, bool> is_beyond_of_pair_;
 
     bool is_wrong(Wrong what, size_t number) const {
         return fault_.what == what && fault_.draw == number;
@@ -134,16 +152,22 @@ class Sample {
                (is_front(draw, triangle) ? draw.culls_front : draw.culls_back);
     }
 
-    // Of the pair both are drawn, by one draw and with one facing: only then the text speaks of it.
+    // Both of the pair are drawn: only then the text speaks of their edge.
     bool is_pair_held(size_t number, int pair) const {
-        int drawn = 0, fronts = 0;
+        int drawn = 0;
         for (const Triangle& t : scene_.draws[number].triangles) {
-            if (t.pair == pair && !is_culled(number, t)) {
-                ++drawn;
-                fronts += is_front(scene_.draws[number], t) ? 1 : 0;
-            }
+            drawn += t.pair == pair && !is_culled(number, t) ? 1 : 0;
         }
-        return drawn == 2 && fronts != 1;
+        return drawn == 2;
+    }
+
+    template <class Key>
+    bool first_pick(std::map<Key, bool>& of, const Key& key) const {
+        const auto found = of.find(key);
+        if (found == of.end()) {
+            return of.emplace(key, pick_(2) != 0).first->second;
+        }
+        return found->second;
     }
 
     bool covers(size_t number, const Triangle& triangle) {
@@ -159,15 +183,15 @@ class Sample {
         if (freedom_.profile == Profile::direct3d) {
             return shape.is_beyond;
         }
-        // The text leaves each alone where it does not speak of both, but a device does not.
-        if (triangle.pair < 0 || (!freedom_.is_device && !is_pair_held(number, triangle.pair))) {
-            return pick_(2) != 0;
+        // A device answers once for all that meet at an edge, and the text asks that of pairs.
+        if (freedom_.is_device) {
+            const std::pair<bool, double> edge(shape.cut == Shape::Cut::x, shape.edge);
+            return first_pick(is_beyond_owner_, edge) == shape.is_beyond;
         }
-        const auto found = first_of_pair_.find(triangle.pair);
-        if (found != first_of_pair_.end()) {
-            return !found->second;
+        if (triangle.pair >= 0 && is_pair_held(number, triangle.pair)) {
+            return first_pick(is_beyond_of_pair_, triangle.pair) == shape.is_beyond;
         }
-        return first_of_pair_[triangle.pair] = pick_(2) != 0;
+        return pick_(2) != 0;
     }
 
     // Whether the fragment shader keeps the fragment.
@@ -213,7 +237,7 @@ class Sample {
             const FragDepth& written = *draw.frag_depth;
             const double number =
                 is_of_pixel(written.where, place_) ? written.other : written.value;
-            return {number, stored_depth(scene_, number), true};
+            return {number, stored_depth(scene_, number), true, nullptr, false};
         }
         const double number = triangle.z0 + triangle.slope * (place_.at_x - triangle.x0);
         double computed = number;
@@ -228,7 +252,7 @@ class Sample {
             }
             computed += (static_cast<double>(hash % 3) - 1) * 0x1p-24;
         }
-        return {number, stored_depth(scene_, computed), false};
+        return {number, stored_depth(scene_, computed), false, &triangle, draw.has_wide_viewport};
     }
 
     bool is_within_bounds(size_t number) {
@@ -236,7 +260,9 @@ class Sample {
         if (!draw.bounds || is_wrong(Wrong::bounds_ignored, number)) {
             return true;
         }
-        const auto bound = [&](double b) { return Depth{b, stored_depth(scene_, b), true}; };
+        const auto bound = [&](double b) {
+            return Depth{b, stored_depth(scene_, b), true, nullptr, false};
+        };
         const Depth low = bound((*draw.bounds)[0]), high = bound((*draw.bounds)[1]);
         return asked(kEqual | kGreater, relations(scene_, freedom_, depth_, low), pick_) &&
                asked(kEqual | kLess, relations(scene_, freedom_, depth_, high), pick_);

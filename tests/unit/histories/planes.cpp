@@ -17,22 +17,6 @@ constexpr std::array<const char*, kPlaneCount> kNames = {"hits", "writer", "frag
                                                          "a",    "depth",  "color",      "stencil"};
 constexpr std::array<const char*, 4> kDetails = {"none", "coverage", "total", "faces"};
 
-// The judge may not take stencils yet.
-template <class D>
-constexpr bool takes_stencil() {
-    return requires(D d) { d.stencil; };
-}
-template <class D>
-void put_stencil(D& to, uint32_t stencil) {
-    if constexpr (takes_stencil<D>()) {
-        to.stencil.push_back(stencil);
-    }
-}
-
-bool is_hit(const Seen& seen) {
-    return seen.draw >= 0;
-}
-
 bool is_equal(double a, double b) {
     return std::abs(a - b) < 1.0 / 64;
 }
@@ -51,16 +35,13 @@ bool has_same_hits(HitDetail detail, const Seen& a, const Seen& b) {
     return false;
 }
 
+}  // namespace
+
 float value_v(const Seen& seen) {
     return is_hit(seen) ? static_cast<float>(value_of(static_cast<size_t>(seen.draw),
                                                       static_cast<size_t>(seen.triangle)))
                         : capture::kClearValue;
 }
-float value_a(const Seen& seen) {
-    return is_hit(seen) ? static_cast<float>(seen.a) : capture::kClearValue;
-}
-
-}  // namespace
 
 Shown shown(const Seen& seen) {
     Shown out;
@@ -76,15 +57,21 @@ std::vector<Shown> shown(const std::vector<Seen>& picture) {
     return out;
 }
 
-std::vector<Planes> subsets_of(const Scene& scene) {
-    uint32_t has = 0;
+Planes whole_of(const Scene& scene) {
+    Planes out{0, HitDetail::none, true};
     if (scene.has_instruments()) {
-        has |=
+        out.set |=
             1U << kHits | 1U << kWriter | 1U << kFragCoord | 1U << kAttributeV | 1U << kAttributeA;
+        out.detail = HitDetail::faces;
     }
-    has |= scene.has_depth() ? 1U << kDepth : 0U;
-    has |= scene.colors.empty() ? 0U : 1U << kColor;
-    has |= scene.has_stencil && takes_stencil<capture::Delivered>() ? 1U << kStencil : 0U;
+    out.set |= scene.has_depth() ? 1U << kDepth : 0U;
+    out.set |= scene.colors.empty() ? 0U : 1U << kColor;
+    out.set |= scene.has_stencil ? 1U << kStencil : 0U;
+    return out;
+}
+
+std::vector<Planes> subsets_of(const Scene& scene) {
+    const uint32_t has = whole_of(scene).set & (takes_stencil() ? ~0U : ~(1U << kStencil));
     std::vector<Planes> out;
     for (uint32_t set = 1; set < 1U << kPlaneCount; ++set) {
         if ((set & ~has) != 0) {
@@ -101,49 +88,8 @@ std::vector<Planes> subsets_of(const Scene& scene) {
     return out;
 }
 
-capture::Delivered delivered(const Scene& scene, const Planes& planes,
-                             const std::vector<Shown>& picture) {
-    capture::Delivered out;
-    out.detail = planes.detail;
-    for (size_t index = 0; index < picture.size(); ++index) {
-        const Place place = place_of(scene, index);
-        const Shown& s = picture[index];
-        const uint32_t front = s[kHits].front, back = s[kHits].back;
-        if (planes.detail == HitDetail::faces) {
-            out.front.push_back(front);
-            out.back.push_back(back);
-        } else if (planes.detail != HitDetail::none) {
-            const uint32_t total = front + back;
-            out.front.push_back(planes.detail == HitDetail::total ? total : total > 0 ? 1 : 0);
-        }
-        if (planes.has(kWriter)) {
-            const Seen& w = s[kWriter];
-            out.draws.push_back(is_hit(w) ? static_cast<uint32_t>(w.draw) : capture::kClearId);
-            out.primitives.push_back(is_hit(w) ? static_cast<uint32_t>(w.triangle)
-                                               : capture::kClearId);
-        }
-        if (planes.has(kFragCoord)) {
-            const Seen& w = s[kFragCoord];
-            out.frag_coord.push_back(is_hit(w) ? glm::vec4(place.x + 0.5, place.y + 0.5, w.z, 1)
-                                               : glm::vec4(capture::kClearValue, 0, 0, 0));
-        }
-        if (planes.has(kAttributeV)) {
-            out.attributes[0].push_back({value_v(s[kAttributeV]), 0, 0, 0});
-        }
-        if (planes.has(kAttributeA)) {
-            out.attributes[1].push_back({value_a(s[kAttributeA]), 0, 0, 0});
-        }
-        if (planes.has(kDepth)) {
-            out.depth.push_back(static_cast<float>(s[kDepth].depth));
-        }
-        if (planes.has(kColor)) {
-            out.color.push_back(s[kColor].color);
-        }
-        if (planes.has(kStencil)) {
-            put_stencil(out, s[kStencil].stencil);
-        }
-    }
-    return out;
+bool is_part(const Planes& fewer, const Planes& planes) {
+    return (fewer.set & ~planes.set) == 0 && fewer.detail <= planes.detail;
 }
 
 bool shows(const Scene& scene, const Planes& planes, const Shown& picture, const Seen& history) {
@@ -178,8 +124,8 @@ bool shows(const Scene& scene, const Planes& planes, const Shown& picture, const
 }
 
 std::string names_of(const Planes& planes) {
-    std::string out;
-    for (uint32_t p = 0; p < kPlaneCount; ++p) {
+    std::string out = planes.is_whole ? "the whole capture" : "";
+    for (uint32_t p = 0; p < kPlaneCount && !planes.is_whole; ++p) {
         if (planes.has(static_cast<PlaneNumber>(p))) {
             out += (out.empty() ? "" : ", ") + std::string(kNames[p]);
             out += p == kHits ? fmt::format(" ({})", kDetails[static_cast<size_t>(planes.detail)])

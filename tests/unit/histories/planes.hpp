@@ -29,20 +29,34 @@ enum PlaneNumber : uint8_t {
 
 // What each plane shows of a sample: of a right picture all show the same.
 using Shown = std::array<Seen, kPlaneCount>;
+inline bool is_hit(const Seen& seen) {
+    return seen.draw >= 0;
+}
+// Attribute "v" of the fragment that wrote last, or the clear value.
+float value_v(const Seen& seen);
 Shown shown(const Seen& seen);
 std::vector<Shown> shown(const std::vector<Seen>& picture);
 
 struct Planes {
     uint32_t set = 0;  // bit p: plane p is delivered
     capture::HitDetail detail = capture::HitDetail::none;
+    bool is_whole = false;  // a whole capture, which always has stencils, too
     bool has(PlaneNumber p) const { return (set >> p & 1) != 0; }
 };
 
-// Every plane that the scene has, hits in the order of their detail: all subsets but the empty one.
+// All subsets but the empty one of the planes that the scene has, the hits in each detail.
 std::vector<Planes> subsets_of(const Scene& scene);
+Planes whole_of(const Scene& scene);
+// Whether `fewer` tells no more than `planes`.
+bool is_part(const Planes& fewer, const Planes& planes);
 
 capture::Delivered delivered(const Scene& scene, const Planes& planes,
                              const std::vector<Shown>& picture);
+// All that the case's target holds.
+capture::Capture captured(const Scene& scene, const cases::Target& target,
+                          const std::vector<Shown>& picture);
+// Whether the judge takes stencils of pictures of which not all is delivered.
+bool takes_stencil();
 
 // Whether the planes show a history; numbers that are nearer than any number that matters are the
 // same. Where hits or writers tell that nothing was drawn, nobody looks at the values of fragments.

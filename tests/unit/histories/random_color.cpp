@@ -57,6 +57,7 @@ void give_targets(Scene& scene, Random& random) {
     scene.judged = random.below(count);
     if (random.chance(1, 2)) {
         scene.attachments = random.chance(1, 3) ? Attachments::color : Attachments::color_and_depth;
+        scene.has_logic = random.chance(1, 3);
     }
 }
 
@@ -66,7 +67,7 @@ void give_colors(const Scene& scene, Draw& draw, Random& random) {
         draw.alpha_to_one = random.chance(1, 8);
         draw.alpha_to_coverage = random.chance(1, 6) && !draw.early;
     }
-    if (is_alone && random.chance(1, 4)) {
+    if (scene.has_logic && random.chance(1, 2)) {
         draw.logic = random.below(16);
     }
     draw.constants = random_numbers(Kind::unorm, true, random);
@@ -75,7 +76,7 @@ void give_colors(const Scene& scene, Draw& draw, Random& random) {
         const Kind kind = target.about().kind;
         ColorState state;
         // Halves only where nothing is combined bit by bit, by this draw or a later one.
-        state.value = random_numbers(kind, is_alone || kind == Kind::srgb, random);
+        state.value = random_numbers(kind, scene.has_logic || kind == Kind::srgb, random);
         if (draw.alpha_to_coverage && kind != Kind::integer) {
             state.value[3] = random.of<double>({0, 0.25, 0.5, 1});
         }

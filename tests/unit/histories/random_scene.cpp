@@ -109,6 +109,12 @@ void give_discard(const Scene& scene, Draw& draw, Random& random) {
 Draw random_draw(const Scene& scene, int number, Random& random) {
     Draw draw;
     draw.triangles = random_triangles(scene, number, random);
+    if (!scene.draws.empty() && random.chance(1, 4)) {
+        draw.triangles = random.of(scene.draws).triangles;  // as after a depth prepass
+        for (Triangle& triangle : draw.triangles) {
+            triangle.pair += triangle.pair < 0 ? 0 : 100 * (number + 1);
+        }
+    }
     draw.has_wide_viewport = scene.width == 3 || random.chance(3, 4);
     draw.clockwise = random.chance(1, 3);
     draw.culls_front = random.chance(1, 12);

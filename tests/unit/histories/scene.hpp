@@ -139,6 +139,7 @@ struct Scene {
     uint32_t stencil_clear = 0;
     std::vector<ColorTarget> colors;
     uint32_t judged = 0;
+    bool has_logic = false;  // some draw combines codes bit by bit
     std::vector<Draw> draws;
 
     bool has_instruments() const { return attachments == Attachments::all; }

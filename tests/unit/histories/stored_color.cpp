@@ -17,12 +17,16 @@ double limited(const ColorFormat& format, double number) {
     return is_fixed ? std::clamp(number, 0.0, 1.0) : number;
 }
 
-// Of numbers that binary16 holds as normal ones, or 0.
+// Of numbers below the range's end.
 uint32_t half_of(double number) {
     if (is_same(number, 0)) {
         return std::signbit(number) ? 0x8000U : 0U;
     }
     int exponent = 0;
+    if (std::abs(number) < 0x1p-14) {  // a subnormal one
+        const auto whole = static_cast<uint32_t>(std::nearbyint(std::abs(number) * 0x1p24));
+        return whole | (number < 0 ? 0x8000U : 0U);
+    }
     const double mantissa = std::frexp(std::abs(number), &exponent);  // in [1/2, 1)
     const auto whole = static_cast<uint32_t>(std::nearbyint(mantissa * 2048));
     const auto code = (static_cast<uint32_t>(exponent + 13) << 10) + whole;

@@ -42,6 +42,9 @@ class Trial {
         if (!expectation) {
             expectation = ref::expect(*case_, ref::Limits{8}, profile);
         }
+        if (planes.is_whole) {
+            return diff::compare(*case_, *expectation, captured(scene, case_->target, picture));
+        }
         return diff::compare_delivered(*case_, *expectation, delivered(scene, planes, picture));
     }
 
@@ -85,7 +88,9 @@ void try_right(uint64_t seed, bool every_subset, Tally& tally) {
     const std::vector<Shown> picture = shown(picture_of(trial.scene, strictest, trial.random));
     std::vector<Planes> subsets = subsets_of(trial.scene);
     if (!every_subset) {
-        subsets = {trial.random.of(subsets)};
+        subsets = {trial.random.chance(1, 6) ? whole_of(trial.scene) : trial.random.of(subsets)};
+    } else {
+        subsets.push_back(whole_of(trial.scene));
     }
     for (const Planes& planes : subsets) {
         for (const Profile profile : cases::kProfiles) {
@@ -139,6 +144,38 @@ void try_wrong(uint64_t seed, Tally& tally) {
         } else {
             ++tally.wrong[static_cast<size_t>(profile)];
         }
+    }
+}
+
+void try_fewer(uint64_t seed, Tally& tally) {
+    Trial trial(seed, tally);
+    if (!trial.is_loaded()) {
+        return;
+    }
+    // Something that may be right or not.
+    const Profile profile = cases::kProfiles[trial.random.below(3)];
+    auto picture = shown(picture_of(trial.scene, profile, trial.random));
+    const auto other = shown(picture_of(trial.scene, Profile::vulkan, trial.random));
+    const size_t index = trial.random.below(static_cast<uint32_t>(picture.size()));
+    for (size_t p = 0; p < kPlaneCount; ++p) {
+        picture[index][p] = (trial.random.chance(1, 2) ? other : picture)[index][p];
+    }
+    std::vector<Planes> subsets = subsets_of(trial.scene);
+    const Planes planes = trial.random.of(subsets);
+    if (!trial.judge(planes, picture, profile).ok()) {
+        ++tally.wrong[static_cast<size_t>(profile)];
+        return;
+    }
+    std::erase_if(subsets, [&](const Planes& fewer) { return !is_part(fewer, planes); });
+    const Planes fewer = trial.random.of(subsets);
+    const diff::Verdict verdict = trial.judge(fewer, picture, profile);
+    if (!verdict.error.empty()) {
+        ++tally.errors;
+    } else if (!verdict.ok()) {
+        trial.contradict("wrong with fewer planes than " + names_of(planes), profile, fewer,
+                         picture, verdict);
+    } else {
+        ++tally.right[static_cast<size_t>(profile)];
     }
 }
 

@@ -19,8 +19,12 @@ struct Tally {
     std::vector<std::string> contradictions;
 };
 
-// One picture of a seed's scene, right at a random profile and stricter... looser ones, or wrong.
+// A picture of the seed's scene that a device of a random profile draws: passes there and at looser
+// ones.
 void try_right(uint64_t seed, bool every_subset, Tally& tally);
+// One with a sample that no history shows: fails, and is told at the loosest profile where it does.
 void try_wrong(uint64_t seed, Tally& tally);
+// One that passes, whatever it is: passes with fewer planes.
+void try_fewer(uint64_t seed, Tally& tally);
 
 }  // namespace histories

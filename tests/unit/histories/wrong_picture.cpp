@@ -56,7 +56,7 @@ std::string change(const Scene& scene, const Planes& planes, Shown& sample, cons
             seen.draw = static_cast<int>(draw);
             seen.triangle = static_cast<int>(triangle);
             seen.z = scene.draws[draw].triangles[triangle].z0;
-            seen.a = random.below(4);
+            seen.a = static_cast<double>(random.below(4)) - 1;
             return fmt::format("plane {} of triangle {} of draw {}", static_cast<int>(plane),
                                triangle, draw);
         case kDepth:
