@@ -52,9 +52,9 @@ Place place_of(const Scene& scene, size_t index) {
 std::array<std::array<double, 2>, 3> corners_of(const Triangle& triangle) {
     const double e = triangle.shape.edge;
     const bool is_beyond = triangle.shape.is_beyond;
-    std::array<std::array<double, 2>, 3> corners = {{{-2, -2}, {14, -2}, {-2, 14}}};
+    std::array<std::array<double, 2>, 3> corners = {{{-2, -2}, {10, -2}, {-2, 10}}};
     if (triangle.shape.cut == Shape::Cut::x) {
-        corners = {{{e, -8}, {e, 10}, {is_beyond ? e + 11 : e - 11, 1}}};
+        corners = {{{e, -8}, {e, 10}, {is_beyond ? e + 8 : e - 8, 1}}};
     } else if (triangle.shape.cut == Shape::Cut::y) {
         corners = {{{-8, e}, {13, e}, {2.5, is_beyond ? e + 8 : e - 8}}};
     }

@@ -14,8 +14,9 @@ namespace histories {
 struct Tally {
     // Pictures judged, by profile.
     std::array<uint64_t, 3> right{}, wrong{};
-    // Neither pass nor fail: an empty picture would pass, too; or nothing wrong was found.
-    uint64_t errors = 0, none_wrong = 0, scenes = 0;
+    // Seeds of which nothing wrong was found; seeds that made a case.
+    uint64_t none_wrong = 0, scenes = 0;
+    std::vector<std::string> errors;  // neither pass nor fail: an empty picture would pass, too
     std::vector<std::string> contradictions;
 };
 

@@ -103,7 +103,7 @@ std::optional<WrongPicture> wrong_picture(const Scene& scene, const std::vector<
     const std::vector<Planes> subsets = subsets_of(scene);
     for (int tries = 0; tries < 16; ++tries) {
         WrongPicture out{shown(picture),
-                         random.of(subsets),
+                         random.chance(1, 6) ? whole_of(scene) : random.of(subsets),
                          random.below(static_cast<uint32_t>(scene.sample_count())),
                          {},
                          {}};
