@@ -82,12 +82,13 @@ Delivered delivered(const Scene& scene, const Planes& planes, const std::vector<
 }
 
 capture::Capture captured(const Scene& scene, const cases::Target& target,
-                          const std::vector<Shown>& picture) {
+                          const std::vector<Shown>& picture, const std::vector<uint64_t>& counted) {
     const Delivered all = delivered(scene, whole_of(scene), picture);
     capture::Capture out;
     out.target = target;
     out.has_primitive = true;
     out.attribute_count = 2;
+    out.counted = counted;
     for (size_t i = 0; i < all.draws.size(); ++i) {
         const auto front = static_cast<float>(all.front[i]), back = static_cast<float>(all.back[i]);
         out.hits.emplace_back(front, back, capture::kHitGuard, capture::kHitGuard + front + back);

@@ -6,63 +6,13 @@
 #include <cmath>
 #include <map>
 
+#include "fragment_depth.hpp"
+
 namespace histories {
 
 namespace {
 
 using cases::Profile;
-
-// Depths of triangles that lie less far apart may be computed to lie in any order: those of scenes
-// are equal or 1/256 apart, and at profile vulkan they may be off by 1/1000.
-constexpr double kNear = 1.0 / 400;
-
-struct Depth {
-    double number = 0;                   // exact
-    double computed = 0;                 // by a device
-    bool is_exact = true;                // nobody computes it: cleared or written by a shader
-    const Triangle* triangle = nullptr;  // whose plane it is, and by which viewport
-    bool has_wide_viewport = false;
-};
-
-double stored_depth(const Scene& scene, double depth) {
-    const DepthFormat format = scene.depth.value_or(DepthFormat::d32);
-    if (format == DepthFormat::d32) {
-        return static_cast<float>(depth);
-    }
-    const double all = format == DepthFormat::d24 ? 16777215 : 65535;
-    return std::nearbyint(depth * all) / all;
-}
-
-double depth_at(const Triangle& triangle, double x) {
-    return triangle.z0 + triangle.slope * (x - triangle.x0);
-}
-
-bool has_same_plane(const Triangle& a, const Triangle& b) {
-    return corners_of(a) == corners_of(b) && is_same(a.z0, b.z0) && is_same(a.slope, b.slope) &&
-           is_same(a.x0, b.x0);
-}
-
-// The relations that `a` may have to `b`.
-uint8_t relations(const Scene& scene, const Freedom& freedom, const Depth& a, const Depth& b) {
-    if (freedom.is_device) {
-        return a.computed < b.computed ? kLess : a.computed > b.computed ? kGreater : kEqual;
-    }
-    if (std::abs(a.number - b.number) >= kNear) {
-        return a.number < b.number ? kLess : kGreater;
-    }
-    // Vulkan specification, "Invariance": what write masks and tests are has no part in a depth, by
-    // all that draws in earnest; the text says so of masks, and suggests it of tests.
-    const bool is_float = scene.depth.value_or(DepthFormat::d32) == DepthFormat::d32;
-    const bool is_end =
-        is_same(a.number, b.number) && (is_same(a.number, 0) || is_same(a.number, 1));
-    const bool is_repeat = a.triangle != nullptr && b.triangle != nullptr &&
-                           a.has_wide_viewport == b.has_wide_viewport &&
-                           has_same_plane(*a.triangle, *b.triangle);
-    if (is_repeat && freedom.profile >= (is_float ? Profile::practice : Profile::direct3d)) {
-        return kEqual;
-    }
-    return a.is_exact && b.is_exact && (is_float || is_end) ? kEqual : kAlways;
-}
 
 bool asked(uint8_t passing, uint8_t possible, const Pick& pick) {
     if ((passing & possible) == 0 || (possible & ~passing) == 0) {
@@ -128,6 +78,9 @@ class Sample {
 
     Seen seen() const {
         Seen seen = seen_;
+        seen.is_color_large = seen.is_color_large ||
+                              (!scene_.colors.empty() &&
+                               is_color_large(scene_.colors[scene_.judged].about(), seen.color));
         seen.depth = freedom_.is_device ? depth_.computed : depth_.number;
         return seen;
     }
@@ -247,20 +200,7 @@ class Sample {
                 is_of_pixel(written.where, place_) ? written.other : written.value;
             return {number, stored_depth(scene_, number), true, nullptr, false};
         }
-        const double number = depth_at(triangle, place_.at_x);
-        double computed = number;
-        if (!is_same(triangle.slope, 0)) {  // the same plane has the same depth again
-            uint64_t hash = freedom_.seed;
-            for (const double part :
-                 {triangle.z0, triangle.slope, triangle.x0, triangle.shape.edge,
-                  static_cast<double>(triangle.shape.cut), triangle.shape.is_beyond ? 1.0 : 2.0,
-                  triangle.is_reversed ? 1.0 : 2.0, place_.at_x, place_.at_y}) {
-                hash = (hash ^ static_cast<uint64_t>(part * 4096)) * 0x9e3779b97f4a7c15U;
-                hash ^= hash >> 29;
-            }
-            computed += (static_cast<double>(hash % 3) - 1) * 0x1p-24;
-        }
-        return {number, stored_depth(scene_, computed), false, &triangle, draw.has_wide_viewport};
+        return computed_depth(scene_, draw, triangle, place_, freedom_);
     }
 
     bool is_within_bounds(size_t number) {
@@ -350,7 +290,11 @@ class Sample {
         if (!survives_alpha(draw)) {
             return;
         }
-        if (passes(number, triangle) && kept) {
+        if (!passes(number, triangle)) {
+            return;
+        }
+        ++seen_.counted[number];
+        if (kept) {
             write(number, t);
             if (is_wrong(Wrong::written_twice, number)) {
                 write(number, t);

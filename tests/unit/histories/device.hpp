@@ -24,6 +24,8 @@ struct Seen {
     double depth = 0;
     uint32_t stencil = 0;
     Codes color{};
+    bool is_color_large = false;  // it was once, so that formats with less range have another one
+    std::array<uint32_t, kMaxDraws> counted{};  // fragments of each draw that pass all tests
 };
 
 // Answers with a number below `count`.

@@ -37,8 +37,8 @@ void try_seeds(uint64_t first, uint64_t count, const std::function<void(uint64_t
               << " scenes; right at vulkan, practice, direct3d: " << tally.right[0] << ' '
               << tally.right[1] << ' ' << tally.right[2] << "; wrong: " << tally.wrong[0] << ' '
               << tally.wrong[1] << ' ' << tally.wrong[2] << "; errors " << tally.errors.size()
-              << "; nothing wrong found " << tally.none_wrong << "; contradictions "
-              << tally.contradictions.size() << '\n';
+              << "; none " << tally.none << "; contradictions " << tally.contradictions.size()
+              << '\n';
     std::sort(tally.contradictions.begin(), tally.contradictions.end(),
               [](const auto& a, const auto& b) { return a.size() < b.size(); });
     if (!tally.errors.empty()) {

@@ -52,9 +52,9 @@ bool is_part(const Planes& fewer, const Planes& planes);
 
 capture::Delivered delivered(const Scene& scene, const Planes& planes,
                              const std::vector<Shown>& picture);
-// All that the case's target holds.
+// All that the case's target holds, and what queries counted.
 capture::Capture captured(const Scene& scene, const cases::Target& target,
-                          const std::vector<Shown>& picture);
+                          const std::vector<Shown>& picture, const std::vector<uint64_t>& counted);
 // Whether the judge takes stencils of pictures of which not all is delivered.
 bool takes_stencil();
 

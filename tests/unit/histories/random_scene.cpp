@@ -129,6 +129,9 @@ Draw random_draw(const Scene& scene, int number, Random& random) {
     }
     give_tests(scene, draw, random);
     give_discard(scene, draw, random);
+    if (scene.has_instruments() && !draw.early && random.chance(1, 4)) {
+        draw.query = random.chance(2, 3) ? Query::precise : Query::occlusion;
+    }
     // What is clipped is held to less at profile vulkan, unless it is flat and far from its edges.
     const bool is_plain = std::all_of(
         draw.triangles.begin(), draw.triangles.end(),

@@ -6,6 +6,7 @@
 // diff; the judge sees the same case as the text that text_of() makes of it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -88,6 +89,8 @@ struct FragDepth {
     Discard where = Discard::none;
 };
 
+enum class Query : uint8_t { none, occlusion, precise };
+
 struct Draw {
     std::vector<Triangle> triangles;
     std::optional<std::array<uint32_t, 4>> scissor;  // x, y, width, height
@@ -112,7 +115,10 @@ struct Draw {
     Numbers constants{}, second{};
     std::optional<uint32_t> logic;  // VkLogicOp
     bool alpha_to_one = false, alpha_to_coverage = false;
+    Query query = Query::none;
 };
+
+inline constexpr size_t kMaxDraws = 5;
 
 enum class Attachments : uint8_t { all, color, color_and_depth };
 enum class DepthFormat : uint8_t { d32, d24, d16 };
@@ -142,6 +148,10 @@ struct Scene {
     bool has_logic = false;  // some draw combines codes bit by bit
     std::vector<Draw> draws;
 
+    bool has_query() const {
+        return std::any_of(draws.begin(), draws.end(),
+                           [](const Draw& d) { return d.query != Query::none; });
+    }
     bool has_instruments() const { return attachments == Attachments::all; }
     bool has_depth() const { return attachments != Attachments::color; }
     size_t sample_count() const { return size_t{width} * height * layers * samples; }

@@ -146,6 +146,10 @@ std::string tests_text(const Scene& scene, const Draw& draw) {
                            kDiscardBy[static_cast<size_t>(draw.discard_by)]);
         out += draw.discard == Discard::negative ? "discard_attribute = \"a\"\n" : "";
     }
+    if (draw.query != Query::none) {
+        out += draw.query == Query::precise ? "query = \"occlusion-precise\"\n"
+                                            : "query = \"occlusion\"\n";
+    }
     out += draw.early ? "early_tests = true\n" : "";
     if (draw.frag_depth) {
         out += fmt::format("frag_depth = {{ value = {}", draw.frag_depth->value);

@@ -17,7 +17,7 @@ double limited(const ColorFormat& format, double number) {
     return is_fixed ? std::clamp(number, 0.0, 1.0) : number;
 }
 
-// Of numbers below the range's end.
+// Of numbers below the range's end, or near it where nobody looks (is_color_large).
 uint32_t half_of(double number) {
     if (is_same(number, 0)) {
         return std::signbit(number) ? 0x8000U : 0U;
@@ -194,6 +194,15 @@ Codes written(const ColorFormat& format, const Codes& stored, const Draw& draw,
         }
     }
     return codes;
+}
+
+bool is_color_large(const ColorFormat& format, const Codes& codes) {
+    for (size_t c = 0; c < 4; ++c) {
+        if (format.kind == Kind::floating && std::abs(number_of(format, c, codes[c])) > 100) {
+            return true;
+        }
+    }
+    return false;
 }
 
 bool is_near(const ColorFormat& format, const Codes& a, const Codes& b) {

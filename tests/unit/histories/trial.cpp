@@ -4,11 +4,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
 #include "cases/load/loader.hpp"
 #include "diff/delivered/delivered.hpp"
+#include "queries.hpp"
 #include "random_scene.hpp"
 #include "scene_text.hpp"
 #include "wrong_picture.hpp"
@@ -37,13 +39,15 @@ class Trial {
 
     bool is_loaded() const { return case_.has_value(); }
 
-    diff::Verdict judge(const Planes& planes, const std::vector<Shown>& picture, Profile profile) {
+    diff::Verdict judge(const Planes& planes, const std::vector<Shown>& picture,
+                        const std::vector<uint64_t>& counted, Profile profile) {
         auto& expectation = expectations_[static_cast<size_t>(profile)];
         if (!expectation) {
             expectation = ref::expect(*case_, ref::Limits{8}, profile);
         }
         if (planes.is_whole) {
-            return diff::compare(*case_, *expectation, captured(scene, case_->target, picture));
+            return diff::compare(*case_, *expectation,
+                                 captured(scene, case_->target, picture, counted));
         }
         return diff::compare_delivered(*case_, *expectation, delivered(scene, planes, picture));
     }
@@ -85,7 +89,12 @@ void try_right(uint64_t seed, bool every_subset, Tally& tally) {
         return;
     }
     const Profile strictest = cases::kProfiles[trial.random.of<uint32_t>({0, 1, 2, 2})];
-    const std::vector<Shown> picture = shown(picture_of(trial.scene, strictest, trial.random));
+    const std::vector<Seen> seen = picture_of(trial.scene, strictest, trial.random);
+    const std::vector<Shown> picture = shown(seen);
+    if (std::any_of(seen.begin(), seen.end(), [](const Seen& s) { return s.is_color_large; })) {
+        ++tally.none;
+        return;
+    }
     std::vector<Planes> subsets = subsets_of(trial.scene);
     if (!every_subset) {
         subsets = {trial.random.chance(1, 6) ? whole_of(trial.scene) : trial.random.of(subsets)};
@@ -97,7 +106,8 @@ void try_right(uint64_t seed, bool every_subset, Tally& tally) {
             if (profile > strictest) {
                 continue;
             }
-            const diff::Verdict verdict = trial.judge(planes, picture, profile);
+            const diff::Verdict verdict =
+                trial.judge(planes, picture, counted_of(trial.scene, seen), profile);
             if (!verdict.error.empty()) {
                 tally.errors.push_back(fmt::format("seed {}: {}", seed, verdict.error));
             } else if (!verdict.ok()) {
@@ -120,7 +130,7 @@ void try_wrong(uint64_t seed, Tally& tally) {
     const auto right = picture_of(trial.scene, Profile::direct3d, trial.random);
     const auto wrong = wrong_picture(trial.scene, right, trial.random);
     if (!wrong) {
-        ++tally.none_wrong;
+        ++tally.none;
         return;
     }
     const Place p = place_of(trial.scene, wrong->index);
@@ -130,7 +140,8 @@ void try_wrong(uint64_t seed, Tally& tally) {
         if (profile < wrong->loosest) {
             continue;
         }
-        const diff::Verdict verdict = trial.judge(wrong->planes, wrong->picture, profile);
+        const diff::Verdict verdict =
+            trial.judge(wrong->planes, wrong->picture, wrong->counted, profile);
         if (!verdict.error.empty()) {
             tally.errors.push_back(fmt::format("seed {}: {}", seed, verdict.error));
         } else if (verdict.ok()) {
@@ -165,13 +176,13 @@ void try_fewer(uint64_t seed, Tally& tally) {
     }
     std::vector<Planes> subsets = subsets_of(trial.scene);
     const Planes planes = trial.random.of(subsets);
-    if (!trial.judge(planes, picture, profile).ok()) {
+    if (!trial.judge(planes, picture, {}, profile).ok()) {
         ++tally.wrong[static_cast<size_t>(profile)];
         return;
     }
     std::erase_if(subsets, [&](const Planes& fewer) { return !is_part(fewer, planes); });
     const Planes fewer = trial.random.of(subsets);
-    const diff::Verdict verdict = trial.judge(fewer, picture, profile);
+    const diff::Verdict verdict = trial.judge(fewer, picture, {}, profile);
     if (!verdict.error.empty()) {
         tally.errors.push_back(fmt::format("seed {}: {}", seed, verdict.error));
     } else if (!verdict.ok()) {

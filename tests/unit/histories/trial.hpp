@@ -14,8 +14,8 @@ namespace histories {
 struct Tally {
     // Pictures judged, by profile.
     std::array<uint64_t, 3> right{}, wrong{};
-    // Seeds of which nothing wrong was found; seeds that made a case.
-    uint64_t none_wrong = 0, scenes = 0;
+    // Seeds of which no picture was found; seeds that made a case.
+    uint64_t none = 0, scenes = 0;
     std::vector<std::string> errors;  // neither pass nor fail: an empty picture would pass, too
     std::vector<std::string> contradictions;
 };

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "queries.hpp"
+
 namespace histories {
 
 namespace {
@@ -101,10 +103,23 @@ std::string make_wrong(const Scene& scene, const Planes& planes, Shown& sample, 
 std::optional<WrongPicture> wrong_picture(const Scene& scene, const std::vector<Seen>& picture,
                                           Random& random) {
     const std::vector<Planes> subsets = subsets_of(scene);
+    if (scene.has_query() && random.chance(1, 4)) {
+        if (const auto wrong = wrong_count(scene, picture, random)) {
+            return WrongPicture{
+                shown(picture),
+                whole_of(scene),
+                0,
+                wrong->counted,
+                fmt::format("query of draw {} counts {} for {}", wrong->draw,
+                            wrong->counted[wrong->draw], counted_of(scene, picture)[wrong->draw]),
+                wrong->loosest};
+        }
+    }
     for (int tries = 0; tries < 16; ++tries) {
         WrongPicture out{shown(picture),
                          random.chance(1, 6) ? whole_of(scene) : random.of(subsets),
                          random.below(static_cast<uint32_t>(scene.sample_count())),
+                         counted_of(scene, picture),
                          {},
                          {}};
         out.how = make_wrong(scene, out.planes, out.picture[out.index], place_of(scene, out.index),

@@ -12,11 +12,12 @@
 
 namespace histories {
 
-// A right picture with one sample that no history shows in these planes.
+// A right picture with one sample that no history shows in these planes, or with a wrong count.
 struct WrongPicture {
     std::vector<Shown> picture;
     Planes planes;
     size_t index = 0;
+    std::vector<uint64_t> counted;                      // by queries
     std::string how;                                    // it was made
     cases::Profile loosest = cases::Profile::direct3d;  // at which it is wrong
 };
