@@ -26,7 +26,8 @@ void put_stencil(D& to, uint32_t stencil) {
 }
 
 glm::vec4 frag_coord_of(const Place& place, const Seen& w) {
-    return is_hit(w) ? glm::vec4(place.x + 0.5, place.y + 0.5, w.z, 1)
+    return is_hit(w) ? glm::vec4(w.is_at_sample ? place.at_x : place.x + 0.5,
+                                 w.is_at_sample ? place.at_y : place.y + 0.5, w.z, 1)
                      : glm::vec4(capture::kClearValue);
 }
 glm::vec4 attribute(const Seen& seen, double value) {

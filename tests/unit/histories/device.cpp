@@ -53,8 +53,20 @@ bool is_of_pixel(Discard which, const Place& place) {
            (which == Discard::checker && (place.x + place.y) % 2 == 1);
 }
 
+// Where the shader's inputs are evaluated, if the device does as all do.
+double evaluated_at(const Draw& draw, const Place& place) {
+    return draw.has_sample_shading ? place.at_x : place.x + 0.5;
+}
+
 double attribute_at(const Draw& draw, const Place& place) {
-    return draw.discard == Discard::negative ? draw.sign * (place.x + 0.5 - draw.zero) : 1;
+    return draw.discard == Discard::negative ? draw.sign * (evaluated_at(draw, place) - draw.zero)
+                                             : 1;
+}
+
+// With several samples the text says only that inputs are evaluated somewhere in the pixel.
+bool is_place_free(const Scene& scene, const Draw& draw, const Freedom& freedom) {
+    return scene.samples > 1 && !freedom.is_device && freedom.profile < Profile::direct3d &&
+           draw.discard == Discard::negative;
 }
 
 // The fragments of one sample, and what is stored there.
@@ -170,10 +182,10 @@ class Sample {
             case Discard::back:
                 return is_front_face;
             case Discard::negative:
-                if (!is_sign_open(draw, place_)) {
+                if (!is_sign_open(scene_, draw, place_, freedom_)) {
                     return attribute_at(draw, place_) > 0;
                 }
-                return is_shared(scene_, freedom_) ? kept_[number][t] : pick_(2) != 0;
+                return is_shared(scene_, draw, freedom_) ? kept_[number][t] : pick_(2) != 0;
             default:
                 return !is_of_pixel(draw.discard, place_);
         }
@@ -309,8 +321,10 @@ class Sample {
                                                                                : seen_.back);
         seen_.draw = static_cast<int>(number);
         seen_.triangle = static_cast<int>(t);
-        seen_.z = depth_at(triangle, place_.x + 0.5);
+        seen_.is_at_sample = draw.has_sample_shading;
+        seen_.z = depth_at(triangle, evaluated_at(draw, place_));
         seen_.a = attribute_at(draw, place_);
+        seen_.a_free = is_place_free(scene_, draw, freedom_) ? 1 : 0;
         if (!scene_.colors.empty()) {
             ColorState state = draw.colors[scene_.judged];
             if (is_wrong(Wrong::blend_ignored, number)) {
@@ -323,8 +337,12 @@ class Sample {
 
 }  // namespace
 
-bool is_sign_open(const Draw& draw, const Place& place) {
-    return draw.discard == Discard::negative && is_same(attribute_at(draw, place), 0);
+bool is_sign_open(const Scene& scene, const Draw& draw, const Place& place,
+                  const Freedom& freedom) {
+    if (is_place_free(scene, draw, freedom) && std::abs(place.x + 0.5 - draw.zero) < 0.5) {
+        return true;
+    }
+    return is_same(attribute_at(draw, place), 0);
 }
 
 // Where the text lets invocations be repeated, a device may decide anew for each sample: to be sure
@@ -332,6 +350,10 @@ bool is_sign_open(const Draw& draw, const Place& place) {
 bool is_shared(const Scene& scene, const Freedom& freedom) {
     return scene.samples == 1 || freedom.profile == Profile::direct3d ||
            (freedom.is_device && freedom.profile == Profile::practice);
+}
+
+bool is_shared(const Scene& scene, const Draw& draw, const Freedom& freedom) {
+    return is_shared(scene, freedom) && (scene.samples == 1 || !draw.has_sample_shading);
 }
 
 Seen draw_sample(const Scene& scene, const Place& place, const Freedom& freedom, const Kept& kept,

@@ -21,6 +21,8 @@ struct Seen {
     uint32_t front = 0, back = 0;
     int draw = -1, triangle = -1;  // that wrote last
     double z = 0, a = 0;           // its FragCoord.z, and attribute "a"
+    double a_free = 0;             // by how much the device's choice of a place may change it
+    bool is_at_sample = false;     // its FragCoord
     double depth = 0;
     uint32_t stencil = 0;
     Codes color{};
@@ -71,9 +73,10 @@ using Kept = std::vector<std::vector<bool>>;
 Seen draw_sample(const Scene& scene, const Place& place, const Freedom& freedom, const Kept& kept,
                  const Pick& pick, const Fault& fault = {});
 
-// Whether the shader's decision is one for all samples of a pixel.
+// Whether one invocation decides for all samples of a pixel, of some draw or of this one.
 bool is_shared(const Scene& scene, const Freedom& freedom);
-// Whether the sign of attribute "a" is open in the pixel.
-bool is_sign_open(const Draw& draw, const Place& place);
+bool is_shared(const Scene& scene, const Draw& draw, const Freedom& freedom);
+// Whether the sign of attribute "a" is open at the sample.
+bool is_sign_open(const Scene& scene, const Draw& draw, const Place& place, const Freedom& freedom);
 
 }  // namespace histories

@@ -51,14 +51,16 @@ std::vector<Seen> histories_of(const Scene& scene, const Place& place, const Fre
     return all;
 }
 
-std::vector<Kept> decisions_of(const Scene& scene, const Place& place) {
+std::vector<Kept> decisions_of(const Scene& scene, const Place& place, const Freedom& freedom) {
     Kept none;
     for (const Draw& draw : scene.draws) {
         none.emplace_back(draw.triangles.size(), false);
     }
     std::vector<Kept> all = {none};
     for (size_t d = 0; d < scene.draws.size(); ++d) {
-        for (size_t t = 0; is_sign_open(scene.draws[d], place) && t < none[d].size(); ++t) {
+        const bool is_open = is_shared(scene, scene.draws[d], freedom) &&
+                             is_sign_open(scene, scene.draws[d], place, freedom);
+        for (size_t t = 0; is_open && t < none[d].size(); ++t) {
             const size_t count = all.size();
             for (size_t i = 0; i < count; ++i) {
                 all.push_back(all[i]);
@@ -77,7 +79,7 @@ std::vector<Seen> picture_of(const Scene& scene, cases::Profile profile, Random&
     for (size_t index = 0; index < scene.sample_count(); ++index) {
         const Place place = place_of(scene, index);
         if (place.sample == 0) {
-            kept = random.of(decisions_of(scene, place));
+            kept = random.of(decisions_of(scene, place, freedom));
         }
         picture.push_back(draw_sample(scene, place, freedom, kept, pick));
     }
@@ -90,7 +92,7 @@ bool is_allowed(const Scene& scene, cases::Profile profile, const Planes& planes
     const bool is_pixel = is_shared(scene, freedom);
     const size_t first = is_pixel ? first_of_pixel(scene, index) : index;
     const size_t last = is_pixel ? first + scene.samples : index + 1;
-    const std::vector<Kept> decisions = decisions_of(scene, place_of(scene, first));
+    const std::vector<Kept> decisions = decisions_of(scene, place_of(scene, first), freedom);
     for (size_t k = 0; k < (is_pixel ? decisions.size() : 1); ++k) {
         bool is_right = true;
         for (size_t i = first; i < last && is_right; ++i) {

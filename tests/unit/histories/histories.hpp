@@ -33,8 +33,8 @@ class Random {
 std::vector<Seen> histories_of(const Scene& scene, const Place& place, const Freedom& freedom,
                                const Kept& kept, const Fault& fault = {});
 
-// All decisions of the fragments of a pixel whose sign is open, or one if there is none.
-std::vector<Kept> decisions_of(const Scene& scene, const Place& place);
+// All decisions of a pixel's invocations whose sign is open, or one if there is none.
+std::vector<Kept> decisions_of(const Scene& scene, const Place& place, const Freedom& freedom);
 
 // A picture of a device that does what the profile leaves it, at random.
 std::vector<Seen> picture_of(const Scene& scene, cases::Profile profile, Random& random);

@@ -17,8 +17,8 @@ constexpr std::array<const char*, kPlaneCount> kNames = {"hits", "writer", "frag
                                                          "a",    "depth",  "color",      "stencil"};
 constexpr std::array<const char*, 4> kDetails = {"none", "coverage", "total", "faces"};
 
-bool is_equal(double a, double b) {
-    return std::abs(a - b) < 1.0 / 64;
+bool is_equal(double a, double b, double free = 0) {
+    return std::abs(a - b) < free + 1.0 / 64;
 }
 
 bool has_same_hits(HitDetail detail, const Seen& a, const Seen& b) {
@@ -113,7 +113,7 @@ bool shows(const Scene& scene, const Planes& planes, const Shown& picture, const
         }
         if (planes.has(kAttributeA) &&
             (is_hit(picture[kAttributeA]) != is_hit(history) ||
-             (is_hit(history) && !is_equal(picture[kAttributeA].a, history.a)))) {
+             (is_hit(history) && !is_equal(picture[kAttributeA].a, history.a, history.a_free)))) {
             return false;
         }
     }

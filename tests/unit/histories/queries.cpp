@@ -44,7 +44,7 @@ Bounds bounds_of(const Scene& scene, cases::Profile profile, size_t draw,
     Bounds all;
     for (size_t first = 0; first < picture.size(); first += step) {
         std::optional<Bounds> unit;
-        for (const Kept& kept : decisions_of(scene, place_of(scene, first))) {
+        for (const Kept& kept : decisions_of(scene, place_of(scene, first), freedom)) {
             const auto some = bounds_of(scene, freedom, kept, draw, picture, first, first + step);
             if (some) {
                 unit = unit ? Bounds{std::min(unit->least, some->least),

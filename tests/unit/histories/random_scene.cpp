@@ -95,10 +95,14 @@ void give_discard(const Scene& scene, Draw& draw, Random& random) {
     if (random.chance(1, 4)) {
         draw.discard = Discard::negative;
         draw.zero = random.below(scene.width - 1) + 0.5;
+        if (scene.samples > 1 && random.chance(1, 4)) {
+            draw.zero = through_samples(scene, scene.width - 1, true, random);
+        }
         draw.sign = random.chance(1, 2) ? 1 : -1;
     } else if (random.chance(1, 6)) {
         draw.discard = static_cast<Discard>(1 + random.below(5));
     }
+    draw.has_sample_shading = scene.samples > 1 && random.chance(1, 8);
     draw.discard_by = static_cast<int>(random.below(3));
     draw.early = random.chance(1, draw.discard == Discard::none ? 8 : 3);
     if (random.chance(1, 8)) {

@@ -108,6 +108,7 @@ struct Draw {
     // Attribute "a" where discard is negative: sign * (x - zero), 0 at the centre of a column.
     double zero = 0.5, sign = 1;
     bool early = false;
+    bool has_sample_shading = false;  // an invocation a sample
     std::optional<FragDepth> frag_depth;
     uint32_t sample_mask = ~0U;
     std::optional<uint32_t> shader_mask;

@@ -150,6 +150,7 @@ std::string tests_text(const Scene& scene, const Draw& draw) {
         out += draw.query == Query::precise ? "query = \"occlusion-precise\"\n"
                                             : "query = \"occlusion\"\n";
     }
+    out += draw.has_sample_shading ? "min_sample_shading = 1\n" : "";
     out += draw.early ? "early_tests = true\n" : "";
     if (draw.frag_depth) {
         out += fmt::format("frag_depth = {{ value = {}", draw.frag_depth->value);

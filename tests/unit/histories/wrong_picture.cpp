@@ -20,8 +20,9 @@ constexpr std::array<const char*, kWrongs> kWrongNames = {
 
 Seen any_history(const Scene& scene, const Place& place, Profile profile, const Fault& fault,
                  Random& random) {
-    const Kept kept = random.of(decisions_of(scene, place));
-    return random.of(histories_of(scene, place, Freedom{profile, false, 0}, kept, fault));
+    const Freedom freedom{profile, false, 0};
+    const Kept kept = random.of(decisions_of(scene, place, freedom));
+    return random.of(histories_of(scene, place, freedom, kept, fault));
 }
 
 // Changes what one plane that is delivered shows.
