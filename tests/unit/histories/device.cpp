@@ -63,10 +63,11 @@ double attribute_at(const Draw& draw, const Place& place) {
                                              : 1;
 }
 
-// With several samples the text says only that inputs are evaluated somewhere in the pixel.
+// With several samples the text says only that inputs are evaluated somewhere in the pixel; with
+// sample shading devices of all profiles do so at its centre or at the sample.
 bool is_place_free(const Scene& scene, const Draw& draw, const Freedom& freedom) {
-    return scene.samples > 1 && !freedom.is_device && freedom.profile < Profile::direct3d &&
-           draw.discard == Discard::negative;
+    return scene.samples > 1 && !freedom.is_device && draw.discard == Discard::negative &&
+           (freedom.profile < Profile::direct3d || draw.has_sample_shading);
 }
 
 // The fragments of one sample, and what is stored there.
@@ -75,7 +76,8 @@ class Sample {
     Sample(const Scene& scene, const Place& place, const Freedom& freedom, const Kept& kept,
            const Pick& pick, const Fault& fault)
         : scene_(scene), place_(place), freedom_(freedom), kept_(kept), pick_(pick), fault_(fault) {
-        depth_ = {scene.depth_clear, stored_depth(scene, scene.depth_clear), true, nullptr, false};
+        depth_ = {scene.depth_clear, stored_depth(scene, scene.depth_clear), true, nullptr,
+                  nullptr};
         seen_.stencil = scene.stencil_clear;
         if (!scene.colors.empty()) {
             seen_.color = clear_codes(scene.colors[scene.judged]);
@@ -210,7 +212,7 @@ class Sample {
             const FragDepth& written = *draw.frag_depth;
             const double number =
                 is_of_pixel(written.where, place_) ? written.other : written.value;
-            return {number, stored_depth(scene_, number), true, nullptr, false};
+            return {number, stored_depth(scene_, number), true, nullptr, nullptr};
         }
         return computed_depth(scene_, draw, triangle, place_, freedom_);
     }
@@ -221,7 +223,7 @@ class Sample {
             return true;
         }
         const auto bound = [&](double b) {
-            return Depth{b, stored_depth(scene_, b), true, nullptr, false};
+            return Depth{b, stored_depth(scene_, b), true, nullptr, nullptr};
         };
         const Depth low = bound((*draw.bounds)[0]), high = bound((*draw.bounds)[1]);
         return asked(kEqual | kGreater, relations(scene_, freedom_, depth_, low), pick_) &&

@@ -20,6 +20,22 @@ bool has_same_plane(const Triangle& a, const Triangle& b) {
            is_same(a.x0, b.x0);
 }
 
+// One triangle, drawn with the same state but for tests, masks, scissor and what colours do.
+bool is_repeat(const Depth& a, const Depth& b) {
+    const Draw &first = *a.draw, &second = *b.draw;
+    return has_same_plane(*a.triangle, *b.triangle) &&
+           first.has_wide_viewport == second.has_wide_viewport &&
+           first.culls_front == second.culls_front && first.culls_back == second.culls_back &&
+           first.clockwise == second.clockwise && first.layer == second.layer &&
+           first.discard == Discard::none && second.discard == Discard::none &&
+           first.early == second.early && first.sample_mask == second.sample_mask &&
+           first.shader_mask == second.shader_mask &&
+           first.has_sample_shading == second.has_sample_shading &&
+           first.alpha_to_coverage == second.alpha_to_coverage &&
+           first.alpha_to_one == second.alpha_to_one &&
+           first.frag_depth.has_value() == second.frag_depth.has_value();
+}
+
 }  // namespace
 
 double stored_depth(const Scene& scene, double depth) {
@@ -51,7 +67,7 @@ Depth computed_depth(const Scene& scene, const Draw& draw, const Triangle& trian
         const double error = freedom.profile == Profile::vulkan ? 0x1p-14 : 0x1p-24;
         computed += (static_cast<double>(hash % 3) - 1) * error;
     }
-    return {number, stored_depth(scene, computed), false, &triangle, draw.has_wide_viewport};
+    return {number, stored_depth(scene, computed), false, &draw, &triangle};
 }
 
 uint8_t relations(const Scene& scene, const Freedom& freedom, const Depth& a, const Depth& b) {
@@ -61,16 +77,21 @@ uint8_t relations(const Scene& scene, const Freedom& freedom, const Depth& a, co
     if (std::abs(a.number - b.number) >= kNear) {
         return a.number < b.number ? kLess : kGreater;
     }
-    // Vulkan specification, "Invariance": what write masks and tests are has no part in a depth, by
-    // all that draws in earnest; the text says so of masks, and suggests it of tests.
     const bool is_float = scene.depth.value_or(DepthFormat::d32) == DepthFormat::d32;
     const bool is_end =
         is_same(a.number, b.number) && (is_same(a.number, 0) || is_same(a.number, 1));
-    const bool is_repeat = a.triangle != nullptr && b.triangle != nullptr &&
-                           a.has_wide_viewport == b.has_wide_viewport &&
-                           has_same_plane(*a.triangle, *b.triangle);
-    if (is_repeat && freedom.profile >= (is_float ? Profile::practice : Profile::direct3d)) {
-        return kEqual;
+    if (a.triangle != nullptr && b.triangle != nullptr && is_repeat(a, b)) {
+        // Write masks have no part in what a fragment is, by the text, and tests none by its
+        // suggestion.
+        const Profile since = !is_float ? Profile::direct3d
+                              : a.draw->compare == b.draw->compare && !a.draw->stencil &&
+                                      !b.draw->stencil && !a.draw->bounds && !b.draw->bounds &&
+                                      scene.colors.empty()
+                                  ? Profile::vulkan
+                                  : Profile::practice;
+        if (freedom.profile >= since) {
+            return kEqual;
+        }
     }
     return a.is_exact && b.is_exact && (is_float || is_end) ? kEqual : kAlways;
 }

@@ -10,11 +10,11 @@
 namespace histories {
 
 struct Depth {
-    double number = 0;                   // exact
-    double computed = 0;                 // by a device
-    bool is_exact = true;                // nobody computes it: cleared or written by a shader
-    const Triangle* triangle = nullptr;  // whose plane it is, and by which viewport
-    bool has_wide_viewport = false;
+    double number = 0;           // exact
+    double computed = 0;         // by a device
+    bool is_exact = true;        // nobody computes it: cleared or written by a shader
+    const Draw* draw = nullptr;  // whose plane it is
+    const Triangle* triangle = nullptr;
 };
 
 // Without an error, at x in pixels.

@@ -56,7 +56,7 @@ std::array<std::array<double, 2>, 3> corners_of(const Triangle& triangle) {
     if (triangle.shape.cut == Shape::Cut::x) {
         corners = {{{e, -8}, {e, 10}, {is_beyond ? e + 8 : e - 8, 1}}};
     } else if (triangle.shape.cut == Shape::Cut::y) {
-        corners = {{{-8, e}, {13, e}, {2.5, is_beyond ? e + 8 : e - 8}}};
+        corners = {{{-6, e}, {10, e}, {2.5, is_beyond ? e + 8 : e - 8}}};
     }
     if (triangle.is_reversed) {
         std::swap(corners[1], corners[2]);
