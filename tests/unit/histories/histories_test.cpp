@@ -20,7 +20,7 @@ namespace {
 
 using histories::Tally;
 
-constexpr uint64_t kQuick = 150, kExhaustive = 20000, kEverySubset = 200;
+constexpr uint64_t kQuick = 300, kExhaustive = 20000, kEverySubset = 200;
 
 // Tries seeds, those from `first` on, and tells the shortest contradictions.
 void try_seeds(uint64_t first, uint64_t count, const std::function<void(uint64_t, Tally&)>& one) {

@@ -211,7 +211,12 @@ bool is_near(const ColorFormat& format, const Codes& a, const Codes& b) {
             continue;
         }
         const double apart = std::abs(number_of(format, c, a[c]) - number_of(format, c, b[c]));
-        if (format.bits[c] == 0 || format.kind == Kind::integer || !(apart < 1.0 / 16)) {
+        // Few bits: what each blending may round adds up.
+        const double steps = format.kind == Kind::floating || format.bits[c] > 16
+                                 ? 0
+                                 : 2.5 / ((1U << format.bits[c]) - 1);
+        if (format.bits[c] == 0 || format.kind == Kind::integer ||
+            !(apart < std::max(1.0 / 16, steps))) {
             return false;
         }
     }

@@ -20,7 +20,7 @@ Codes written(const ColorFormat& format, const Codes& stored, const Draw& draw,
 // Whether a number is so large that binary16 may not hold what comes of it.
 bool is_color_large(const ColorFormat& format, const Codes& codes);
 // Whether codes are so near that nobody should tell wrong from right by them: numbers less than
-// 1/16 apart, integers that are equal.
+// 1/16 or a few codes apart, integers that are equal.
 bool is_near(const ColorFormat& format, const Codes& a, const Codes& b);
 
 }  // namespace histories
