@@ -5,14 +5,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
-#include <utility>
 
-#include "cases/load/loader.hpp"
-#include "diff/delivered/delivered.hpp"
+#include "judge.hpp"
 #include "queries.hpp"
 #include "random_scene.hpp"
 #include "scene_text.hpp"
+#include "shrink.hpp"
 #include "wrong_picture.hpp"
 
 namespace histories {
@@ -21,54 +19,34 @@ namespace {
 
 using cases::Profile;
 
-// A case of a seed, and what is expected of it.
-class Trial {
+// What is told of a picture that the judge is wrong about.
+std::string told(const Scene& scene, const Planes& planes, const std::vector<Shown>& picture,
+                 const diff::Verdict& verdict) {
+    std::string out = "planes: " + names_of(planes) + "\n";
+    for (const diff::Finding& f : verdict.findings) {
+        out += fmt::format(
+            "  finding at ({},{}) sample {} layer {}: {} {} [{}] {}: expected {}, got {}; {}\n",
+            f.x, f.y, f.sample, f.layer.value_or(0), to_string(f.kind), f.rule, to_string(f.level),
+            f.quantity, f.expected, f.got, f.why);
+    }
+    for (size_t i = 0; i < picture.size(); ++i) {
+        const Place p = place_of(scene, i);
+        out += fmt::format("  ({},{}) sample {} layer {}:{}\n", p.x, p.y, p.sample, p.layer,
+                           text_of(scene, planes, picture[i]));
+    }
+    return out + text_of(scene);
+}
+
+// A case of a seed, before the judge.
+class Trial : public Judge {
   public:
-    Trial(uint64_t seed, Tally& tally) : random(seed), seed_(seed), tally_(tally) {
-        scene = random_scene(random);
-        auto loaded = cases::load_text(text_of(scene), "histories.toml", "histories");
-        if (!loaded) {
-            tally.contradictions.push_back(fmt::format("seed {}: not loaded: {}\n{}", seed,
-                                                       cases::to_string(loaded.error()[0]),
-                                                       text_of(scene)));
-            return;
-        }
-        case_ = std::move(loaded->at(0));
-        ++tally.scenes;
-    }
-
-    bool is_loaded() const { return case_.has_value(); }
-
-    diff::Verdict judge(const Planes& planes, const std::vector<Shown>& picture,
-                        const std::vector<uint64_t>& counted, Profile profile) {
-        auto& expectation = expectations_[static_cast<size_t>(profile)];
-        if (!expectation) {
-            expectation = ref::expect(*case_, ref::Limits{8}, profile);
-        }
-        if (planes.is_whole) {
-            return diff::compare(*case_, *expectation,
-                                 captured(scene, case_->target, picture, counted));
-        }
-        return diff::compare_delivered(*case_, *expectation, delivered(scene, planes, picture));
-    }
+    Trial(uint64_t seed, Tally& tally) : Trial(seed, Random(seed), tally) {}
 
     void contradict(const std::string& what, Profile profile, const Planes& planes,
                     const std::vector<Shown>& picture, const diff::Verdict& verdict) {
-        std::string out = fmt::format("seed {}: {} at {}; planes: {}\n", seed_, what,
-                                      to_string(profile), names_of(planes));
-        for (const diff::Finding& f : verdict.findings) {
-            out += fmt::format(
-                "  finding at ({},{}) sample {} layer {}: {} {} [{}] {}: expected "
-                "{}, got {}; {}\n",
-                f.x, f.y, f.sample, f.layer.value_or(0), to_string(f.kind), f.rule,
-                to_string(f.level), f.quantity, f.expected, f.got, f.why);
-        }
-        for (size_t i = 0; i < picture.size(); ++i) {
-            const Place p = place_of(scene, i);
-            out += fmt::format("  ({},{}) sample {} layer {}:{}\n", p.x, p.y, p.sample, p.layer,
-                               text_of(scene, planes, picture[i]));
-        }
-        tally_.contradictions.push_back(out + text_of(scene));
+        tally_.contradictions.push_back(fmt::format("seed {}: {} at {}; {}", seed_, what,
+                                                    to_string(profile),
+                                                    told(scene, planes, picture, verdict)));
     }
 
     Scene scene;
@@ -77,15 +55,72 @@ class Trial {
   private:
     uint64_t seed_;
     Tally& tally_;
-    std::optional<cases::Case> case_;
-    std::array<std::optional<ref::Expectation>, 3> expectations_;
+
+    Trial(uint64_t seed, Random&& numbers, Tally& tally)
+        : Trial(seed, random_scene(numbers), numbers, tally) {}
+    Trial(uint64_t seed, const Scene& made, const Random& numbers, Tally& tally)
+        : Judge(made), scene(made), random(numbers), seed_(seed), tally_(tally) {
+        tally.scenes += error().empty() ? 1U : 0U;
+        if (!error().empty()) {
+            tally.contradictions.push_back(
+                fmt::format("seed {}: not loaded: {}\n{}", seed, error(), text_of(scene)));
+        }
+    }
 };
+
+// A smaller scene of which the same sample is as wrongly judged, in words.
+std::string smaller(const Scene& scene, const WrongPicture& wrong, Profile profile, bool is_level) {
+    const auto try_one = [&](const Finding& f) -> std::string {
+        Judge judge(f.scene);
+        if (!judge.error().empty()) {
+            return "";
+        }
+        Random random(1);
+        const auto right = picture_of(f.scene, Profile::direct3d, random);
+        auto picture = shown(right);
+        picture.at(wrong.index) = f.sample;
+        if (is_allowed(f.scene, wrong.loosest, f.planes, picture, wrong.index)) {
+            return "";
+        }
+        const auto verdict = judge.judge(f.planes, picture, counted_of(f.scene, right), profile);
+        const bool is_still =
+            verdict.error.empty() && (is_level ? verdict.level > wrong.loosest : verdict.ok());
+        return is_still ? told(f.scene, f.planes, picture, verdict) : "";
+    };
+    if (is_allowed(scene, wrong.loosest, wrong.planes, wrong.picture, wrong.index)) {
+        return "";  // a count is wrong
+    }
+    const Finding whole{scene, wrong.planes, wrong.picture[wrong.index]};
+    const Finding small = shrunk(whole, [&](const Finding& f) { return !try_one(f).empty(); });
+    return "\nsmaller: " + try_one(small);
+}
+
+// The same of a right picture that fails.
+std::string smaller_right(const Scene& scene, const Planes& planes, Profile strictest,
+                          Profile profile) {
+    const auto try_one = [&](const Finding& f) -> std::string {
+        Judge judge(f.scene);
+        for (uint64_t seed = 0; seed < 60 && judge.error().empty(); ++seed) {
+            Random random(seed);
+            const auto right = picture_of(f.scene, strictest, random);
+            const auto verdict =
+                judge.judge(f.planes, shown(right), counted_of(f.scene, right), profile);
+            if (verdict.error.empty() && !verdict.ok()) {
+                return told(f.scene, f.planes, shown(right), verdict);
+            }
+        }
+        return "";
+    };
+    const Finding small = shrunk({scene, planes, shown(Seen{})},
+                                 [&](const Finding& f) { return !try_one(f).empty(); });
+    return "\nsmaller: " + try_one(small);
+}
 
 }  // namespace
 
 void try_right(uint64_t seed, bool every_subset, Tally& tally) {
     Trial trial(seed, tally);
-    if (!trial.is_loaded()) {
+    if (!trial.error().empty()) {
         return;
     }
     const Profile strictest = cases::kProfiles[trial.random.of<uint32_t>({0, 1, 2, 2})];
@@ -114,6 +149,10 @@ void try_right(uint64_t seed, bool every_subset, Tally& tally) {
                 trial.contradict(
                     fmt::format("false accusation of a device of {}", to_string(strictest)),
                     profile, planes, picture, verdict);
+                if (tally.shrinks) {
+                    tally.contradictions.back() +=
+                        smaller_right(trial.scene, planes, strictest, profile);
+                }
                 return;
             } else {
                 ++tally.right[static_cast<size_t>(profile)];
@@ -124,7 +163,7 @@ void try_right(uint64_t seed, bool every_subset, Tally& tally) {
 
 void try_wrong(uint64_t seed, Tally& tally) {
     Trial trial(seed, tally);
-    if (!trial.is_loaded()) {
+    if (!trial.error().empty()) {
         return;
     }
     const auto right = picture_of(trial.scene, Profile::direct3d, trial.random);
@@ -142,15 +181,18 @@ void try_wrong(uint64_t seed, Tally& tally) {
         }
         const diff::Verdict verdict =
             trial.judge(wrong->planes, wrong->picture, wrong->counted, profile);
+        const bool is_level = !verdict.ok() && verdict.level > wrong->loosest;
         if (!verdict.error.empty()) {
             tally.errors.push_back(fmt::format("seed {}: {}", seed, verdict.error));
-        } else if (verdict.ok()) {
-            trial.contradict("hole: " + how, profile, wrong->planes, wrong->picture, verdict);
-            return;
-        } else if (verdict.level > wrong->loosest) {
-            trial.contradict(fmt::format("wrong level, {} for {}: {}", to_string(verdict.level),
-                                         to_string(wrong->loosest), how),
-                             profile, wrong->planes, wrong->picture, verdict);
+        } else if (verdict.ok() || is_level) {
+            const std::string what =
+                is_level ? fmt::format("wrong level, {} for {}: ", to_string(verdict.level),
+                                       to_string(wrong->loosest))
+                         : "hole: ";
+            trial.contradict(what + how, profile, wrong->planes, wrong->picture, verdict);
+            if (tally.shrinks) {
+                tally.contradictions.back() += smaller(trial.scene, *wrong, profile, is_level);
+            }
             return;
         } else {
             ++tally.wrong[static_cast<size_t>(profile)];
@@ -160,7 +202,7 @@ void try_wrong(uint64_t seed, Tally& tally) {
 
 void try_fewer(uint64_t seed, Tally& tally) {
     Trial trial(seed, tally);
-    if (!trial.is_loaded()) {
+    if (!trial.error().empty()) {
         return;
     }
     // Something that may be right or not.

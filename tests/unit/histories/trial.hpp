@@ -18,6 +18,7 @@ struct Tally {
     uint64_t none = 0, scenes = 0;
     std::vector<std::string> errors;  // neither pass nor fail: an empty picture would pass, too
     std::vector<std::string> contradictions;
+    bool shrinks = false;  // and tells a smaller scene of each
 };
 
 // A picture of the seed's scene that a device of a random profile draws: passes there and at looser
