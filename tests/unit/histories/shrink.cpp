@@ -107,7 +107,7 @@ Finding shrunk(Finding finding, const std::function<bool(const Finding&)>& is_st
         }
     }
     Finding smaller = finding;
-    smaller.scene.has_stencil = false;
+    smaller.scene.has_stencil = finding.planes.has(kStencil);
     for (Draw& draw : smaller.scene.draws) {
         draw.stencil.reset();
     }
