@@ -8,9 +8,6 @@ namespace histories {
 
 namespace {
 
-// Whether histories that the other planes exclude count for a query, too.
-constexpr bool kIsJoint = false;
-
 struct Bounds {
     uint64_t least = 0, most = 0;
 };
@@ -23,7 +20,7 @@ std::optional<Bounds> bounds_of(const Scene& scene, const Freedom& freedom, cons
     for (size_t i = first; i < last; ++i) {
         std::optional<Bounds> one;
         for (const Seen& seen : histories_of(scene, place_of(scene, i), freedom, kept)) {
-            if (!kIsJoint || shows(scene, whole_of(scene), picture[i], seen)) {
+            if (shows(scene, whole_of(scene), picture[i], seen)) {
                 const uint64_t count = seen.counted[draw];
                 one = one ? Bounds{std::min(one->least, count), std::max(one->most, count)}
                           : Bounds{count, count};
