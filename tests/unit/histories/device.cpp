@@ -325,6 +325,7 @@ class Sample {
         seen_.triangle = static_cast<int>(t);
         seen_.is_at_sample = draw.has_sample_shading;
         seen_.z = depth_at(triangle, evaluated_at(draw, place_));
+        seen_.z_free = scene_.samples > 1 ? std::abs(triangle.slope) : 0;
         seen_.a = attribute_at(draw, place_);
         seen_.a_free = is_place_free(scene_, draw, freedom_) ? 1 : 0;
         if (!scene_.colors.empty()) {

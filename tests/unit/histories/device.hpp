@@ -19,10 +19,10 @@ namespace histories {
 // What is seen of a sample when all is drawn.
 struct Seen {
     uint32_t front = 0, back = 0;
-    int draw = -1, triangle = -1;  // that wrote last
-    double z = 0, a = 0;           // its FragCoord.z, and attribute "a"
-    double a_free = 0;             // by how much the device's choice of a place may change it
-    bool is_at_sample = false;     // its FragCoord
+    int draw = -1, triangle = -1;   // that wrote last
+    double z = 0, a = 0;            // its FragCoord.z, and attribute "a"
+    double z_free = 0, a_free = 0;  // by how much the device's choice of a place may change them
+    bool is_at_sample = false;      // its FragCoord
     double depth = 0;
     uint32_t stencil = 0;
     Codes color{};

@@ -105,7 +105,7 @@ bool shows(const Scene& scene, const Planes& planes, const Shown& picture, const
     if (!is_known_clear) {
         if (planes.has(kFragCoord) &&
             (is_hit(picture[kFragCoord]) != is_hit(history) ||
-             (is_hit(history) && !is_equal(picture[kFragCoord].z, history.z)))) {
+             (is_hit(history) && !is_equal(picture[kFragCoord].z, history.z, history.z_free)))) {
             return false;
         }
         if (planes.has(kAttributeV) && !is_same(value_v(picture[kAttributeV]), value_v(history))) {
