@@ -25,6 +25,7 @@ const std::vector<double>& depths() {
 
 void give_plane(const Scene& scene, Triangle& triangle, Random& random) {
     triangle.z0 = random.of(depths());
+    triangle.slope = 0;
     if (random.chance(1, 4)) {
         triangle.z0 = std::max(triangle.z0, 0.375);
         triangle.slope = random.chance(1, 2) ? 1.0 / 32 : -1.0 / 32;
