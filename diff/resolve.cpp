@@ -166,7 +166,7 @@ class Judge {
     std::string run() {
         const size_t pixels = size_t{target_.width} * target_.rows();
         for (size_t pixel = 0; pixel < pixels; ++pixel) {
-            if (!judge_pixel(pixel)) {
+            if (!judge_resolved(pixel)) {
                 return fmt::format(
                     "the resolved pixel ({}, {}) was not copied from the device: it "
                     "still holds the read-back memory's fill pattern",
@@ -214,27 +214,6 @@ class Judge {
     }
 
   private:
-    // False if it was not copied.
-    bool judge_pixel(size_t pixel) {
-        const size_t first = pixel * target_.samples;
-        if (target_.has_stencil) {
-            for (uint32_t s = 0; s < target_.samples; ++s) {
-                if (capture_.stencil[first + s] == capture::kPoison) {
-                    return false;
-                }
-                if (stencil_ == nullptr) {
-                    if (target_.has_instruments) {
-                        judge_stencil(pixel, s);
-                    }
-                } else if (auto finding =
-                               stencil_->judge(first + s, cases::sample_at(target_, first + s))) {
-                    add_(std::move(*finding));
-                }
-            }
-        }
-        return judge_resolved(pixel);
-    }
-
     void judge_color(size_t pixel, uint32_t component, uint32_t code) {
         const Component stored(cases::component_of(target_.color->format, component));
         if (!stored.exists()) {
@@ -271,7 +250,7 @@ class Judge {
 bool is_resolved_rightly(const capture::CaptureView& capture, size_t pixel, Profile profile) {
     bool is_right = true;
     const std::function<void(Finding)> add = [&is_right](const Finding&) { is_right = false; };
-    return Judge(capture, profile, add, nullptr).judge_resolved(pixel) && is_right;
+    return Judge(capture, profile, add).judge_resolved(pixel) && is_right;
 }
 
 uint32_t stencil_of(const glm::vec4& hits) {
