@@ -442,7 +442,7 @@ class Comparison {
                 : ref::path::SeenHits{Detail::faces, bounds.front_min, bounds.back_min};
         if (std::optional<Finding> finding = stencil_ ? stencil_->judge(index, id, seen.hits)
                                                       : judge_count(capture_, index, hits)) {
-            add(std::move(*finding));
+            add_last(std::move(*finding), index, id);
             seen.stencil = false;
         }
         // A count follows from the hits.
@@ -476,9 +476,8 @@ class Comparison {
         verdict_.compared_values += outcome.compared_values;
         note_worst(outcome.worst_ratio, outcome.worst_quantity, id);
         verdict_.raise_error(index, outcome.worst_ratio);
-        for (const Finding& finding : outcome.values) {
-            (finding.quantity == "depth" ? seen.depth : seen.values) = false;
-        }
+        seen.depth = seen.depth && !outcome.is_depth_wrong;
+        seen.values = seen.values && !outcome.are_others_wrong;
         judge_together(index, id, seen);
         for (Finding& finding : outcome.values) {
             add(std::move(finding));
@@ -505,8 +504,8 @@ class Comparison {
         }
     }
 
-    // Adds a finding after which a sample's other planes are not asked. Where looser profiles allow
-    // what it tells, they may deny the others: then that is what is wrong.
+    // Adds a finding of a plane that is not asked together with the others. Where looser profiles
+    // allow what it tells, they may deny the planes together: then that is what is wrong.
     void add_last(Finding finding, size_t index, cases::SampleId id) {
         for (const cases::Profile profile : cases::kProfiles) {
             if (profile >= finding.level) {

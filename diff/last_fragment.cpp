@@ -68,6 +68,7 @@ LastFragment::Outcome LastFragment::judge(size_t index, cases::SampleId id) {
     out.worst_ratio = best.worst_ratio;
     out.worst_quantity = best.worst_quantity;
     for (ref::ValueMismatch& m : best.mismatches) {
+        (m.quantity.is_depth() ? out.is_depth_wrong : out.are_others_wrong) = true;
         out.values.push_back(value_finding(id, std::move(m), t));
     }
     return out;

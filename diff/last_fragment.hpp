@@ -45,7 +45,9 @@ class LastFragment {
         // Without a triangle: what is said of the writer. Else of depth that the triangle did not
         // write.
         std::optional<Finding> finding;
-        std::vector<Finding> values;                    // that the triangle does not give
+        std::vector<Finding> values;  // that the triangle does not give
+        bool is_depth_wrong = false;  // it is one of them
+        bool are_others_wrong = false;
         double worst_ratio = 0;                         // largest error of the values, in budgets
         std::optional<ref::QuantityId> worst_quantity;  // whose
         uint64_t compared_values = 0;                   // numbers

@@ -452,7 +452,7 @@ constexpr std::array kRules = {
          "It is tested before the stencil: a fragment that fails leaves no trace, not even of a "
          "stencil operation. Exact with binary32 depth; fixed-point bounds and depths may be "
          "either neighbour.",
-         "fragops-dbt", "", "ref/stencil/outcome.cpp"},
+         "fragops-dbt", "", "ref/path/path.cpp"},
     Rule{rule::depth_clamp, Profile::vulkan, "Depth clamp limits depth to the viewport's range",
          "With depthClampEnable z is clamped to [min, max] of the viewport's depths, whichever is "
          "the smaller, after the bias; near and far planes clip nothing.",

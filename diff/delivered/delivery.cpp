@@ -9,7 +9,8 @@
 namespace diff {
 
 bool Delivery::has_values() const {
-    return values.frag_coord || std::ranges::find(values.attributes, true) != values.attributes.end();
+    return values.frag_coord ||
+           std::ranges::find(values.attributes, true) != values.attributes.end();
 }
 
 Delivery delivery_of(const cases::Case& c) {

@@ -28,7 +28,9 @@ struct Delivery {
     bool has_values() const;
     // Whether all of a fragment was.
     bool has_all_fragments() const { return has_writers && values.is_all(); }
-    bool has_color_alone() const { return has_color && !has_stencil && !tells_hits() && !values.depth; }
+    bool has_color_alone() const {
+        return has_color && !has_stencil && !tells_hits() && !values.depth;
+    }
     // Whether a plane tells by itself what was hit.
     bool tells_hits() const {
         return hits != capture::HitDetail::none || has_writers || has_values() ||

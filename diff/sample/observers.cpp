@@ -63,8 +63,8 @@ bool Observers::has_clear_values(size_t index) const {
 // Whether the values that were delivered say that something was drawn.
 bool Observers::is_covered_by_values(size_t index) {
     const ref::SampleExpectation& expected = expectation_.samples[index];
-    const bool is_depth_clear = !delivery_.values.depth ||
-                                capture::is_clear_depth(case_.target, capture_.depth[index]);
+    const bool is_depth_clear =
+        !delivery_.values.depth || capture::is_clear_depth(case_.target, capture_.depth[index]);
     const bool all_clear = has_clear_values(index) && is_depth_clear;
     if (!all_clear || expected.hits.total_min == 0) {
         return !all_clear;
@@ -118,7 +118,8 @@ ref::path::Observed Observers::observe(cases::Profile profile, size_t index, cas
         const auto is_it = [&](const ref::path::Fragment& f) {
             return !seen.writer || last_fragment_.wrote(index, f.triangle);
         };
-        const bool asks_values = seen.values && std::ranges::count_if(fragments, is_it) > 1;
+        const bool asks_values =
+            seen.values && (is_derived || std::ranges::count_if(fragments, is_it) > 1);
         std::map<uint32_t, bool> known;  // by triangle, which may have several pieces
         for (const ref::path::Fragment& f : fragments) {
             const auto [at, is_new] = known.try_emplace(f.triangle, false);
@@ -169,17 +170,17 @@ bool Observers::has_path(cases::Profile profile, size_t index, cases::SampleId i
 
 std::optional<Finding> Observers::judge(size_t index, cases::SampleId id, SeenPlanes& seen) {
     const ref::SampleExpectation& expected = expectation_.samples[index];
-    if (!expected.is_open || expected.is_free ||
-        has_path(expectation_.profile, index, id, seen)) {
+    if (!expected.is_open || expected.is_free || has_path(expectation_.profile, index, id, seen)) {
         return std::nullopt;
     }
     // The first plane that no path satisfies together with those before it is told.
     struct Plane {
-        bool SeenPlanes::* is_seen;
+        bool SeenPlanes::*is_seen;
         std::string_view name;
     };
-    constexpr std::array kPlanes = {Plane{&SeenPlanes::writer, "writer"}, Plane{&SeenPlanes::values, "values"},
-                                    Plane{&SeenPlanes::stencil, "stencil"}, Plane{&SeenPlanes::depth, "depth"}};
+    constexpr std::array kPlanes = {
+        Plane{&SeenPlanes::writer, "writer"}, Plane{&SeenPlanes::values, "values"},
+        Plane{&SeenPlanes::stencil, "stencil"}, Plane{&SeenPlanes::depth, "depth"}};
     SeenPlanes so_far{seen.hits, false, false, false, false};
     std::optional<Finding> finding;
     for (const Plane& plane : kPlanes) {
@@ -198,9 +199,7 @@ std::optional<Finding> Observers::judge(size_t index, cases::SampleId id, SeenPl
 
 std::string Observers::text_of(size_t index, const SeenPlanes& seen) const {
     std::string out;
-    const auto add = [&](const std::string& words) {
-        out += (out.empty() ? "" : "; ") + words;
-    };
+    const auto add = [&](const std::string& words) { out += (out.empty() ? "" : "; ") + words; };
     if (seen.hits.detail == Detail::any) {
         add(seen.hits.front > 0 ? "some hits" : "no hit");
     } else if (seen.hits.detail == Detail::faces) {
@@ -233,8 +232,9 @@ Finding Observers::finding_of(size_t index, cases::SampleId id, const SeenPlanes
     finding.quantity = "attachments";
     finding.expected = "all attachments written by the same fragments";
     finding.got = text_of(index, seen);
-    finding.why = fmt::format("{}: the {} is right by itself, but with the planes before it no path",
-                              finding.why, contradicting);
+    finding.why =
+        fmt::format("{}: the {} is right by itself, but with the planes before it no path",
+                    finding.why, contradicting);
     return finding;
 }
 

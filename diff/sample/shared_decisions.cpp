@@ -33,8 +33,8 @@ std::vector<uint32_t> SharedDecisions::triangles_of(size_t first) const {
         std::set<uint32_t> here, pieces;
         for (const ref::path::Fragment& f : expectation_.fragments_of(expected)) {
             const cases::Draw& draw = case_.draws[expectation_.triangles[f.triangle].draw];
-            const bool is_shared = f.is_value_open &&
-                                   ref::value::shading_rate(draw, case_.target.samples) ==
+            const bool is_shared =
+                f.is_value_open && ref::value::shading_rate(draw, case_.target.samples) ==
                                        ref::value::ShadingRate::fragment;
             // Pieces of one triangle are several fragments.
             if (!(is_shared ? here : pieces).insert(f.triangle).second) {
@@ -54,7 +54,8 @@ std::vector<uint32_t> SharedDecisions::triangles_of(size_t first) const {
     return out;
 }
 
-bool SharedDecisions::is_right(size_t index, const SeenPlanes& seen, const std::set<uint32_t>& discarded,
+bool SharedDecisions::is_right(size_t index, const SeenPlanes& seen,
+                               const std::set<uint32_t>& discarded,
                                const std::vector<uint32_t>& decided, ref::ColorReference* colors) {
     const ref::SampleExpectation& expected = expectation_.samples[index];
     if (!expected.is_open || expected.is_free) {
@@ -77,8 +78,7 @@ bool SharedDecisions::is_right(size_t index, const SeenPlanes& seen, const std::
             f.is_sure = f.is_sure_but_for_value;
         }
     }
-    const ref::ColorWitness witness =
-        observers_.witness(expectation_.profile, index, id, seen);
+    const ref::ColorWitness witness = observers_.witness(expectation_.profile, index, id, seen);
     return ref::path::has_path(question, witness.paths) != ref::path::Answer::no &&
            (colors == nullptr ||
             colors->explains(index, id, capture_.color[index], witness, &question));
@@ -105,8 +105,8 @@ std::optional<Finding> SharedDecisions::judge(cases::SampleId pixel, const SeenA
         }
         bool are_right = true;
         for (size_t s = 0; s < samples.size() && are_right; ++s) {
-            are_right = !samples[s] ||
-                        is_right(first + s, *samples[s], discarded, triangles, colors);
+            are_right =
+                !samples[s] || is_right(first + s, *samples[s], discarded, triangles, colors);
         }
         if (are_right) {
             return std::nullopt;

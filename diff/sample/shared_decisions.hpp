@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What the samples of a pixel share: where the fragment shader runs once for them, one decision to
-// discard is that of all. At profile direct3d it runs once, unless sample shading is on. Vulkan lets
-// a device run it more often ("at least"), and each invocation may come to its own answer where the
-// value is open: there samples are judged one by one.
+// discard is that of all. At profile direct3d it runs once, unless sample shading is on. Vulkan
+// lets a device run it more often ("at least"), and each invocation may come to its own answer
+// where the value is open: there samples are judged one by one.
 #pragma once
 
 #include <array>

@@ -179,7 +179,9 @@ path::Question question_of(const Expectation& e, const cases::Case& c, const Sam
                        ? *at
                        : TestedDepth{fragment, stored, DepthOutcome::open, DepthOutcome::open};
         };
-        out.bounds = [tested](int stored, uint32_t m) { return tested(stored, m).bounds; };
+        if (tests_bounds(c)) {
+            out.bounds = [tested](int stored, uint32_t m) { return tested(stored, m).bounds; };
+        }
         out.depth = [tested](int stored, uint32_t m) { return tested(stored, m).depth; };
     }
     return out;

@@ -62,9 +62,8 @@ Observed observed_of(const History& path, size_t count, RandomQuestions& random)
 
 bool is_path(const History& found, const std::vector<History>& all) {
     return std::ranges::any_of(all, [&](const History& h) {
-        return h.shown == found.shown && h.is_front == found.is_front &&
-               h.stored == found.stored && h.stencil == found.stencil &&
-               h.discarded == found.discarded;
+        return h.shown == found.shown && h.is_front == found.is_front && h.stored == found.stored &&
+               h.stencil == found.stencil && h.discarded == found.discarded;
     });
 }
 
