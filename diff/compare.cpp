@@ -480,7 +480,11 @@ class Comparison {
         seen.values = seen.values && !outcome.are_others_wrong;
         judge_together(index, id, seen);
         for (Finding& finding : outcome.values) {
-            add(std::move(finding));
+            if (delivery_.has_instruments) {  // the writer says whose they are
+                add(std::move(finding));
+            } else {
+                add_last(std::move(finding), index, id);
+            }
         }
     }
 

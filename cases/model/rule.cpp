@@ -122,7 +122,9 @@ constexpr std::array kRules = {
          "cannot be",
          "The fragment is gone where every number that the value may be there is below 0, and is "
          "drawn where none is; -0 and 0 are not below it. In between either is right, but what is "
-         "drawn shows no negative value: the shader has one value, which it tests and writes.",
+         "drawn shows no negative value: the shader has one value, which it tests and writes. At "
+         "direct3d the samples of a pixel share that decision, unless sample shading is on; Vulkan "
+         "lets a device run the shader more often, and each run may decide anew.",
          "fragops-shader", "", "ref/value/sign.cpp"},
     Rule{rule::discard_early_tests, Profile::vulkan,
          "With early tests a discarded fragment has stored its depth and stencil",
@@ -308,8 +310,9 @@ constexpr std::array kRules = {
          "interfaces-fragmentoutput", "", "cases/fault/neighbour.hpp"},
     Rule{rule::write_consistent, Profile::vulkan, "A fragment writes all its attachments, or none",
          "Different color attachments of one draw receive the same fragments, and additive "
-         "blending of exactly representable values is exact.",
-         "invariance", "", "capture/capture.cpp"},
+         "blending of exactly representable values is exact. Hits, writer, values, stencil and depth "
+         "that are right one by one are those of one history of the sample's fragments.",
+         "invariance", "", "diff/sample/observers.cpp"},
     Rule{rule::write_outside, Profile::vulkan, "Nothing is written beside an attachment's memory",
          "Drawing, clearing, resolving and blitting write to the attachments alone: buffers in the "
          "same memory, directly before and after each of them, keep every word. What lies between "

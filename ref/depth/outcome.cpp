@@ -230,6 +230,7 @@ struct DepthTest::Impl {
         y.write = x.write;
         if (in_practice) {
             y.compare = x.compare;
+            y.bounds = x.bounds;
         }
         if (x == y) {
             return {steps <= 0 || in_practice, 0};

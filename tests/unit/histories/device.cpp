@@ -123,8 +123,23 @@ class Sample {
                (is_front(draw, triangle) ? draw.culls_front : draw.culls_back);
     }
 
-    // Both of the pair are drawn, and the edge has the same ends in all coordinates.
+    // Whether a triangle that is none of the pair ends at the pair's edge: of three the judge holds
+    // no two to each other.
+    bool meets_others(const Triangle& triangle) const {
+        return std::ranges::any_of(scene_.draws, [&](const Draw& draw) {
+            return std::ranges::any_of(draw.triangles, [&](const Triangle& t) {
+                return t.shape.cut == triangle.shape.cut && t.pair != triangle.pair &&
+                       is_same(t.shape.edge, triangle.shape.edge);
+            });
+        });
+    }
+
+    // Both of the pair are drawn, and the edge has the same ends in all coordinates. What a value
+    // may take away is left open with its pair.
     bool is_pair_held(size_t number, const Triangle& triangle) const {
+        if (scene_.draws[number].discard == Discard::negative || meets_others(triangle)) {
+            return false;
+        }
         int drawn = 0;
         for (const Triangle& t : scene_.draws[number].triangles) {
             const bool is_one =

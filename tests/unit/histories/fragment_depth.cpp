@@ -20,16 +20,16 @@ bool has_same_plane(const Triangle& a, const Triangle& b) {
            is_same(a.x0, b.x0);
 }
 
-// One triangle, drawn with the same state but for tests, masks, scissor and what colours do.
+// One triangle, drawn with the same state but for tests, masks and what colours do.
 bool is_repeat(const Depth& a, const Depth& b) {
     const Draw &first = *a.draw, &second = *b.draw;
     return has_same_plane(*a.triangle, *b.triangle) &&
            first.has_wide_viewport == second.has_wide_viewport &&
            first.culls_front == second.culls_front && first.culls_back == second.culls_back &&
            first.clockwise == second.clockwise && first.layer == second.layer &&
-           first.discard == Discard::none && second.discard == Discard::none &&
-           first.early == second.early && first.sample_mask == second.sample_mask &&
-           first.shader_mask == second.shader_mask &&
+           first.scissor == second.scissor && first.discard == Discard::none &&
+           second.discard == Discard::none && first.early == second.early &&
+           first.sample_mask == second.sample_mask && first.shader_mask == second.shader_mask &&
            first.has_sample_shading == second.has_sample_shading &&
            first.alpha_to_coverage == second.alpha_to_coverage &&
            first.alpha_to_one == second.alpha_to_one &&

@@ -12,44 +12,31 @@ struct Bounds {
     uint64_t least = 0, most = 0;
 };
 
-// How many fragments of a draw pass at samples `first` to `last`, in any history that shows them.
-std::optional<Bounds> bounds_of(const Scene& scene, const Freedom& freedom, const Kept& kept,
-                                size_t draw, const std::vector<Shown>& picture, size_t first,
-                                size_t last) {
-    Bounds all;
-    for (size_t i = first; i < last; ++i) {
-        std::optional<Bounds> one;
-        for (const Seen& seen : histories_of(scene, place_of(scene, i), freedom, kept)) {
-            if (shows(scene, whole_of(scene), picture[i], seen)) {
+// How many fragments of a draw pass at a sample, in any history that shows it. Counts are sums of
+// samples: what the samples of a pixel decide together is not asked of them.
+Bounds bounds_at(const Scene& scene, const Freedom& freedom, size_t draw,
+                 const std::vector<Shown>& picture, size_t index) {
+    std::optional<Bounds> out;
+    const Place place = place_of(scene, index);
+    for (const Kept& kept : decisions_of(scene, place, freedom)) {
+        for (const Seen& seen : histories_of(scene, place, freedom, kept)) {
+            if (shows(scene, whole_of(scene), picture[index], seen)) {
                 const uint64_t count = seen.counted[draw];
-                one = one ? Bounds{std::min(one->least, count), std::max(one->most, count)}
+                out = out ? Bounds{std::min(out->least, count), std::max(out->most, count)}
                           : Bounds{count, count};
             }
         }
-        if (!one) {
-            return std::nullopt;
-        }
-        all = {all.least + one->least, all.most + one->most};
     }
-    return all;
+    return out.value();
 }
 
 Bounds bounds_of(const Scene& scene, cases::Profile profile, size_t draw,
                  const std::vector<Shown>& picture) {
     const Freedom freedom{profile, false, 0};
-    const size_t step = is_shared(scene, freedom) ? scene.samples : 1;
     Bounds all;
-    for (size_t first = 0; first < picture.size(); first += step) {
-        std::optional<Bounds> unit;
-        for (const Kept& kept : decisions_of(scene, place_of(scene, first), freedom)) {
-            const auto some = bounds_of(scene, freedom, kept, draw, picture, first, first + step);
-            if (some) {
-                unit = unit ? Bounds{std::min(unit->least, some->least),
-                                     std::max(unit->most, some->most)}
-                            : *some;
-            }
-        }
-        all = {all.least + unit.value().least, all.most + unit.value().most};
+    for (size_t index = 0; index < picture.size(); ++index) {
+        const Bounds one = bounds_at(scene, freedom, draw, picture, index);
+        all = {all.least + one.least, all.most + one.most};
     }
     return all;
 }
