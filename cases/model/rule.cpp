@@ -310,7 +310,8 @@ constexpr std::array kRules = {
          "interfaces-fragmentoutput", "", "cases/fault/neighbour.hpp"},
     Rule{rule::write_consistent, Profile::vulkan, "A fragment writes all its attachments, or none",
          "Different color attachments of one draw receive the same fragments, and additive "
-         "blending of exactly representable values is exact. Hits, writer, values, stencil and depth "
+         "blending of exactly representable values is exact. Hits, writer, values, stencil and "
+         "depth "
          "that are right one by one are those of one history of the sample's fragments.",
          "invariance", "", "diff/sample/observers.cpp"},
     Rule{rule::write_outside, Profile::vulkan, "Nothing is written beside an attachment's memory",
