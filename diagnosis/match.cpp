@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "cases/model/sample.hpp"
-#include "diff/delivered/delivered.hpp"
+#include "diff/delivered.hpp"
 #include "rasterizers/strength/strength.hpp"
 
 namespace diagnosis {

@@ -15,7 +15,7 @@
 #include "cases/model/case.hpp"
 #include "cases/model/sample.hpp"
 #include "diff/attribution.hpp"
-#include "diff/delivered/delivery.hpp"
+#include "diff/delivery.hpp"
 #include "diff/sample/fragment_part.hpp"
 #include "diff/verdict.hpp"
 #include "ref/expectation/expectation.hpp"

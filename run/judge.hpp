@@ -12,7 +12,7 @@
 #include "capture/capture.hpp"
 #include "cases/model/case.hpp"
 #include "diff/consistency.hpp"
-#include "diff/delivered/delivered.hpp"
+#include "diff/delivered.hpp"
 #include "ref/position/limits.hpp"
 #include "report/record/run.hpp"
 

@@ -313,7 +313,7 @@ constexpr std::array kRules = {
          "blending of exactly representable values is exact. Hits, writer, values, stencil and "
          "depth "
          "that are right one by one are those of one history of the sample's fragments.",
-         "invariance", "", "diff/sample/observers.cpp"},
+         "invariance", "", "diff/observers.cpp"},
     Rule{rule::write_outside, Profile::vulkan, "Nothing is written beside an attachment's memory",
          "Drawing, clearing, resolving and blitting write to the attachments alone: buffers in the "
          "same memory, directly before and after each of them, keep every word. What lies between "

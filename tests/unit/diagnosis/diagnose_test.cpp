@@ -26,7 +26,7 @@
 #include "cases/model/sample.hpp"
 #include "diagnosis/condition.hpp"
 #include "diagnosis/hypothesis.hpp"
-#include "diff/delivered/delivered.hpp"
+#include "diff/delivered.hpp"
 #include "folders.hpp"
 #include "rasterizers/strength/strength.hpp"
 #include "run/judge.hpp"

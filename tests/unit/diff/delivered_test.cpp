@@ -3,7 +3,7 @@
 //
 // Planes of renderers that deliver only some: what is there is judged, what is not is not, and a
 // picture without a triangle never passes.
-#include "diff/delivered/delivered.hpp"
+#include "diff/delivered.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "cases/load/loader.hpp"
-#include "diff/delivered/delivered.hpp"
+#include "diff/delivered.hpp"
 #include "scene_text.hpp"
 
 namespace histories {

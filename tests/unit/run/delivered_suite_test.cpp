@@ -9,7 +9,7 @@
 #include <map>
 
 #include "cases/load/loader.hpp"
-#include "diff/delivered/delivered.hpp"
+#include "diff/delivered.hpp"
 #include "folders.hpp"
 #include "rasterizers/captures.hpp"
 #include "run/order.hpp"

@@ -16,7 +16,7 @@
 
 #include "capture/capture.hpp"
 #include "cases/model/case.hpp"
-#include "diff/sample/observers.hpp"
+#include "diff/observers.hpp"
 #include "diff/verdict.hpp"
 #include "ref/color/color.hpp"
 #include "ref/expectation/expectation.hpp"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "diff/sample/observers.hpp"
+#include "diff/observers.hpp"
 
 #include <fmt/format.h>
 

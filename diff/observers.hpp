@@ -14,7 +14,7 @@
 #include "capture/capture.hpp"
 #include "cases/model/case.hpp"
 #include "diff/attribution.hpp"
-#include "diff/delivered/delivery.hpp"
+#include "diff/delivery.hpp"
 #include "diff/last_fragment.hpp"
 #include "diff/verdict.hpp"
 #include "ref/color/color.hpp"

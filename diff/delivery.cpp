@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "diff/delivered/delivery.hpp"
+#include "diff/delivery.hpp"
 
 #include <algorithm>
 

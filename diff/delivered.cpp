@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "diff/delivered/delivered.hpp"
+#include "diff/delivered.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 
 #include "cases/model/derive.hpp"
-#include "diff/delivered/delivery.hpp"
+#include "diff/delivery.hpp"
 #include "diff/pixel_check.hpp"
 
 namespace diff {

@@ -5,7 +5,7 @@
 // that wrote last, the values of one attribute.
 //
 // Nothing is filled in for the others: a sample is right if one path of its fragments satisfies all
-// planes that were delivered (diff/sample/observers.hpp).
+// planes that were delivered (diff/observers.hpp).
 #pragma once
 
 #include <string>
