@@ -6,13 +6,13 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "capture/runs.hpp"
 #include "cases/base/counted.hpp"
 #include "cases/model/derive.hpp"
 #include "cases/model/rule.hpp"
-#include "cases/model/rule_ids.hpp"
 #include "diff/attribution.hpp"
 #include "diff/color.hpp"
 #include "diff/delivered.hpp"
@@ -132,6 +132,9 @@ class Comparison {
         }
         if (!verdict_.error.empty()) {
             return std::move(verdict_);
+        }
+        if (!is_enough()) {
+            add_stencils();
         }
         verdict_.error =
             judge_dependent_planes(capture_, expectation_.profile, [this](Finding finding) {
@@ -345,9 +348,23 @@ class Comparison {
         const bool is_hit = is_known && seen.hits.total() > 0;
         if (is_hit && delivery_.has_fragments()) {
             judge_fragment(index, id, seen);
+        } else if (!is_known && color_ && seen.depth) {
+            judge_bare(index, id, seen);
         } else if (!seen.depth || judge_depth_alone(index, id, seen, is_known)) {
             judge_together(index, id, seen);
         }
+    }
+
+    // Colour and depth alone: a colour that no path has tells more than the depth beside it.
+    void judge_bare(size_t index, cases::SampleId id, SeenPlanes& seen) {
+        SeenPlanes others = seen;
+        others.depth = others.stencil = false;
+        if (judge_color(index, id, others)) {
+            judge_stencil(index, id, seen);
+            return;
+        }
+        judge_depth_alone(index, id, seen, false);
+        judge_together(index, id, seen, true);
     }
 
     // The depth of a sample of which no fragment is known; false if nothing more is asked of it.
@@ -375,12 +392,19 @@ class Comparison {
     }
 
     // Whether the planes that are right one by one are so together, and then the colour.
-    void judge_together(size_t index, cases::SampleId id, SeenPlanes& seen) {
+    // `is_color_right`: it is by itself.
+    void judge_together(size_t index, cases::SampleId id, SeenPlanes& seen,
+                        bool is_color_right = false) {
         judge_stencil(index, id, seen);
         if (std::optional<Finding> finding = observers_.judge(index, id, seen)) {
             add(std::move(*finding));
         }
-        judge_color(index, id, seen);
+        if (!is_color_right) {
+            judge_color(index, id, seen);
+        } else if (expectation_.samples[index].is_open) {
+            --verdict_.compared_values;  // it is compared already
+            judge_color(index, id, seen);
+        }
     }
 
     // What the planes of a sample show its queries.
@@ -442,11 +466,26 @@ class Comparison {
                 : ref::path::SeenHits{Detail::faces, bounds.front_min, bounds.back_min};
         if (std::optional<Finding> finding = stencil_ ? stencil_->judge(index, id, seen.hits)
                                                       : judge_count(capture_, index, hits)) {
-            add_last(std::move(*finding), index, id);
+            add_stencil(std::move(*finding), index, id);
             seen.stencil = false;
         }
         // A count follows from the hits.
         seen.stencil = seen.stencil && (stencil_ || !is_counted);
+    }
+
+    // Stencils are told after all other planes, whose findings say more of a device.
+    void add_stencil(Finding finding, size_t index, cases::SampleId id) {
+        std::vector<Finding>* const sink = std::exchange(sink_, &stencils_);
+        add_last(std::move(finding), index, id);
+        sink_ = sink;
+        if (sink_ != nullptr || stencils_.size() > kMostStencils) {
+            add_stencils();
+        }
+    }
+    void add_stencils() {
+        for (Finding& finding : std::exchange(stencils_, {})) {
+            add(std::move(finding));
+        }
     }
 
     void add_contradiction(size_t index, cases::SampleId id, const SeenPlanes& seen,
@@ -488,16 +527,19 @@ class Comparison {
         }
     }
 
-    void judge_color(size_t index, cases::SampleId id, const SeenPlanes& seen) {
+    // Whether it is wrong.
+    bool judge_color(size_t index, cases::SampleId id, const SeenPlanes& seen) {
         if (!color_) {
-            return;
+            return false;
         }
         ++verdict_.compared_values;
         if (std::optional<Finding> finding = color_->judge(index, id, [&](cases::Profile profile) {
                 return observers_.witness(profile, index, id, seen);
             })) {
             add(std::move(*finding));
+            return true;
         }
+        return false;
     }
 
     void add(Finding finding) {
@@ -519,11 +561,10 @@ class Comparison {
             if (found.empty()) {
                 continue;
             }
-            // Planes that contradict each other tell less than the rule that one of them breaks, if
-            // that profile has it.
-            const bool is_contradiction = found.front().rule == cases::rule::write_consistent;
+            // The first plane that is wrong is told; by the others, if that profile has not its
+            // rule.
             const cases::Rule* const rule = cases::find_rule(finding.rule);
-            if (is_contradiction && rule != nullptr && rule->profile <= profile) {
+            if (rule != nullptr && rule->profile <= profile) {
                 finding.level = profile;
                 break;
             }
@@ -573,8 +614,10 @@ class Comparison {
     std::optional<StencilComparison> stencil_;
     Verdict verdict_;
     std::array<std::unique_ptr<Comparison>, 3> looser_;  // by profile
-    std::vector<Finding>* sink_ =
-        nullptr;  // of a looser one: takes findings instead of the verdict
+    // Of a looser one: takes findings instead of the verdict.
+    std::vector<Finding>* sink_ = nullptr;
+    std::vector<Finding> stencils_;  // that are still to be told; of too many they are told at once
+    static constexpr size_t kMostStencils = 4096;
 };
 
 // The same planes of a picture in which nothing is drawn.

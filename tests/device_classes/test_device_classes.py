@@ -221,7 +221,9 @@ class Suite(ClassTest):
             with self.subTest(device=name):
                 told = device_classes.doctor(device, self.folder, suite)["suite"]
                 _, results, printed = device_classes.run(device, self.folder, ["--no-expect"], suite)
-                lacking = collections.Counter(c["reason"] for c in results["cases"] if c["status"] == "unsupported")
+                # What is learned only by reading a drawn D24 back, doctor cannot know.
+                lacking = collections.Counter(c["reason"] for c in results["cases"] if c["status"] == "unsupported"
+                                              and not c["reason"].startswith("a shader of the device reads "))
                 self.assertGreater(len(lacking), 4, printed)
                 self.assertEqual({r["reason"]: r["cases"] for r in told["lacking"]}, dict(lacking))
                 self.assertEqual(told["cases"], len(results["cases"]))
