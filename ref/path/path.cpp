@@ -314,7 +314,7 @@ class Search {
                 known.stored = together(known.stored, entry.past.stored);
                 count += known.hits.size();
             }
-            if (now.size() > kMostStates || count > kMostPasts) {
+            if (now.size() > (is_traced_ ? kMostLists : kMostStates) || count > kMostPasts) {
                 return false;
             }
         }

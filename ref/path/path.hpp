@@ -113,6 +113,9 @@ struct Resolution {
 
 // States that are followed at most after each fragment.
 inline constexpr size_t kMostStates = 4096;
+// The same where lists of fragments tell states apart: each list is a colour that somebody
+// computes.
+inline constexpr size_t kMostLists = 1024;
 
 // Follows all paths side by side; those that cannot be told apart by what comes after are one.
 Resolution resolve(const Question& question);
