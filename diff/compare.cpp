@@ -359,7 +359,14 @@ class Comparison {
     void judge_bare(size_t index, cases::SampleId id, SeenPlanes& seen) {
         SeenPlanes others = seen;
         others.depth = others.stencil = false;
-        if (judge_color(index, id, others)) {
+        std::vector<Finding> found;
+        std::vector<Finding>* const sink = std::exchange(sink_, &found);
+        const bool is_wrong = judge_color(index, id, others);
+        sink_ = sink;
+        for (Finding& finding : found) {
+            add_last(std::move(finding), index, id);
+        }
+        if (is_wrong) {
             judge_stencil(index, id, seen);
             return;
         }
