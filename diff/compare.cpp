@@ -428,7 +428,11 @@ class Comparison {
         seen.depth = seen.depth && !has_finding;
         seen.values = seen.stencil = false;
         ref::ShownSample out{is_right, {}, seen.hits.total()};
-        if (is_right && expected.is_open) {
+        out.paths.hits = seen.hits;
+        // Where hits, writer and depth are one each, none of them tells more.
+        const bool is_single = expected.hits.is_decided() && expected.writers_count <= 1 &&
+                               expected.depth_count + (expected.depth_may_be_clear ? 1U : 0U) <= 1;
+        if (is_right && expected.is_open && !is_single) {
             out.paths =
                 observers_.observe(profile, index, cases::sample_at(case_.target, index), seen);
         }
