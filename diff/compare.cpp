@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -12,20 +10,13 @@
 #include "capture/runs.hpp"
 #include "cases/base/counted.hpp"
 #include "cases/model/derive.hpp"
-#include "cases/model/rule.hpp"
-#include "diff/attribution.hpp"
-#include "diff/color.hpp"
-#include "diff/delivered.hpp"
 #include "diff/delivery.hpp"
 #include "diff/fragment_check.hpp"
-#include "diff/last_fragment.hpp"
-#include "diff/observers.hpp"
 #include "diff/pixel_check.hpp"
 #include "diff/resolve.hpp"
-#include "diff/sample/contradiction.hpp"
 #include "diff/sample/run_judge.hpp"
+#include "diff/sample_judge.hpp"
 #include "diff/shared_decisions.hpp"
-#include "diff/stencil.hpp"
 #include "diff/verdict.hpp"
 #include "diff/whole_case.hpp"
 
@@ -35,7 +26,7 @@ namespace {
 
 using Detail = ref::path::SeenHits::Detail;
 
-// One comparison's state; the phases of a sample stand in judge_sample().
+// One comparison's state: samples one by one, or runs of them.
 class Comparison {
   public:
     Comparison(const cases::Case& c, const ref::Expectation& expectation,
@@ -45,35 +36,19 @@ class Comparison {
           expectation_(expectation),
           capture_(capture),
           delivery_(delivery),
-          attribution_(c, expectation),
-          values_(c, expectation.limits, expectation.profile),
-          last_fragment_(c, expectation, capture_, delivery_, attribution_, values_),
-          observers_(c, expectation, capture_, delivery_, last_fragment_, attribution_, values_),
-          decisions_(c, expectation, capture_, observers_),
+          samples_(c, expectation, capture_, delivery_, wanted,
+                   [this](const ref::ValueMismatch& m) {
+                       return verdict_.keeps(FindingKind::value, m.rule, m.level);
+                   }),
+          color_(samples_.color()),
+          decisions_(c, expectation, capture_, samples_.observers()),
           has_decisions_(SharedDecisions::are_in(c, expectation.profile)),
           has_pixel_rules_(delivery.has_all_fragments() && has_pixel_rules(c)),
-          has_discards_(std::ranges::any_of(
-              c.draws,
-              [](const cases::Draw& draw) { return draw.discard != cases::Discard::none; })),
-          stores_discarded_(cases::stores_discarded(c)),
           stops_at_first_(wanted == Wanted::first_finding),
-          has_runs_(!is_by_sample && !has_pixel_rules_ && !has_decisions_ && !stores_discarded_ &&
+          has_runs_(!is_by_sample && !has_pixel_rules_ && !has_decisions_ &&
+                    !cases::stores_discarded(c) &&
                     (delivery.has_instruments || delivery.has_color_alone())),
-          run_judge_(c, expectation, capture_, values_) {
-        values_.judge_only(delivery.values);
-        last_fragment_.need_ratios(wanted == Wanted::all);
-        if (wanted == Wanted::symptoms) {
-            values_.tell_loosest_levels();
-        }
-        values_.tell_only([this](const ref::ValueMismatch& m) {
-            return !observers_.is_asking() && last_fragment_.is_told(m, verdict_);
-        });
-        if (delivery.has_color) {
-            color_.emplace(c, expectation, capture_, attribution_);
-        }
-        if (delivery.has_stencil && ref::stencil::is_needed(c)) {
-            stencil_.emplace(c, expectation, capture_, attribution_);
-        }
+          run_judge_(c, expectation, capture_, samples_.values()) {
         verdict_.profile = expectation.profile;
         verdict_.level = expectation.profile;
         verdict_.must_samples = expectation.must_samples;
@@ -119,14 +94,8 @@ class Comparison {
             if (!verdict_.error.empty()) {
                 return std::move(verdict_);
             }
-            if (has_decisions_ && id.sample + 1 == target.samples) {
-                judge_decisions(id);
-            }
-            if (has_pixel_rules_ && id.sample + 1 == target.samples) {
-                for (Finding& finding :
-                     check_pixel(case_, expectation_, capture_, {id.x, id.y, 0, id.layer})) {
-                    add(std::move(finding));
-                }
+            if (id.sample + 1 == target.samples) {
+                judge_pixel({id.x, id.y, 0, id.layer});
             }
             ++index;
         }
@@ -149,7 +118,7 @@ class Comparison {
         }
         if (!is_enough() && !delivery_.is_of_planes) {
             judge_queries(
-                case_, capture_, attribution_,
+                case_, capture_, samples_.attribution(),
                 [this](cases::Profile profile) {
                     return [this, profile](size_t index) { return shown_at(profile, index); };
                 },
@@ -231,9 +200,11 @@ class Comparison {
     // colour of its own.
     size_t judge_color_run(size_t index, const RunJudge::Right& right) {
         note_expected(index, 1);
-        const uint64_t before = verdict_.finding_total();
-        judge_color(index, cases::sample_at(case_.target, index), all_of(index));
-        if (verdict_.finding_total() != before || !color_->is_uniform()) {
+        const SampleOutcome& first =
+            samples_.judge_color_alone(index, cases::sample_at(case_.target, index));
+        const bool is_right = first.findings.empty();
+        take(first);
+        if (!is_right || !color_->is_uniform()) {
             return 1;
         }
         const size_t count = capture::count_same_color(capture_, index, right.count);
@@ -246,12 +217,12 @@ class Comparison {
         verdict_.compared_samples += right.count;
         for (size_t k = index; delivery_.has_stencil && k < index + right.count; ++k) {
             const cases::SampleId id = cases::sample_at(case_.target, k);
-            if (is_stencil_missing(k)) {
+            const SampleOutcome& outcome = samples_.judge_stencil_alone(k, id);
+            if (outcome.is_missing) {
                 verdict_.error = not_copied(id);
                 return;
             }
-            SeenPlanes seen = all_of(k);
-            judge_stencil(k, id, seen);
+            take(outcome);
         }
         if (!delivery_.has_instruments) {
             std::fill_n(verdict_.device_hits.begin() + static_cast<std::ptrdiff_t>(index),
@@ -262,7 +233,8 @@ class Comparison {
         }
         std::fill_n(verdict_.device_hits.begin() + static_cast<std::ptrdiff_t>(index), right.count,
                     uint8_t{1});
-        verdict_.compared_values += right.count * last_fragment_.values_of(*right.triangle);
+        verdict_.compared_values +=
+            right.count * samples_.last_fragment().values_of(*right.triangle);
         size_t worst = 0;
         for (size_t k = 0; k < right.count; ++k) {
             verdict_.raise_error(index + k, right.ratios[k]);
@@ -271,7 +243,7 @@ class Comparison {
         if (right.ratios[worst] > verdict_.worst_ratio) {
             const cases::SampleId id = cases::sample_at(case_.target, index + worst);
             const ref::FragmentVerdict v =
-                values_.judge(*right.triangle, id, values_at(capture_, index + worst));
+                samples_.values().judge(*right.triangle, id, values_at(capture_, index + worst));
             note_worst(v.worst_ratio, v.worst_quantity, id);
         }
     }
@@ -301,116 +273,50 @@ class Comparison {
     }
 
     void judge_sample(size_t index, cases::SampleId id) {
-        const ref::SampleExpectation& expected = expectation_.samples[index];
-        const capture::SampleState state = delivery_.is_of_planes
-                                               ? capture::SampleState::drawn
-                                               : capture::sample_state(capture_, index);
-        if (state == capture::SampleState::clear && expected.hits == ref::HitBounds{} && !color_ &&
-            !stores_discarded_ && !delivery_.has_stencil) {
-            ++verdict_.compared_samples;  // marks and hits are zero already
-            return;
+        const bool is_clear = delivery_.has_instruments && !delivery_.has_stencil && !color_ &&
+                              !stores_discarded_ &&
+                              expectation_.samples[index].hits == ref::HitBounds{} &&
+                              capture::sample_state(capture_, index) == capture::SampleState::clear;
+        ++verdict_.compared_samples;
+        if (is_clear) {
+            return;  // marks and hits are zero already
         }
         note_expected(index, 1);
-        ++verdict_.compared_samples;
-        if (state == capture::SampleState::not_copied || is_stencil_missing(index)) {
+        const SampleOutcome& outcome = samples_.judge(index, id);
+        if (outcome.is_missing) {
             verdict_.error = not_copied(id);
             return;
         }
-        SeenPlanes seen = all_of(index);
-        if (state == capture::SampleState::inconsistent) {
-            add_contradiction(index, id, seen, ref::ReasonKind::planes_contradict);
-            return;
+        const ref::path::SeenHits& hits = outcome.right.hits;
+        verdict_.device_hits[index] = outcome.is_contradicted ? uint8_t{255}
+                                      : hits.detail == Detail::none && color_
+                                          ? color_->hits_for_pictures(index)
+                                          : static_cast<uint8_t>(std::min(hits.total(), 255U));
+        if (outcome.has_fragment) {
+            note_worst(outcome.worst_ratio, outcome.worst_quantity, id);
+            verdict_.raise_error(index, outcome.worst_ratio);
         }
-        note_hits(index, seen.hits);
-        const bool is_hit = seen.hits.total() > 0;
-        if (seen.writer && is_hit == (capture_.writers[index].draw == capture::kClearId)) {
-            add_contradiction(index, id, seen, ref::ReasonKind::planes_contradict);
-            return;
+        if (has_decisions_) {
+            const bool is_right = outcome.findings.empty() && outcome.stencils.empty();
+            of_pixel_.push_back(is_right ? std::optional(outcome.right) : std::nullopt);
         }
-        if (!expected.hits.allows(seen.hits)) {
-            Finding finding = finding_at(kind_of(expected.hits, seen.hits), case_.target, id);
-            attribution_.attribute_hits(finding, seen.hits, last_fragment_.last_hit(index));
-            add_last(std::move(finding), index, id);
-            judge_stencil(index, id, seen);
-            return;
-        }
-        judge_planes(index, id, seen);
+        take(outcome);
     }
 
-    SeenPlanes all_of(size_t index) {
-        return {observers_.hits_at(index), delivery_.has_writers, delivery_.has_values(),
-                delivery_.values.depth, delivery_.has_stencil};
-    }
-
-    // What the planes of a sample say of its fragments, whose hits may be as they are.
-    void judge_planes(size_t index, cases::SampleId id, SeenPlanes seen) {
-        const bool is_known = seen.hits.detail != Detail::none;
-        const bool is_hit = is_known && seen.hits.total() > 0;
-        if (is_hit && delivery_.has_fragments()) {
-            judge_fragment(index, id, seen);
-        } else if (!is_known && color_ && seen.depth) {
-            judge_bare(index, id, seen);
-        } else if (!seen.depth || judge_depth_alone(index, id, seen, is_known)) {
-            judge_together(index, id, seen);
-        }
-    }
-
-    // Colour and depth alone: a colour that no path has tells more than the depth beside it.
-    void judge_bare(size_t index, cases::SampleId id, SeenPlanes& seen) {
-        SeenPlanes others = seen;
-        others.depth = others.stencil = false;
-        std::vector<Finding> found;
-        std::vector<Finding>* const sink = std::exchange(sink_, &found);
-        const bool is_wrong = judge_color(index, id, others);
-        sink_ = sink;
-        for (Finding& finding : found) {
-            add_last(std::move(finding), index, id);
-        }
-        if (is_wrong) {
-            judge_stencil(index, id, seen);
-            return;
-        }
-        judge_depth_alone(index, id, seen, false);
-        judge_together(index, id, seen, true);
-    }
-
-    // The depth of a sample of which no fragment is known; false if nothing more is asked of it.
-    bool judge_depth_alone(size_t index, cases::SampleId id, SeenPlanes& seen, bool is_unhit) {
-        const ref::SampleExpectation& expected = expectation_.samples[index];
-        const bool is_clear = capture::is_clear_depth(case_.target, capture_.depth[index]);
-        if (is_unhit && !is_clear && (!stores_discarded_ || expected.depth_count == 0)) {
-            add_contradiction(index, id, seen,
-                              has_discards_ ? ref::ReasonKind::depth_of_taken
-                              : cases::tests_bounds(case_) && expected.depth_may_be_clear
-                                  ? ref::ReasonKind::depth_of_bounded
-                                  : ref::ReasonKind::planes_contradict);
-            return false;
-        }
-        const bool is_asked = is_unhit ? stores_discarded_ && expected.depth_count > 0 : true;
-        if (std::optional<Finding> finding =
-                is_asked ? last_fragment_.judge_depth_alone(index, id) : std::nullopt) {
-            if (!is_unhit) {
-                tell(*finding, ref::ReasonKind::depth_of_none);
+    // What the samples of a pixel have to agree on, when all of them are judged.
+    void judge_pixel(const cases::SampleId& pixel) {
+        if (has_decisions_) {
+            const size_t first = cases::index_of(case_.target, pixel);
+            if (std::optional<Finding> finding = decisions_.judge(
+                    pixel, of_pixel_, color_ != nullptr ? &color_->reference(first) : nullptr)) {
+                add(std::move(*finding));
             }
-            add(std::move(*finding));
-            seen.depth = false;
+            of_pixel_.clear();
         }
-        return true;
-    }
-
-    // Whether the planes that are right one by one are so together, and then the colour.
-    // `is_color_right`: it is by itself.
-    void judge_together(size_t index, cases::SampleId id, SeenPlanes& seen,
-                        bool is_color_right = false) {
-        judge_stencil(index, id, seen);
-        if (std::optional<Finding> finding = observers_.judge(index, id, seen)) {
-            add(std::move(*finding));
-        }
-        if (!is_color_right) {
-            judge_color(index, id, seen);
-        } else if (expectation_.samples[index].is_open) {
-            --verdict_.compared_values;  // it is compared already
-            judge_color(index, id, seen);
+        if (has_pixel_rules_) {
+            for (Finding& finding : check_pixel(case_, expectation_, capture_, pixel)) {
+                add(std::move(finding));
+            }
         }
     }
 
@@ -419,77 +325,30 @@ class Comparison {
         if (capture::sample_state(capture_, index) == capture::SampleState::inconsistent) {
             return {false, {}, {}};
         }
-        SeenPlanes seen = all_of(index);
-        const ref::SampleExpectation& expected = attribution_.at(profile, index).samples[index];
+        SeenPlanes seen = samples_.all_of(index);
+        const ref::SampleExpectation& expected =
+            samples_.attribution().at(profile, index).samples[index];
         const bool is_right = expected.hits.allows(seen.hits);
-        // What is wrong is a finding of its own, and values cost too much to be asked again.
-        const bool has_finding = verdict_.marks[index] > SampleMark::either;
-        seen.writer = seen.writer && !has_finding;
-        seen.depth = seen.depth && !has_finding;
-        seen.values = seen.stencil = false;
         ref::ShownSample out{is_right, {}, seen.hits.total()};
-        out.paths.hits = seen.hits;
-        // Where hits, writer and depth are one each, none of them tells more.
-        const bool is_single = expected.hits.is_decided() && expected.writers_count <= 1 &&
-                               expected.depth_count + (expected.depth_may_be_clear ? 1U : 0U) <= 1;
-        if (is_right && expected.is_open && !is_single) {
-            out.paths =
-                observers_.observe(profile, index, cases::sample_at(case_.target, index), seen);
+        if (is_right && expected.is_open) {
+            // What is wrong is a finding of its own, and values cost too much to be asked again.
+            const bool has_finding = verdict_.marks[index] > SampleMark::either;
+            seen.writer = seen.writer && !has_finding;
+            seen.depth = seen.depth && !has_finding;
+            seen.values = seen.stencil = false;
+            out.paths = samples_.observers().observe(profile, index,
+                                                     cases::sample_at(case_.target, index), seen);
         }
         return out;
     }
 
-    // The samples of a pixel together, as far as they are right.
-    void judge_decisions(const cases::SampleId& pixel) {
-        const auto seen = [this](size_t index) {
-            const bool is_right = verdict_.marks[index] <= SampleMark::either;
-            SeenPlanes all = all_of(index);
-            all.stencil = all.stencil && (stencil_.has_value() || all.hits.detail != Detail::faces);
-            return is_right ? std::optional(all) : std::nullopt;
-        };
-        const size_t index = cases::index_of(case_.target, pixel);
-        if (std::optional<Finding> finding =
-                decisions_.judge(pixel, seen, color_ ? &color_->reference(index) : nullptr)) {
-            add(std::move(*finding));
+    void take(const SampleOutcome& outcome) {
+        verdict_.compared_values += outcome.compared_values;
+        for (const Finding& finding : outcome.findings) {
+            add(finding);
         }
-    }
-
-    void note_hits(size_t index, const ref::path::SeenHits& hits) {
-        verdict_.device_hits[index] = hits.detail == Detail::none && color_
-                                          ? color_->hits_for_pictures(index)
-                                          : static_cast<uint8_t>(std::min(hits.total(), 255U));
-    }
-
-    bool is_stencil_missing(size_t index) const {
-        return delivery_.has_stencil && capture_.stencil[index] == capture::kPoison;
-    }
-
-    // The stencil alone: what draws test, or a count of the hits, if their faces are known.
-    void judge_stencil(size_t index, cases::SampleId id, SeenPlanes& seen) {
-        if (!seen.stencil) {
-            return;
-        }
-        const ref::HitBounds& bounds = expectation_.samples[index].hits;
-        const bool is_counted = seen.hits.detail == Detail::faces;
-        const ref::path::SeenHits hits =
-            is_counted || !bounds.is_decided()
-                ? seen.hits
-                : ref::path::SeenHits{Detail::faces, bounds.front_min, bounds.back_min};
-        if (std::optional<Finding> finding = stencil_ ? stencil_->judge(index, id, seen.hits)
-                                                      : judge_count(capture_, index, hits)) {
-            add_stencil(std::move(*finding), index, id);
-            seen.stencil = false;
-        }
-        // A count follows from the hits.
-        seen.stencil = seen.stencil && (stencil_ || !is_counted);
-    }
-
-    // Stencils are told after all other planes, whose findings say more of a device.
-    void add_stencil(Finding finding, size_t index, cases::SampleId id) {
-        std::vector<Finding>* const sink = std::exchange(sink_, &stencils_);
-        add_last(std::move(finding), index, id);
-        sink_ = sink;
-        if (sink_ != nullptr || stencils_.size() > kMostStencils) {
+        stencils_.insert(stencils_.end(), outcome.stencils.begin(), outcome.stencils.end());
+        if (stencils_.size() > kMostStencils) {
             add_stencils();
         }
     }
@@ -498,176 +357,26 @@ class Comparison {
             add(std::move(finding));
         }
     }
-
-    void add_contradiction(size_t index, cases::SampleId id, const SeenPlanes& seen,
-                           ref::ReasonKind why) {
-        Finding finding = finding_at(FindingKind::value, case_.target, id);
-        tell(finding, why);
-        finding.level = cases::Profile::vulkan;
-        finding.quantity = "attachments";
-        finding.expected = "all attachments written by the same fragments";
-        finding.got = delivery_.has_instruments ? contradiction_text(capture_, index)
-                                                : observers_.text_of(index, seen);
-        verdict_.device_hits[index] = 255;
-        add(std::move(finding));
-    }
-
-    void judge_fragment(size_t index, cases::SampleId id, SeenPlanes& seen) {
-        LastFragment::Outcome outcome = last_fragment_.judge(index, id);
-        if (!outcome.triangle) {
-            add_last(std::move(*outcome.finding), index, id);
-            judge_stencil(index, id, seen);
-            return;
-        }
-        if (outcome.finding) {
-            seen.depth = false;
-            add(std::move(*outcome.finding));
-        }
-        verdict_.compared_values += outcome.compared_values;
-        note_worst(outcome.worst_ratio, outcome.worst_quantity, id);
-        verdict_.raise_error(index, outcome.worst_ratio);
-        seen.depth = seen.depth && !outcome.is_depth_wrong;
-        seen.values = seen.values && !outcome.are_others_wrong;
-        judge_together(index, id, seen);
-        for (Finding& finding : outcome.values) {
-            if (delivery_.has_instruments) {  // the writer says whose they are
-                add(std::move(finding));
-            } else {
-                add_last(std::move(finding), index, id);
-            }
-        }
-    }
-
-    // Whether it is wrong.
-    bool judge_color(size_t index, cases::SampleId id, const SeenPlanes& seen) {
-        if (!color_) {
-            return false;
-        }
-        ++verdict_.compared_values;
-        if (std::optional<Finding> finding = color_->judge(index, id, [&](cases::Profile profile) {
-                return observers_.witness(profile, index, id, seen);
-            })) {
-            add(std::move(*finding));
-            return true;
-        }
-        return false;
-    }
-
-    void add(Finding finding) {
-        if (sink_ != nullptr) {
-            sink_->push_back(std::move(finding));
-        } else {
-            verdict_.add(std::move(finding), case_.target);
-        }
-    }
-
-    // Adds a finding of a plane that is not asked together with the others. Where looser profiles
-    // allow what it tells, they may deny the planes together: then that is what is wrong.
-    void add_last(Finding finding, size_t index, cases::SampleId id) {
-        for (const cases::Profile profile : cases::kProfiles) {
-            if (profile >= finding.level) {
-                break;
-            }
-            std::vector<Finding> found = found_at(profile, index, id);
-            if (found.empty()) {
-                continue;
-            }
-            // The first plane that is wrong is told; by the others, if that profile has not its
-            // rule.
-            const cases::Rule* const rule = cases::find_rule(finding.rule);
-            if (rule != nullptr && rule->profile <= profile) {
-                finding.level = profile;
-                break;
-            }
-            for (Finding& f : found) {
-                add(std::move(f));
-            }
-            return;
-        }
-        add(std::move(finding));
-    }
-
-    // What is wrong with a sample at a looser profile.
-    std::vector<Finding> found_at(cases::Profile profile, size_t index, cases::SampleId id) {
-        const ref::Expectation& expectation = attribution_.at(profile, index);
-        std::unique_ptr<Comparison>& looser = looser_.at(static_cast<size_t>(profile));
-        if (!looser) {
-            looser = std::make_unique<Comparison>(case_, expectation, capture_, delivery_, true,
-                                                  Wanted::all);
-            looser->verdict_.expected_hits.resize(capture_.sample_count());
-            looser->verdict_.device_hits.resize(capture_.sample_count());
-            looser->verdict_.marks.resize(capture_.sample_count());
-            looser->verdict_.error_ratios.resize(capture_.sample_count());
-        }
-        std::vector<Finding> found;
-        looser->sink_ = &found;
-        looser->judge_sample(index, id);
-        return found;
-    }
+    void add(Finding finding) { verdict_.add(std::move(finding), case_.target); }
 
     const cases::Case& case_;
     const ref::Expectation& expectation_;
     const capture::CaptureView& capture_;
     const Delivery delivery_;
-    Attribution attribution_;
-    ref::ValueReference values_;
-    LastFragment last_fragment_;
-    Observers observers_;
+    SampleJudge samples_;
+    ColorComparison* const color_;  // null: no colour was delivered
     SharedDecisions decisions_;
-    bool has_decisions_ = false;
-    bool has_pixel_rules_ = false;
-    bool has_discards_ = false;
-    bool stores_discarded_ = false;
-    bool stops_at_first_ = false;
-    bool has_runs_ = false;  // what is plainly right is judged by runs of samples
+    const bool has_decisions_;
+    const bool has_pixel_rules_;
+    const bool stops_at_first_;
+    const bool has_runs_;  // what is plainly right is judged by runs of samples
+    const bool stores_discarded_ = cases::stores_discarded(case_);
     RunJudge run_judge_;
-    std::optional<ColorComparison> color_;
-    std::optional<StencilComparison> stencil_;
     Verdict verdict_;
-    std::array<std::unique_ptr<Comparison>, 3> looser_;  // by profile
-    // Of a looser one: takes findings instead of the verdict.
-    std::vector<Finding>* sink_ = nullptr;
+    std::vector<std::optional<SeenPlanes>> of_pixel_;  // of its samples so far, if they are right
     std::vector<Finding> stencils_;  // that are still to be told; of too many they are told at once
     static constexpr size_t kMostStencils = 4096;
 };
-
-// The same planes of a picture in which nothing is drawn.
-capture::Delivered cleared(const cases::Case& c, const capture::Delivered& planes) {
-    capture::Delivered out = planes;
-    std::ranges::fill(out.depth, cases::nearest_depth(c.target.depth_clear, c.target.depth_format));
-    std::ranges::fill(out.frag_coord, glm::vec4(capture::kClearValue));
-    for (auto& attribute : out.attributes) {
-        std::ranges::fill(attribute, glm::vec4(capture::kClearValue));
-    }
-    std::ranges::fill(out.stencil, c.target.stencil_clear);
-    if (!out.color.empty()) {
-        const ref::color::Unit unit{c.target.color->format, cases::Profile::direct3d};
-        std::ranges::fill(out.color, unit.codes_of(unit.cleared(*c.target.color)));
-    }
-    return out;
-}
-
-Verdict compare_planes(const cases::Case& c, const ref::Expectation& expectation,
-                       const capture::Delivered& planes, Wanted wanted) {
-    const capture::Capture capture = capture_of(c, expectation, planes);
-    const capture::CaptureView view(capture);
-    return Comparison(c, expectation, view, delivery_of(c, planes), false, wanted).run();
-}
-
-std::string names_of(const capture::Delivered& planes) {
-    std::string names;
-    const auto add = [&names](bool is_there, const std::string& name) {
-        names += is_there ? (names.empty() ? "" : ", ") + name : "";
-    };
-    add(!planes.frag_coord.empty(), "fragcoord");
-    add(!planes.depth.empty(), "depth");
-    for (size_t a = 0; a < planes.attributes.size(); ++a) {
-        add(!planes.attributes.at(a).empty(), fmt::format("attribute{}", a));
-    }
-    add(!planes.color.empty(), "color");
-    add(!planes.stencil.empty(), "stencil");
-    return names;
-}
 
 }  // namespace
 
@@ -681,18 +390,10 @@ Verdict compare_by_sample(const cases::Case& c, const ref::Expectation& expectat
     return Comparison(c, expectation, capture, delivery_of(c), true).run();
 }
 
-Verdict compare_delivered(const cases::Case& c, const ref::Expectation& expectation,
-                          const capture::Delivered& planes) {
-    Verdict verdict = compare_planes(c, expectation, planes, Wanted::all);
-    // Coverage, hits and writers say themselves what is covered.
-    if (verdict.ok() && planes.detail == capture::HitDetail::none && planes.draws.empty() &&
-        compare_planes(c, expectation, cleared(c, planes), Wanted::first_finding).ok()) {
-        verdict.error = fmt::format(
-            "of the delivered planes ({}) a picture in which nothing is drawn would pass too; "
-            "deliver coverage or hits",
-            names_of(planes));
-    }
-    return verdict;
+Verdict compare_planes(const cases::Case& c, const ref::Expectation& expectation,
+                       const capture::CaptureView& capture, const Delivery& delivery,
+                       Wanted wanted) {
+    return Comparison(c, expectation, capture, delivery, false, wanted).run();
 }
 
 }  // namespace diff

@@ -13,6 +13,47 @@
 
 namespace diff {
 
+namespace {
+
+// The same planes of a picture in which nothing is drawn.
+capture::Delivered cleared(const cases::Case& c, const capture::Delivered& planes) {
+    capture::Delivered out = planes;
+    std::ranges::fill(out.depth, cases::nearest_depth(c.target.depth_clear, c.target.depth_format));
+    std::ranges::fill(out.frag_coord, glm::vec4(capture::kClearValue));
+    for (auto& attribute : out.attributes) {
+        std::ranges::fill(attribute, glm::vec4(capture::kClearValue));
+    }
+    std::ranges::fill(out.stencil, c.target.stencil_clear);
+    if (!out.color.empty()) {
+        const ref::color::Unit unit{c.target.color->format, cases::Profile::direct3d};
+        std::ranges::fill(out.color, unit.codes_of(unit.cleared(*c.target.color)));
+    }
+    return out;
+}
+
+Verdict judged(const cases::Case& c, const ref::Expectation& expectation,
+               const capture::Delivered& planes, Wanted wanted) {
+    const capture::Capture capture = capture_of(c, expectation, planes);
+    return compare_planes(c, expectation, capture, delivery_of(c, planes), wanted);
+}
+
+std::string names_of(const capture::Delivered& planes) {
+    std::string names;
+    const auto add = [&names](bool is_there, const std::string& name) {
+        names += is_there ? (names.empty() ? "" : ", ") + name : "";
+    };
+    add(!planes.frag_coord.empty(), "fragcoord");
+    add(!planes.depth.empty(), "depth");
+    for (size_t a = 0; a < planes.attributes.size(); ++a) {
+        add(!planes.attributes.at(a).empty(), fmt::format("attribute{}", a));
+    }
+    add(!planes.color.empty(), "color");
+    add(!planes.stencil.empty(), "stencil");
+    return names;
+}
+
+}  // namespace
+
 std::vector<std::string> not_judged(const cases::Case& c, const capture::Delivered& planes) {
     std::vector<std::string> words;
     const auto add = [&words](bool is_missing, const std::string& word) {
@@ -81,6 +122,20 @@ capture::Delivered judged_planes(const cases::Case& c, const capture::Capture& p
         }
     }
     return out;
+}
+
+Verdict compare_delivered(const cases::Case& c, const ref::Expectation& expectation,
+                          const capture::Delivered& planes) {
+    Verdict verdict = judged(c, expectation, planes, Wanted::all);
+    // Coverage, hits and writers say themselves what is covered.
+    if (verdict.ok() && planes.detail == capture::HitDetail::none && planes.draws.empty() &&
+        judged(c, expectation, cleared(c, planes), Wanted::first_finding).ok()) {
+        verdict.error = fmt::format(
+            "of the delivered planes ({}) a picture in which nothing is drawn would pass too; "
+            "deliver coverage or hits",
+            names_of(planes));
+    }
+    return verdict;
 }
 
 }  // namespace diff

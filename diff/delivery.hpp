@@ -8,6 +8,7 @@
 #include "capture/capture.hpp"
 #include "capture/delivered.hpp"
 #include "cases/model/case.hpp"
+#include "diff/verdict.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/value/reference.hpp"
 
@@ -45,5 +46,10 @@ Delivery delivery_of(const cases::Case& c, const capture::Delivered& planes);
 // The delivered planes as a capture; those that are missing hold what is cleared.
 capture::Capture capture_of(const cases::Case& c, const ref::Expectation& expectation,
                             const capture::Delivered& planes);
+
+// Judges the planes of a capture that were delivered.
+Verdict compare_planes(const cases::Case& c, const ref::Expectation& expectation,
+                       const capture::CaptureView& capture, const Delivery& delivery,
+                       Wanted wanted);
 
 }  // namespace diff

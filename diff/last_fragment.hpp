@@ -63,12 +63,8 @@ class LastFragment {
     // of that.
     std::optional<Finding> judge_depth_alone(size_t index, cases::SampleId id);
 
-    // Whether anybody will read the texts of a wrong value that is judged now, given what has been
-    // found before.
-    bool is_told(const ref::ValueMismatch& mismatch, const Verdict& so_far) const {
-        return judges_older_depth_ ||
-               so_far.keeps(FindingKind::value, mismatch.rule, mismatch.level);
-    }
+    // True while it judges a value whose texts go into a finding of another rule.
+    bool needs_texts() const { return judges_older_depth_; }
     // Whether anybody will read how large errors are; otherwise they are told only where they
     // choose between triangles.
     void need_ratios(bool are_needed) { needs_ratios_ = are_needed; }
@@ -99,7 +95,7 @@ class LastFragment {
     Attribution& attribution_;
     ref::ValueReference& values_;
     bool needs_ratios_ = true;
-    bool judges_older_depth_ = false;  // whose texts go into a finding of another rule
+    bool judges_older_depth_ = false;
 };
 
 }  // namespace diff

@@ -84,17 +84,13 @@ bool SharedDecisions::is_right(size_t index, const SeenPlanes& seen,
             colors->explains(index, id, capture_.color[index], witness, &question));
 }
 
-std::optional<Finding> SharedDecisions::judge(cases::SampleId pixel, const SeenAt& seen,
+std::optional<Finding> SharedDecisions::judge(const cases::SampleId& pixel,
+                                              const std::vector<std::optional<SeenPlanes>>& seen,
                                               ref::ColorReference* colors) {
-    pixel.sample = 0;
     const size_t first = cases::index_of(case_.target, pixel);
     const std::vector<uint32_t> triangles = triangles_of(first);
     if (triangles.empty() || triangles.size() > kMostDecisions) {
         return std::nullopt;
-    }
-    std::vector<std::optional<SeenPlanes>> samples;
-    for (size_t index = first; index < first + case_.target.samples; ++index) {
-        samples.push_back(seen(index));
     }
     for (uint32_t choice = 0; choice < 1U << triangles.size(); ++choice) {
         std::set<uint32_t> discarded;
@@ -104,9 +100,8 @@ std::optional<Finding> SharedDecisions::judge(cases::SampleId pixel, const SeenA
             }
         }
         bool are_right = true;
-        for (size_t s = 0; s < samples.size() && are_right; ++s) {
-            are_right =
-                !samples[s] || is_right(first + s, *samples[s], discarded, triangles, colors);
+        for (size_t s = 0; s < seen.size() && are_right; ++s) {
+            are_right = !seen[s] || is_right(first + s, *seen[s], discarded, triangles, colors);
         }
         if (are_right) {
             return std::nullopt;
@@ -118,10 +113,10 @@ std::optional<Finding> SharedDecisions::judge(cases::SampleId pixel, const SeenA
     finding.level = cases::Profile::direct3d;
     finding.quantity = "samples of the pixel";
     finding.expected = "all samples that the fragment covers discarded, or none of them";
-    for (size_t s = 0; s < samples.size(); ++s) {
-        finding.got += fmt::format(
-            "{}sample {}: {}", s == 0 ? "" : "; ", s,
-            samples[s] ? observers_.text_of(first + s, *samples[s]) : "wrong by itself");
+    for (size_t s = 0; s < seen.size(); ++s) {
+        finding.got +=
+            fmt::format("{}sample {}: {}", s == 0 ? "" : "; ", s,
+                        seen[s] ? observers_.text_of(first + s, *seen[s]) : "wrong by itself");
     }
     finding.why = fmt::format(
         "triangle {} of draw {}: its shader runs once for the samples of a pixel, so what it "

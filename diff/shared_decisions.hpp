@@ -9,7 +9,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <set>
 #include <vector>
@@ -33,11 +32,11 @@ class SharedDecisions {
     // Whether a case has any at the expectation's profile.
     static bool are_in(const cases::Case& c, cases::Profile profile);
 
-    // What is seen of a sample; nothing where it has a finding of its own.
-    using SeenAt = std::function<std::optional<SeenPlanes>(size_t index)>;
-    // The finding of a pixel whose samples are right one by one, but not by one decision.
-    // `colors`: null if no colour was delivered.
-    std::optional<Finding> judge(cases::SampleId pixel, const SeenAt& seen,
+    // The finding of a pixel whose samples are right one by one, but not by one decision. `seen`:
+    // of each sample; nothing where it has a finding of its own. `colors`: null if no colour was
+    // delivered.
+    std::optional<Finding> judge(const cases::SampleId& pixel,
+                                 const std::vector<std::optional<SeenPlanes>>& seen,
                                  ref::ColorReference* colors);
 
   private:

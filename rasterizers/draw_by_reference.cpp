@@ -56,7 +56,8 @@ struct Event {
     std::optional<Writer> writer;    // nothing if there are no hits
     std::optional<uint32_t> stored;  // the triangle whose depth stays, if that is not the writer's
     uint32_t stencil = 0;
-    std::vector<uint32_t> shown, passed;  // triangles, where something is open
+    std::vector<uint32_t> shown;   // triangles, where something is open
+    std::vector<uint32_t> passed;  // triangles, as far as queries count them
 };
 
 // The one event of a sample of which nothing is open.
@@ -69,6 +70,9 @@ Event only_event(const ref::Expectation& expectation, const ref::SampleExpectati
     }
     if (sample.depth_count > 0) {
         out.stored = expectation.depth_writers_of(sample).back();
+    }
+    for (const ref::path::Fragment& f : expectation.fragments_of(sample)) {
+        out.passed.push_back(f.triangle);
     }
     out.stencil = ref::stencil::least_of(stencils_at(expectation, sample, std::nullopt));
     return out;

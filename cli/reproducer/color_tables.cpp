@@ -75,11 +75,7 @@ std::vector<ColorRows::Sequence> ColorRows::sets_at(size_t index) const {
     const ref::SampleExpectation& sample = expectation_.samples[index];
     const auto fragments = expectation_.fragments_of(sample);
     if (!sample.is_open) {
-        Sequence only;
-        for (const ref::path::Fragment& f : fragments) {
-            only.push_back(f.triangle);
-        }
-        return {std::move(only)};
+        return {shown_at(expectation_, sample)};
     }
     if (sample.is_free) {
         return {};

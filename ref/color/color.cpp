@@ -61,11 +61,7 @@ std::vector<ColorReference::Sequence> ColorReference::allowed(
     const std::span<const path::Fragment> fragments = fragments_at(index);
     const SampleExpectation& expected = expectation_.samples[index];
     if (!expected.is_open) {
-        Sequence only;
-        for (const path::Fragment& f : fragments) {
-            only.push_back(f.triangle);
-        }
-        return {std::move(only)};
+        return {shown_at(expectation_, expected)};
     }
     if (expected.is_free) {
         return {};

@@ -11,9 +11,13 @@ CountBounds passed_at(const Expectation& e, const cases::Case& c, size_t index, 
     const SampleExpectation& s = e.samples[index];
     std::vector<bool> of;
     for (const path::Fragment& f : e.fragments_of(s)) {
-        of.push_back(e.triangles[f.triangle].draw == draw);
+        const bool is_counted = s.is_open || with_discarded || !f.is_discarded_front;
+        of.push_back(is_counted && e.triangles[f.triangle].draw == draw);
     }
     const auto most = static_cast<uint64_t>(std::ranges::count(of, true));
+    if (!s.is_open) {
+        return {most, most};
+    }
     if (s.is_free || most == 0) {
         return {0, most};
     }

@@ -157,6 +157,16 @@ stencil::Values stencils_at(const Expectation& e, const SampleExpectation& s,
     return path::values_of(e.stencils_of(s), s.is_free, e.target.stencil_clear, hits);
 }
 
+std::vector<uint32_t> shown_at(const Expectation& e, const SampleExpectation& s) {
+    std::vector<uint32_t> out;
+    for (const path::Fragment& f : e.fragments_of(s)) {
+        if (!f.is_discarded_front) {
+            out.push_back(f.triangle);
+        }
+    }
+    return out;
+}
+
 path::Question question_of(const Expectation& e, const cases::Case& c, const SampleExpectation& s) {
     path::Question out;
     out.clear = c.target.stencil_clear;

@@ -47,11 +47,12 @@ struct SampleExpectation {
     uint32_t depth_begin = 0, depth_count = 0;
     bool depth_may_be_clear = false;  // or no fragment's
     // Into Lists::fragments. Where something is open: all that take part in the paths, with their
-    // sets and tests. Else, if the target has a colour: those that show.
+    // sets and tests. Else, if the target has a colour or a draw a query: those that pass all
+    // tests.
     uint32_t fragments_begin = 0, fragments_count = 0;
     uint32_t sets_begin = 0, sets_count = 0;
     uint32_t tests_begin = 0, tests_count = 0;
-    bool is_open = false;  // there may be more than one path (ref/path/path.hpp)
+    bool is_open = false;  // there is more than one path (ref/path/path.hpp)
     bool is_free = false;  // there are too many: nothing is claimed
     // Into Lists::stencils, if the case needs a stencil test (stencil::is_needed); none: the
     // clear value, wherever nothing hits.
@@ -138,6 +139,10 @@ struct Expectation : Lists {
 // front and back; of hits that no path has, and of none given, any that it may hold.
 stencil::Values stencils_at(const Expectation& e, const SampleExpectation& s,
                             std::optional<std::pair<uint32_t, uint32_t>> hits);
+
+// The triangles whose fragments show at a sample of which nothing is open, in drawing order, if its
+// fragments are kept.
+std::vector<uint32_t> shown_at(const Expectation& e, const SampleExpectation& s);
 
 // The paths of a sample of which something is open, with the tests of the case's draws. Keeps
 // references.

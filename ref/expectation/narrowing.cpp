@@ -196,7 +196,6 @@ SampleExpectation Narrowing::judge_by_paths(const FixedPoint& p, std::span<const
     out.depth_count = static_cast<uint32_t>(lists.depth_writers.size()) - out.depth_begin;
     out.depth_may_be_clear = depth_ != nullptr && resolution.may_be_clear;
     fates_ = std::move(resolution.fates);
-    out.is_open = counts_fragments(case_);  // queries ask the path what has passed
     for (size_t m = 0; m < hits.size(); ++m) {
         const path::Fragment& f = asked.fragments[m];
         out.is_open = out.is_open || !fates_[m].is_certain() ||
@@ -204,8 +203,8 @@ SampleExpectation Narrowing::judge_by_paths(const FixedPoint& p, std::span<const
     }
     if (out.is_open) {
         keep_paths(asked, out, lists);
-    } else if (case_.target.color) {
-        keep_shown(asked, out, lists);
+    } else if (case_.target.color || counts_fragments(case_)) {
+        keep_passed(asked, out, lists);
     }
     if (reasons != nullptr) {
         reasons->fates = fates_;
@@ -234,13 +233,15 @@ void Narrowing::keep_paths(const path::Question& question, SampleExpectation& ou
     out.tests_count = static_cast<uint32_t>(lists.tests.size()) - out.tests_begin;
 }
 
-void Narrowing::keep_shown(const path::Question& question, SampleExpectation& out,
-                           Lists& lists) const {
+void Narrowing::keep_passed(const path::Question& question, SampleExpectation& out,
+                            Lists& lists) const {
     out.fragments_begin = static_cast<uint32_t>(lists.fragments.size());
     for (size_t m = 0; m < question.fragments.size(); ++m) {
-        if (fates_[m].passes) {
-            lists.fragments.push_back({nullptr, true});
-            lists.fragments.back().triangle = question.fragments[m].triangle;
+        const path::Fate& fate = fates_[m];
+        if (fate.passes || fate.is_discarded) {
+            path::Fragment& passed = lists.fragments.emplace_back(nullptr, true);
+            passed.triangle = question.fragments[m].triangle;
+            passed.is_discarded_front = passed.is_discarded_back = fate.is_discarded;
         }
     }
     out.fragments_count = static_cast<uint32_t>(lists.fragments.size()) - out.fragments_begin;

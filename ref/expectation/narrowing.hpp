@@ -58,9 +58,9 @@ class Narrowing {
     SampleExpectation judge_by_paths(const FixedPoint& p, std::span<const Hit> hits,
                                      const std::vector<FixedHits>& sets, Lists& lists,
                                      JudgeReasons* reasons);
-    // Keeps the fragments of a sample of which something is open, or those that show.
+    // Keeps the fragments of a sample of which something is open, or those that pass all tests.
     void keep_paths(const path::Question& question, SampleExpectation& out, Lists& lists) const;
-    void keep_shown(const path::Question& question, SampleExpectation& out, Lists& lists) const;
+    void keep_passed(const path::Question& question, SampleExpectation& out, Lists& lists) const;
 
     const cases::Case& case_;
     cases::Profile profile_;

@@ -8,6 +8,8 @@
 #include <string>
 #include <tuple>
 
+#include "ref/path/certain.hpp"
+
 namespace ref::path {
 
 namespace {
@@ -64,88 +66,6 @@ List together(const List& a, const List& b) {
     List out;
     out.reserve(a.size() + b.size());
     std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(out));
-    return out;
-}
-
-DepthOutcome asked(const std::function<DepthOutcome(int, uint32_t)>& test, int stored, size_t m) {
-    return test ? test(stored, static_cast<uint32_t>(m)) : DepthOutcome::passes;
-}
-
-// The one path of a question of which nothing is open; nothing if something is.
-std::optional<Resolution> resolve_certain(const Question& question) {
-    const size_t count = question.fragments.size();
-    std::vector<uint32_t> members(question.sets.size());
-    for (const Fragment& f : question.fragments) {
-        if (f.set >= 0) {
-            ++members[static_cast<size_t>(f.set)];
-        }
-    }
-    Resolution out;
-    out.fates.resize(count);
-    out.is_last.assign(count, false);
-    out.is_stored.assign(count, false);
-    Outcome outcome;
-    uint32_t value = question.clear & kStencilBits;
-    int stored = kClearDepth, last = -1;
-    for (size_t m = 0; m < count; ++m) {
-        const Fragment& f = question.fragments[m];
-        const FragmentSet* const set =
-            f.set < 0 ? nullptr : &question.sets[static_cast<size_t>(f.set)];
-        const bool is_whole = set != nullptr && set->least == members[static_cast<size_t>(f.set)];
-        Fate& fate = out.fates[m];
-        if (set != nullptr && set->most == 0 && !f.is_sure && f.twin < 0) {
-            fate.is_absent = true;
-            continue;
-        }
-        const Fate* const twin = f.twin < 0 ? nullptr : &out.fates[static_cast<size_t>(f.twin)];
-        const bool is_there = f.is_sure || is_whole || (twin != nullptr && !twin->is_absent);
-        if (!is_there || f.can_be_front == f.can_be_back || f.is_discard_open ||
-            (twin != nullptr && twin->is_absent)) {
-            return std::nullopt;
-        }
-        const DepthOutcome bounds = asked(question.bounds, stored, m);
-        if (bounds != DepthOutcome::passes) {
-            fate.fails_bounds = true;
-            if (bounds == DepthOutcome::open) {
-                return std::nullopt;
-            }
-            continue;
-        }
-        const cases::StencilFace& face = f.can_be_front ? f.state->front : f.state->back;
-        fate.met.set(value);
-        if (!stencil::passes(face, value)) {
-            fate.fails = true;
-            value = stencil::updated(face.fail, face, value);
-            continue;
-        }
-        const DepthOutcome depth = asked(question.depth, stored, m);
-        if (depth != DepthOutcome::passes) {
-            fate.fails_depth = true;
-            if (depth == DepthOutcome::open) {
-                return std::nullopt;
-            }
-            value = stencil::updated(face.depth_fail, face, value);
-            continue;
-        }
-        value = stencil::updated(face.pass, face, value);
-        stored = f.writes_depth ? static_cast<int>(m) : stored;
-        fate.is_discarded = f.can_be_front ? f.is_discarded_front : f.is_discarded_back;
-        fate.passes = !fate.is_discarded;
-        if (fate.passes) {
-            last = static_cast<int>(m);
-            outcome.front += f.can_be_front ? 1 : 0;
-            outcome.back += f.can_be_back ? 1 : 0;
-        }
-    }
-    outcome.values.set(value);
-    out.outcomes.push_back(outcome);
-    if (last >= 0) {
-        out.is_last[static_cast<size_t>(last)] = true;
-    }
-    out.may_be_clear = stored == kClearDepth;
-    if (stored != kClearDepth) {
-        out.is_stored[static_cast<size_t>(stored)] = true;
-    }
     return out;
 }
 
@@ -384,7 +304,7 @@ class Search {
 
     // The depth bounds test, which leaves everything as it is where it fails: whether it may pass.
     bool is_within(const State& state, const Entry& from, uint32_t parent, size_t m) {
-        const DepthOutcome bounds = asked(question_.bounds, state.stored, m);
+        const DepthOutcome bounds = question_.bounds_of(state.stored, m);
         if (bounds != DepthOutcome::passes) {
             fate(m, [](Fate& f) { f.fails_bounds = true; });
             go_on(state, from, parent);
@@ -403,7 +323,7 @@ class Search {
             go_on(std::move(next), from, parent);
             return;
         }
-        const DepthOutcome depth = asked(question_.depth, state.stored, m);
+        const DepthOutcome depth = question_.depth_of(state.stored, m);
         if (depth != DepthOutcome::passes) {
             fate(m, [](Fate& f) { f.fails_depth = true; });
             next.value = stencil::updated(face.depth_fail, face, state.value);

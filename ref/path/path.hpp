@@ -63,6 +63,13 @@ struct Question {
     // The depth test of a fragment against the depth that another one stored, or against the clear
     // value; empty: every fragment passes.
     std::function<DepthOutcome(int stored, uint32_t fragment)> depth = {};
+
+    DepthOutcome bounds_of(int stored, size_t fragment) const {
+        return bounds ? bounds(stored, static_cast<uint32_t>(fragment)) : DepthOutcome::passes;
+    }
+    DepthOutcome depth_of(int stored, size_t fragment) const {
+        return depth ? depth(stored, static_cast<uint32_t>(fragment)) : DepthOutcome::passes;
+    }
 };
 
 // What may become of a fragment on some path, if it is there.
