@@ -25,8 +25,7 @@ SampleJudge::SampleJudge(const cases::Case& c, const ref::Expectation& expectati
       last_fragment_(c, expectation, capture_, delivery_, attribution_, values_),
       observers_(c, expectation, capture_, delivery_, last_fragment_, attribution_, values_),
       has_discards_(std::ranges::any_of(
-          c.draws,
-          [](const cases::Draw& draw) { return draw.discard != cases::Discard::none; })),
+          c.draws, [](const cases::Draw& draw) { return draw.discard != cases::Discard::none; })),
       stores_discarded_(cases::stores_discarded(c)) {
     values_.judge_only(delivery.values);
     last_fragment_.need_ratios(wanted == Wanted::all);
@@ -34,8 +33,7 @@ SampleJudge::SampleJudge(const cases::Case& c, const ref::Expectation& expectati
         values_.tell_loosest_levels();
     }
     values_.tell_only([this, is_told = std::move(is_told)](const ref::ValueMismatch& m) {
-        return !observers_.is_asking() &&
-               (last_fragment_.needs_texts() || !is_told || is_told(m));
+        return !observers_.is_asking() && (last_fragment_.needs_texts() || !is_told || is_told(m));
     });
     if (delivery.has_color) {
         color_.emplace(c, expectation, capture_, attribution_);
@@ -96,6 +94,8 @@ void SampleJudge::judge_all() {
         (seen_.writer && is_hit == (capture_.writers[index_].draw == capture::kClearId));
     if (is_inconsistent) {
         add_contradiction(ref::ReasonKind::planes_contradict);
+    } else if (state == capture::SampleState::depth_only && !may_store_unhit()) {
+        add_stray_depth();
     } else if (!expectation_.samples[index_].hits.allows(seen_.hits)) {
         judge_hits();
     } else {
@@ -104,8 +104,8 @@ void SampleJudge::judge_all() {
 }
 
 void SampleJudge::judge_hits() {
-    Finding finding = finding_at(kind_of(expectation_.samples[index_].hits, seen_.hits),
-                                 case_.target, id_);
+    Finding finding =
+        finding_at(kind_of(expectation_.samples[index_].hits, seen_.hits), case_.target, id_);
     attribution_.attribute_hits(finding, seen_.hits, last_fragment_.last_hit(index_));
     add_of_sample(std::move(finding), out_.findings);
     judge_stencil();
@@ -164,19 +164,27 @@ void SampleJudge::judge_bare() {
     judge_together(true);
 }
 
+// Whether a fragment may store its depth at the sample and show nowhere.
+bool SampleJudge::may_store_unhit() const {
+    return stores_discarded_ && expectation_.samples[index_].depth_count > 0;
+}
+
+void SampleJudge::add_stray_depth() {
+    add_contradiction(has_discards_ ? ref::ReasonKind::depth_of_taken
+                      : cases::tests_bounds(case_) &&
+                              expectation_.samples[index_].depth_may_be_clear
+                          ? ref::ReasonKind::depth_of_bounded
+                          : ref::ReasonKind::planes_contradict);
+}
+
 // The depth of a sample of which no fragment is known; false if nothing more is asked of it.
 bool SampleJudge::judge_depth_alone(bool is_unhit) {
-    const ref::SampleExpectation& expected = expectation_.samples[index_];
     const bool is_clear = capture::is_clear_depth(case_.target, capture_.depth[index_]);
-    const bool may_be_stored = stores_discarded_ && expected.depth_count > 0;
-    if (is_unhit && !is_clear && !may_be_stored) {
-        add_contradiction(has_discards_ ? ref::ReasonKind::depth_of_taken
-                          : cases::tests_bounds(case_) && expected.depth_may_be_clear
-                              ? ref::ReasonKind::depth_of_bounded
-                              : ref::ReasonKind::planes_contradict);
+    if (is_unhit && !is_clear && !may_store_unhit()) {
+        add_stray_depth();
         return false;
     }
-    if (std::optional<Finding> finding = !is_unhit || may_be_stored
+    if (std::optional<Finding> finding = !is_unhit || may_store_unhit()
                                              ? last_fragment_.judge_depth_alone(index_, id_)
                                              : std::nullopt) {
         if (!is_unhit) {

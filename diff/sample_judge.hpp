@@ -74,6 +74,8 @@ class SampleJudge {
     void judge_fragment();
     void judge_bare();
     bool judge_depth_alone(bool is_unhit);
+    bool may_store_unhit() const;
+    void add_stray_depth();
     void judge_together(bool is_color_right = false);
     void judge_stencil();
     std::optional<Finding> judge_color(const SeenPlanes& seen);
