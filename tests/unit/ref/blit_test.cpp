@@ -330,8 +330,8 @@ TEST(BlitReference, NothingBeyondAllTexelsIsRight) {
                           {0, 0, static_cast<int32_t>(target), static_cast<int32_t>(target)},
                           BlitFilter::linear, format);
             const BlitReference reference(c);
-            for (int64_t y = 0; y < target; y += 3) {
-                for (int64_t x = 0; x < target; x += 2) {
+            for (int64_t y = 0; y < target; y += 5) {
+                for (int64_t x = 0; x < target; x += 3) {
                     const auto [left, right] = texels_read(x, side, target);
                     const auto [top, bottom] = texels_read(y, side, target);
                     TexelCodes codes =
@@ -345,6 +345,10 @@ TEST(BlitReference, NothingBeyondAllTexelsIsRight) {
                     }
                     ASSERT_TRUE(codes[0] >= least && codes[0] <= most);
                     for (uint32_t code = 0; code < 256; ++code) {
+                        // Far from the texels every eighth code is enough.
+                        if (code % 8 != 0 && (code + 12 < least || code > most + 12)) {
+                            continue;
+                        }
                         const bool is_beyond =
                             is_srgb ? linear_of(code + 1) <
                                               std::floor(linear_of(static_cast<double>(least) - 1) *
@@ -371,7 +375,7 @@ TEST(BlitReference, NothingBeyondAllTexelsIsRight) {
                 }
             }
         }
-        EXPECT_GT(refused, 100000U);
+        EXPECT_GT(refused, 10000U);
     }
 }
 
