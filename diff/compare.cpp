@@ -274,7 +274,7 @@ class Comparison {
 
     void judge_sample(size_t index, cases::SampleId id) {
         const bool is_clear = delivery_.has_instruments && !delivery_.has_stencil && !color_ &&
-                              !stores_discarded_ &&
+                              !stores_discarded_ && !has_decisions_ &&
                               expectation_.samples[index].hits == ref::HitBounds{} &&
                               capture::sample_state(capture_, index) == capture::SampleState::clear;
         ++verdict_.compared_samples;

@@ -33,8 +33,8 @@ std::vector<uint32_t> SharedDecisions::triangles_of(size_t first) const {
         std::set<uint32_t> here, pieces;
         for (const ref::path::Fragment& f : expectation_.fragments_of(expected)) {
             const cases::Draw& draw = case_.draws[expectation_.triangles[f.triangle].draw];
-            const bool is_shared =
-                f.is_value_open && ref::value::shading_rate(draw, case_.target.samples) ==
+            const bool is_shared = f.is_value_open && !f.is_in_pieces &&
+                                   ref::value::shading_rate(draw, case_.target.samples) ==
                                        ref::value::ShadingRate::fragment;
             // Pieces of one triangle are several fragments.
             if (!(is_shared ? here : pieces).insert(f.triangle).second) {

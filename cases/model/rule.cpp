@@ -123,8 +123,9 @@ constexpr std::array kRules = {
          "The fragment is gone where every number that the value may be there is below 0, and is "
          "drawn where none is; -0 and 0 are not below it. In between either is right, but what is "
          "drawn shows no negative value: the shader has one value, which it tests and writes. At "
-         "direct3d the samples of a pixel share that decision, unless sample shading is on; Vulkan "
-         "lets a device run the shader more often, and each run may decide anew.",
+         "direct3d the samples of a pixel share that decision, unless sample shading is on or the "
+         "triangle may be clipped into pieces; Vulkan lets a device run the shader more often, and "
+         "each run may decide anew.",
          "fragops-shader", "", "ref/value/sign.cpp"},
     Rule{rule::discard_early_tests, Profile::vulkan,
          "With early tests a discarded fragment has stored its depth and stencil",

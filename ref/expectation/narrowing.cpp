@@ -106,6 +106,7 @@ path::Question Narrowing::question(const FixedPoint& p, std::span<const Hit> hit
         fragment.triangle = t;
         fragment.is_value_open = hits[m].is_value_open;
         fragment.is_sure_but_for_value = hits[m].is_sure_but_for_value;
+        fragment.is_in_pieces = setups_[t].is_clipped || draw.distances.clip_count > 0;
         if (stores_discarded(draw)) {
             const auto x = static_cast<uint32_t>(p.x >> kFixedBits);
             const auto y = static_cast<uint32_t>(p.y >> kFixedBits);

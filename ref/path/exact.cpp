@@ -15,7 +15,7 @@ using cases::StencilFace;
 using cases::StencilOp;
 
 constexpr size_t kBits = 8;
-constexpr uint64_t kMostSteps = uint64_t{1} << 20U;  // of all paths together
+constexpr uint64_t kMostSteps = uint64_t{1} << 26U;  // of all paths together
 using Byte = std::array<bool, kBits>;                // bit 0 first
 
 Byte byte_of(uint32_t value) {

@@ -40,6 +40,8 @@ struct Fragment {
     uint32_t triangle = 0;
     // Whether its shader discards it by a value is open; but for that it covers the sample.
     bool is_value_open = false, is_sure_but_for_value = false;
+    // Whether clipping may leave several pieces of the triangle, each with fragments of its own.
+    bool is_in_pieces = false;
     friend bool operator==(const Fragment&, const Fragment&) = default;
 };
 

@@ -9,12 +9,12 @@ import jsonschema
 from support import SOURCE, ProgramTest
 
 TIES = """format = 1
-description = "The lower edge of the second triangle passes through the pixel centres of row 4: without the top-left rule it is free there."
+description = "The lower edge of the first triangle passes through the pixel centres of row 4: without the top-left rule it is free there."
 rules = ["cover.inside", "tie.top-left"]
 [target]
 size = [8, 8]
 [[draw]]
-vertices = [[0,0], [0,32], [32,0],  [-8,4.5], [24,4.5], [8,-20]]
+vertices = [[-8,4.5], [24,4.5], [8,-20],  [0,0], [0,32], [32,0]]
 """
 
 

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <string>
 
+#include "cases/load/loader.hpp"
 #include "diff/verdict.hpp"
 #include "rasterizers/captures.hpp"
 #include "tests/unit/diff/perfect_capture.hpp"
@@ -120,6 +122,73 @@ TEST(DiscardJudge, AHitIsBlamedOnTheDrawThatWroteIt) {
         EXPECT_EQ(finding.rule, draw == 0 ? "discard.fragment" : "depth.compare");
         EXPECT_TRUE(finding.why.starts_with("triangle 0 of draw " + std::to_string(draw)))
             << finding.why;
+    }
+}
+
+// Of four samples a pixel; in column 0 the value that is tested is 0 at the centre. `left` is the
+// x of the leftmost corner, -16 and more lie in the view volume.
+cases::Case sharing(int left) {
+    const std::string text = R"(format = 1
+description = "."
+rules = ["cover.inside"]
+[target]
+size = [4, 4]
+samples = 4
+[[draw]]
+viewport = [-16, -16, 32, 32]
+discard = "negative"
+vertices = [[)" + std::to_string(left) +
+                             R"(, -8], [12, -8], [-4, 15]]
+[[draw.attribute]]
+name = "a"
+plane = ["x-0.5"]
+)";
+    return cases::load_text(text, "sharing.toml", "sharing").value().front();
+}
+
+// A picture in which nothing is discarded but the samples of pixel (0, 0) that the mask names.
+capture::Capture without(const cases::Case& c, uint32_t mask) {
+    cases::Case all = c;
+    all.draws[0].discard = cases::Discard::none;
+    capture::Capture out = rasterizers::draw_by_reference(all);
+    cases::Case none = c;
+    none.draws[0].scissor = {3, 3, 1, 1};
+    const capture::Capture clear = rasterizers::draw_by_reference(none);
+    for (size_t s = 0; s < 4; ++s) {
+        if ((mask >> s & 1U) != 0) {
+            out.hits[s] = clear.hits[s];
+            out.writers[s] = clear.writers[s];
+            out.frag_coord[s] = clear.frag_coord[s];
+            out.depth[s] = clear.depth[s];
+            out.attributes[0][s] = clear.attributes[0][s];
+        }
+    }
+    return out;
+}
+
+TEST(DiscardJudge, SamplesOfAPixelShareADecision) {
+    const cases::Case c = sharing(-14);
+    for (uint32_t mask = 0; mask < 16; ++mask) {
+        const capture::Capture picture = without(c, mask);
+        const bool is_shared = mask == 0 || mask == 15;
+        const Verdict strict = judged(c, picture);
+        EXPECT_EQ(strict.ok(), is_shared) << mask;
+        if (!is_shared) {
+            ASSERT_EQ(strict.findings.size(), 1U) << mask;
+            EXPECT_EQ(strict.findings[0].rule, "discard.value");
+            EXPECT_EQ(strict.findings[0].level, cases::Profile::direct3d);
+        }
+        for (const cases::Profile profile : {cases::Profile::vulkan, cases::Profile::practice}) {
+            EXPECT_TRUE(compare(c, ref::expect(c, {}, profile), picture).ok()) << mask;
+        }
+    }
+}
+
+// Clipping may leave several pieces of a triangle, each with a fragment of its own in a pixel.
+TEST(DiscardJudge, PiecesOfATriangleShareNoDecision) {
+    const cases::Case c = sharing(-40);
+    for (uint32_t mask = 0; mask < 16; ++mask) {
+        EXPECT_TRUE(judged(c, without(c, mask)).ok()) << mask;
     }
 }
 

@@ -24,7 +24,14 @@ inline std::string describe(const Expectation& e, size_t index) {
     for (const uint32_t t : e.writers_of(s)) {
         text += " " + std::to_string(t);
     }
-    return text;
+    text += " depth writers";
+    for (const uint32_t t : e.depth_writers_of(s)) {
+        text += " " + std::to_string(t);
+    }
+    text += s.depth_may_be_clear ? ", clear" : "";
+    text += s.is_free ? ", free" : "";
+    return text + ", " + std::to_string(e.stencils_of(s).size()) + " stencils, " +
+           std::to_string(e.fragments_of(s).size()) + " fragments";
 }
 
 // Hits, writers, depths, fragments of the colour, what queries count, and the counts of samples.
