@@ -19,7 +19,6 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
-#include <sstream>
 
 #include "cases/base/counted.hpp"
 #include "cli/bench/clock.hpp"

@@ -10,7 +10,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <utility>
 
 #include "cases/base/counted.hpp"
@@ -18,7 +17,6 @@
 #include "cli/commands.hpp"
 #include "cli/options/shared_options.hpp"
 #include "cli/prepare/device_answer.hpp"
-#include "cli/prepare/run_plan.hpp"
 #include "cli/prepare/suite.hpp"
 #include "cli/renderers/renderers.hpp"
 #include "report/journal/json_codec.hpp"

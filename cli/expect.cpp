@@ -15,7 +15,6 @@
 #include "cases/base/printable.hpp"
 #include "cases/model/device.hpp"
 #include "cli/commands.hpp"
-#include "cli/options/shared_options.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
 #include "report/journal/journal.hpp"

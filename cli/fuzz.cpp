@@ -32,7 +32,6 @@ namespace fs = std::filesystem;
 using cases::counted;
 using fuzz::Entry;
 using fuzz::Hunt;
-using fuzz::Ledger;
 
 namespace {
 
@@ -291,7 +290,7 @@ class FuzzCommand {
     const Program& program_;
     const FuzzOptions& options_;
     HuntStatus status_;
-    Ledger ledger_;
+    fuzz::Ledger ledger_;
     fuzz::MakeSource source_;
     size_t starts_ = 0;  // cases that the hunt starts from; 0: it makes its own
     fs::path folder_;

@@ -7,7 +7,6 @@
 
 #include "cases/base/counted.hpp"
 #include "cases/load/loader.hpp"
-#include "cases/select/selector.hpp"
 #include "cli/commands.hpp"
 #include "cli/options/shared_options.hpp"
 #include "cli/options/stop.hpp"

@@ -8,7 +8,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 
 #include "cases/base/input_file.hpp"
 #include "cli/commands.hpp"

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 #include <vector>
 
 #include "cases/key/key.hpp"
@@ -14,7 +13,6 @@
 
 namespace fuzz {
 
-using cases::TomlEntry;
 using cases::TomlValue;
 using report::Status;
 
@@ -72,7 +70,7 @@ bool is_far(const TomlValue& rectangle) {
 
 void add_keys(const TomlValue& table, const std::string& path, const cases::KeyTable* keys,
               Essentials& all) {
-    for (const TomlEntry& entry : table.table) {
+    for (const cases::TomlEntry& entry : table.table) {
         const TomlValue& value = entry.value;
         const bool is_top = path.empty();
         const std::string name = is_top || path == "target" ? entry.key : path + "." + entry.key;

@@ -9,9 +9,7 @@
 #include <iterator>
 #include <utility>
 
-#include "cases/load/loader.hpp"
 #include "cases/model/rule.hpp"
-#include "cases/model/words.hpp"
 #include "diff/color.hpp"
 #include "fuzz/document/document.hpp"
 #include "fuzz/reduce/neighbours.hpp"

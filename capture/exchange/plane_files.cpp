@@ -14,7 +14,6 @@
 #include "capture/exchange/plane_numbers.hpp"
 #include "cases/base/input_file.hpp"
 #include "cases/base/number_text.hpp"
-#include "cases/base/printable.hpp"
 #include "cases/format/color_format.hpp"
 #include "cases/model/derive.hpp"
 #include "cases/model/sample.hpp"

@@ -12,7 +12,6 @@
 #include <cstring>
 #include <fstream>
 #include <functional>
-#include <optional>
 
 #include "capture/exchange/plane_files.hpp"
 #include "capture/image/image.hpp"

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Case files on disk.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>

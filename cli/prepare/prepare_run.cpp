@@ -23,7 +23,6 @@
 #include "cli/prepare/on_threads.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "report/journal/journal.hpp"
-#include "report/text/sentences.hpp"
 #include "run/limits_case.hpp"
 #include "run/worker/fault.hpp"
 

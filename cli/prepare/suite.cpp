@@ -5,14 +5,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <iostream>
 #include <map>
 #include <numeric>
 #include <set>
 #include <utility>
-#include <variant>
 
 #include "cases/base/checksum.hpp"
 #include "cases/base/counted.hpp"

@@ -4,8 +4,6 @@
 // One change of a case, drawn by dice. Whether the result is a case is for the loader to say.
 #pragma once
 
-#include <array>
-#include <span>
 #include <string>
 #include <string_view>
 

@@ -6,8 +6,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
-#include <vector>
 
 #include "probe/base/scene.hpp"
 #include "probe/experiment/snapping.hpp"

@@ -3,7 +3,6 @@
 #include "rasterizers/algorithms/device.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "rasterizers/algorithms/block_integers.hpp"

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "rasterizers/software/depth.hpp"
-#include "rasterizers/software/snapping.hpp"
 #include "rasterizers/software/target/neighbour.hpp"
 
 namespace software {

@@ -10,7 +10,6 @@
 #include "cases/base/printable.hpp"
 #include "report/compare/comparison.hpp"
 #include "report/journal/json_codec.hpp"
-#include "report/text/sentences.hpp"
 #include "report/text/wrap.hpp"
 
 namespace report {

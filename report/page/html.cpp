@@ -16,8 +16,6 @@
 
 namespace report {
 
-using Json = nlohmann::ordered_json;
-
 namespace {
 
 // The page, from report/page/ (cmake/Embed.cmake).

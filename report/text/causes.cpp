@@ -17,7 +17,6 @@
 #include <utility>
 
 #include "cases/base/counted.hpp"
-#include "cases/base/printable.hpp"
 #include "cases/model/rule.hpp"
 #include "report/record/levels.hpp"
 #include "report/text/sentences.hpp"

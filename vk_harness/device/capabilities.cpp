@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 #include "cases/model/words.hpp"
 #include "vk_harness/device/features.hpp"

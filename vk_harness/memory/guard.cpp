@@ -3,7 +3,6 @@
 #include "vk_harness/memory/guard.hpp"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 
 #include "capture/capture.hpp"

@@ -10,7 +10,6 @@
 #include "cases/model/derive.hpp"
 #include "vk_harness/device/format.hpp"
 #include "vk_harness/target/readback.hpp"
-#include "vk_harness/target/shader_interface.hpp"
 
 namespace vk_harness {
 
