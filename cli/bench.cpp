@@ -44,7 +44,7 @@ struct BenchOptions {
 };
 
 double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
+    std::ranges::sort(values);
     return values.empty() ? 0 : values[values.size() / 2];
 }
 

@@ -54,9 +54,7 @@ std::vector<report::Diagnosis> diagnoses_of(const report::Run& run, const EachCa
 }
 
 EachCase each_of(const LoadedSuite& suite) {
-    return [&suite](const auto& visit) {
-        std::for_each(suite.cases.begin(), suite.cases.end(), visit);
-    };
+    return [&suite](const auto& visit) { std::ranges::for_each(suite.cases, visit); };
 }
 
 // The cases that a run was about: those of its suite, or of `root` if that is not empty, and files
@@ -83,9 +81,8 @@ void diagnose(report::Run& run, const EachCase& each_case) {
 
 void diagnose_again(const Program& program, report::Run& run) {
     run.diagnoses.clear();
-    const bool has_failed = std::any_of(run.cases.begin(), run.cases.end(), [](const auto& record) {
-        return record.status == report::Status::fail;
-    });
+    const bool has_failed = std::ranges::any_of(
+        run.cases, [](const auto& record) { return record.status == report::Status::fail; });
     if (!has_failed) {
         return;
     }

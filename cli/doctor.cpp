@@ -339,7 +339,7 @@ int carry_out(const Program& program, const DoctorOptions& options) {
     d.parts = find_parts(program, d.installed);
     must(ask(program, options.device, d), report::kExitInternal);
     ask_shares(program, options.device, d);
-    if (!d.devices.empty() && std::none_of(d.devices.begin(), d.devices.end(), is_usable)) {
+    if (!d.devices.empty() && std::ranges::none_of(d.devices, is_usable)) {
         d.advice.emplace_back("sudo apt install mesa-vulkan-drivers");
     }
     if (options.json) {

@@ -112,11 +112,11 @@ Source load_merged(const Program& program, const ReportOptions& options) {
 // A merge that fails leaves nothing that looks like its result.
 void forsake_merged(const ReportOptions& options) {
     const fs::path folder = merged_folder(options);
-    const bool is_part = std::any_of(options.directories.begin(), options.directories.end(),
-                                     [&](const std::string& directory) {
-                                         std::error_code none;
-                                         return fs::equivalent(directory, folder, none);
-                                     });
+    const bool is_part =
+        std::ranges::any_of(options.directories, [&](const std::string& directory) {
+            std::error_code none;
+            return fs::equivalent(directory, folder, none);
+        });
     if (!is_part) {
         remove_reports_of_last_run(ReportFiles{folder, options.json, options.junit, options.html});
     }

@@ -152,9 +152,8 @@ class Reader {
                 }
                 continue;
             }
-            const auto spec = std::find_if(specs.begin(), specs.end(), [&](const PlaneSpec& s) {
-                return s.name == file.stem().string();
-            });
+            const auto spec = std::ranges::find_if(
+                specs, [&](const PlaneSpec& s) { return s.name == file.stem().string(); });
             if (fs::is_directory(file, none)) {
                 if (spec == specs.end()) {
                     continue;
@@ -211,7 +210,7 @@ class Reader {
                 files.push_back(entry.path());
             }
         }
-        std::sort(files.begin(), files.end());
+        std::ranges::sort(files);
         return files;
     }
 

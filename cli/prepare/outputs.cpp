@@ -192,8 +192,8 @@ void print_errors(const cases::Errors& errors) {
 namespace {
 
 bool has_failed(const report::Run& run) {
-    return std::any_of(run.cases.begin(), run.cases.end(),
-                       [](const auto& record) { return record.status == report::Status::fail; });
+    return std::ranges::any_of(
+        run.cases, [](const auto& record) { return record.status == report::Status::fail; });
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ void warn_of_idle_faults(const std::vector<std::string>& ids) {
         return;  // the worker says so
     }
     for (const run::Fault& fault : *faults) {
-        if (fault.glob != "**" && std::none_of(ids.begin(), ids.end(), [&](const std::string& id) {
+        if (fault.glob != "**" && std::ranges::none_of(ids, [&](const std::string& id) {
                 return cases::glob_matches(fault.glob, id);
             })) {
             complain("warning: EDGECASE_FAULT: '" + fault.glob + "' matches no case");
@@ -148,7 +148,7 @@ std::string what_changed(const Run& earlier) {
     }
     const auto now = sources_of(earlier.cases);
     for (const auto& source : earlier.sources) {
-        if (std::find(now.begin(), now.end(), source) == now.end()) {
+        if (std::ranges::find(now, source) == now.end()) {
             return "the file '" + source.first + "' is not as it was when it began";
         }
     }

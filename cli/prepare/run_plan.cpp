@@ -68,7 +68,7 @@ std::set<std::string> failed_ids(const RunOptions& options, const LoadedSuite& s
 
 // The same for the same cases, whatever selected them in whichever order.
 std::string selection_text(std::vector<std::string> ids) {
-    std::sort(ids.begin(), ids.end());
+    std::ranges::sort(ids);
     uint64_t hash = 0;
     for (const std::string& id : ids) {
         hash = cases::stable_hash(id, hash);

@@ -17,9 +17,9 @@ namespace fuzz {
 namespace {
 
 const cases::ColorFormatRow& row_of(const Pose& pose) {
-    const auto row =
-        std::find_if(cases::kColorFormats.begin(), cases::kColorFormats.end(),
-                     [&](const cases::ColorFormatRow& r) { return pose.is("color", r.word); });
+    const auto row = std::ranges::find_if(
+        cases::kColorFormats,
+        [&](const cases::ColorFormatRow& r) { return pose.is("color", r.word); });
     return row == cases::kColorFormats.end() ? cases::kColorFormats.front() : *row;
 }
 

@@ -129,7 +129,7 @@ void settle(Property& property, Errors errors) {
         property.why = "no fragment has such a number";
         return;
     }
-    std::sort(all.begin(), all.end());
+    std::ranges::sort(all);
     double sum = 0;
     double squares = 0;
     for (const double e : all) {

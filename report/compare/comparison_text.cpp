@@ -23,7 +23,7 @@ constexpr uint32_t kMaxSide = 64;  // characters and lines of a picture
 
 std::string status_word(const CaseRecord* record) {
     std::string word(record == nullptr ? "-" : to_string(actual_status(*record)));
-    std::replace(word.begin(), word.end(), '_', ' ');
+    std::ranges::replace(word, '_', ' ');
     return word;
 }
 

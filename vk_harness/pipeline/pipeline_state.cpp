@@ -276,7 +276,7 @@ ColorState::ColorState(const PipelineKey& key) {
     }
     if (key.fixed) {
         const auto constants = std::bit_cast<std::array<float, 4>>(key.fixed->blend_constants);
-        std::copy(constants.begin(), constants.end(), info.blendConstants);
+        std::ranges::copy(constants, info.blendConstants);
     }
 }
 

@@ -142,7 +142,7 @@ TargetLayout target_layout(const Capabilities& c, const cases::Case& test) {
     const uint32_t attributes = std::min(cases::attributes_of(test), cases::kMaxAttributes);
     bool has_wide = false;
     for (uint32_t k = 0; k < attributes; ++k) {
-        const bool is_wide = std::any_of(test.draws.begin(), test.draws.end(), [k](const auto& d) {
+        const bool is_wide = std::ranges::any_of(test.draws, [k](const auto& d) {
             return k < d.attributes.size() && !cases::has_two_numbers(d.attributes[k]);
         });
         layout.components.at(k) = is_wide ? 4 : 2;
