@@ -64,7 +64,7 @@ std::string component(const Pose& pose, uint32_t k, Dice& dice) {
     if (kind < 2 && is_float) {
         const double sign = dice.one_in(3) ? -1 : 1;
         const auto exponent = static_cast<int>(dice.between(-12, 14));
-        const auto significand = static_cast<double>(dice.between(1, 15));
+        const auto significand = dice.fraction(1, 15, 1);
         return fmt::format("{}", sign * std::ldexp(significand, exponent));
     }
     return fmt::format(

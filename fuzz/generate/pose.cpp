@@ -15,7 +15,7 @@ namespace {
 
 size_t index_of(std::string_view name) {
     const std::vector<Feature>& all = features();
-    const auto at = std::ranges::find_if(all, [&](const Feature& f) { return f.name == name; });
+    const auto at = std::ranges::find(all, name, &Feature::name);
     if (at == all.end()) {
         std::abort();  // a name that this folder misspells
     }
