@@ -30,8 +30,7 @@ std::vector<Choice> in_turns(std::map<std::string, std::vector<Choice>> kinds, s
                 of_turn.push_back(list[turn]);
             }
         }
-        std::ranges::stable_sort(of_turn,
-                                 [](const Choice& a, const Choice& b) { return a.cost < b.cost; });
+        std::ranges::stable_sort(of_turn, {}, &Choice::cost);
         out.insert(out.end(), of_turn.begin(), of_turn.end());
         if (out.size() == before) {
             break;

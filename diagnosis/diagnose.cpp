@@ -234,9 +234,7 @@ class Diagnoser {
                 best.push_back(std::move(tally));
             }
         }
-        const auto least = std::ranges::min_element(best, [](const Tally& a, const Tally& b) {
-            return a.passed_against < b.passed_against;
-        });
+        const auto least = std::ranges::min_element(best, {}, &Tally::passed_against);
         if (least != best.end()) {
             std::erase_if(best, [most = least->passed_against](const Tally& tally) {
                 return tally.passed_against > most;

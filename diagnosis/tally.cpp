@@ -26,8 +26,7 @@ bool is_against(const Subject& passed, const capture::Capture& drawn) {
 }
 
 size_t Tally::count(Says what) const {
-    return static_cast<size_t>(std::ranges::count_if(
-        answers, [what](const Answer& answer) { return answer.says == what; }));
+    return static_cast<size_t>(std::ranges::count(answers, what, &Answer::says));
 }
 
 bool Tally::is_alike(const Tally& other) const {

@@ -37,9 +37,8 @@ constexpr auto kExperiments = std::to_array<Experiment>({
 
 size_t place_of(const Property& p) {
     const std::string section = p.section();
-    return static_cast<size_t>(
-        std::ranges::find_if(kSections, [&](const Section& s) { return s.name == section; }) -
-        kSections.begin());
+    return static_cast<size_t>(std::ranges::find(kSections, section, &Section::name) -
+                               kSections.begin());
 }
 
 }  // namespace

@@ -152,8 +152,7 @@ class Reader {
                 }
                 continue;
             }
-            const auto spec = std::ranges::find_if(
-                specs, [&](const PlaneSpec& s) { return s.name == file.stem().string(); });
+            const auto spec = std::ranges::find(specs, file.stem().string(), &PlaneSpec::name);
             if (fs::is_directory(file, none)) {
                 if (spec == specs.end()) {
                     continue;

@@ -89,8 +89,7 @@ int32_t read_attribute_name(LeafContext& context, const TomlValue& value, const 
     if (!name) {
         return -1;
     }
-    const auto found =
-        std::ranges::find_if(attributes, [&](const Attribute& a) { return a.name == *name; });
+    const auto found = std::ranges::find(attributes, *name, &Attribute::name);
     if (found == attributes.end()) {
         context.error(value.where,
                       fmt::format("the draw has no attribute \"{}\" for its colour", *name));

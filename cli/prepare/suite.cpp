@@ -158,8 +158,7 @@ LoadedSuite load_contents(LoadedSuite suite) {
         if (fresh) {
             file->second = must(cases::load_file(c.claim.where.file, suite.root));
         }
-        const auto full = std::ranges::find_if(
-            file->second, [&](const cases::Case& other) { return other.id == c.id; });
+        const auto full = std::ranges::find(file->second, c.id, &cases::Case::id);
         if (full == file->second.end()) {
             throw stop_with(report::kExitInvalidFile,
                             c.claim.where.file + " changed while it was read");

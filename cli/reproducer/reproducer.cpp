@@ -53,7 +53,7 @@ struct Missing {
 };
 
 std::string_view first_of(std::initializer_list<Missing> features) {
-    const auto* found = std::ranges::find_if(features, [](const Missing& m) { return m.has; });
+    const auto* found = std::ranges::find_if(features, &Missing::has);
     return found == features.end() ? "" : found->name;
 }
 

@@ -145,8 +145,7 @@ std::span<const Device> all_devices() {
 
 const Device* find_device(std::string_view name) {
     const std::span<const Device> all = all_devices();
-    const auto found =
-        std::ranges::find_if(all, [name](const Device& device) { return device.name == name; });
+    const auto found = std::ranges::find(all, name, &Device::name);
     return found == all.end() ? nullptr : &*found;
 }
 

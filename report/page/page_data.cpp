@@ -104,8 +104,7 @@ Json diagnoses_json(const Run& run) {
     for (const Diagnosis& d : run.diagnoses) {
         Json members = Json::array();
         for (const std::string& id : d.examples) {
-            const auto at =
-                std::ranges::find_if(run.cases, [&](const CaseRecord& r) { return r.id == id; });
+            const auto at = std::ranges::find(run.cases, id, &CaseRecord::id);
             if (at != run.cases.end()) {
                 members.push_back(at - run.cases.begin());
             }

@@ -73,8 +73,7 @@ struct Reach {
 // Where a rule stands in the list of rules: what is decided earlier in the pipeline comes first.
 std::ptrdiff_t number_of(std::string_view rule) {
     const auto all = cases::all_rules();
-    return std::ranges::find_if(all, [&](const cases::Rule& r) { return r.id == rule; }) -
-           all.begin();
+    return std::ranges::find(all, rule, &cases::Rule::id) - all.begin();
 }
 
 // The causes of those results of a run that `is_meant` picks by their status, by all their findings

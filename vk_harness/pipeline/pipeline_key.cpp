@@ -90,9 +90,8 @@ bool tests_nothing(const PipelineKey& key) {
 void switch_on_unused(PipelineKey& key) {
     key.unused_tests = true;
     const TargetLayout::Unused& device = key.layout.unused;
-    const bool may_copy =
-        device.logic && !key.instruments && !key.logic &&
-        std::ranges::none_of(key.colors, [](const ColorKey& color) { return color.blends; });
+    const bool may_copy = device.logic && !key.instruments && !key.logic &&
+                          std::ranges::none_of(key.colors, &ColorKey::blends);
     // A lone colour that can be blended is, else bits are copied.
     const bool copies = may_copy && (device.blends == 0 || key.colors.size() > 1);
     for (uint32_t k = 0; k < key.colors.size(); ++k) {

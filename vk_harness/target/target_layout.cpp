@@ -26,9 +26,8 @@ bool ids_fit(const cases::Case& test) {
 // Pipelines that discard for good have no samples, and those of a dynamic rendering have to have
 // those of the attachments (VUID-vkCmdDraw-multisampledRenderToSingleSampled-07285).
 bool discards_several_samples(const cases::Case& test) {
-    return test.target.samples > 1 && std::ranges::any_of(test.draws, [](const cases::Draw& draw) {
-               return draw.rasterizer_discard;
-           });
+    return test.target.samples > 1 &&
+           std::ranges::any_of(test.draws, &cases::Draw::rasterizer_discard);
 }
 
 TargetLayout::Unused unused_state(const Capabilities& c, const cases::Case& test) {

@@ -105,8 +105,7 @@ std::string set_choices(Device& device, std::string_view text) {
         const std::string_view word = text.substr(0, text.find(','));
         text.remove_prefix(std::min(text.size(), word.size() + 1));
         const std::string_view key = word.substr(0, word.find('='));
-        const auto choice =
-            std::ranges::find_if(all_choices(), [&](const Choice& c) { return c.key == key; });
+        const auto choice = std::ranges::find(all_choices(), key, &Choice::key);
         if (choice == all_choices().end()) {
             std::vector<std::string_view> keys;
             for (const Choice& c : all_choices()) {
