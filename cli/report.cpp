@@ -67,14 +67,11 @@ Source load_one(const ReportOptions& options) {
         throw Stop{report::kExitUsage,
                    {"several folders need --merge; 'edgecase compare' sets runs side by side"}};
     }
-    cases::Expected<report::Run> run = report::load_for_reports(options.directories.front());
-    if (!run) {
-        throw Stop{report::kExitInvalidFile, {cases::to_string(run.error())}};
-    }
+    report::Run run = must_read(report::load_for_reports(options.directories.front()));
     const fs::path folder = options.output.empty() ? options.directories.front() : options.output;
     std::error_code error;
     fs::create_directories(folder, error);
-    return Source{std::move(*run), folder};
+    return Source{std::move(run), folder};
 }
 
 fs::path merged_folder(const ReportOptions& options) {
@@ -93,12 +90,8 @@ Source load_merged(const Program& program, const ReportOptions& options) {
                        {"the merged run would overwrite '" + directory +
                         "', which is one of its parts; choose another folder with -o"}};
         }
-        cases::Expected<report::Run> run = report::load_journal(directory);
-        if (!run) {
-            throw Stop{report::kExitInvalidFile, {cases::to_string(run.error())}};
-        }
-        is_diagnosed = is_diagnosed || !run->diagnoses.empty();
-        parts.push_back({directory, std::move(*run)});
+        parts.push_back({directory, must_read(report::load_journal(directory))});
+        is_diagnosed = is_diagnosed || !parts.back().run.diagnoses.empty();
     }
     report::Run merged = must(report::merge_runs(std::move(parts)), report::kExitInvalidFile);
     source.run = std::move(merged);
