@@ -6,11 +6,9 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec4.hpp>
-#include <limits>
 #include <span>
 #include <string>
 #include <vector>

@@ -9,8 +9,7 @@ namespace capture {
 bool Delivered::is_empty() const {
     return detail == HitDetail::none && draws.empty() && frag_coord.empty() && depth.empty() &&
            color.empty() && stencil.empty() &&
-           std::all_of(attributes.begin(), attributes.end(),
-                       [](const auto& plane) { return plane.empty(); });
+           std::ranges::all_of(attributes, [](const auto& plane) { return plane.empty(); });
 }
 
 }  // namespace capture

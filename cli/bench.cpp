@@ -19,7 +19,6 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
-#include <sstream>
 
 #include "cases/base/counted.hpp"
 #include "cli/bench/clock.hpp"
@@ -45,7 +44,7 @@ struct BenchOptions {
 };
 
 double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
+    std::ranges::sort(values);
     return values.empty() ? 0 : values[values.size() / 2];
 }
 

@@ -53,33 +53,21 @@ std::string report_address(const std::string& page, const std::string& folder) {
 int carry_out(const Program&, const CompareOptions& options) {
     std::vector<report::NamedRun> runs;
     for (const std::string& folder : options.directories) {
-        cases::Expected<report::Run> run = report::load_journal(folder);
-        if (!run) {
-            throw Stop{report::kExitInvalidFile, {cases::to_string(run.error())}};
-        }
-        runs.push_back({folder, std::move(*run)});
+        runs.push_back({folder, must_read(report::load_journal(folder))});
     }
     const report::Comparison comparison =
         must(report::compare_runs(runs, {options.common, options.strict}), report::kExitUsage);
     std::FILE* console = console_beside(options.json, {}, options.html);
     const report::ConsoleStyle style = console_style(console, options.color, options.verbose);
     cases::Errors errors;
-    if (!options.html.empty()) {
+    write_asked(options.html, errors, [&] {
         std::vector<std::string> reports;
         for (const std::string& folder : options.directories) {
             reports.push_back(report_address(options.html, folder));
         }
-        const std::string page = report::comparison_html(runs, comparison, reports);
-        if (const auto written = write_text(options.html, page); !written) {
-            errors.push_back(written.error());
-        }
-    }
-    if (!options.json.empty()) {
-        const std::string json = report::comparison_json(runs, comparison);
-        if (const auto written = write_text(options.json, json); !written) {
-            errors.push_back(written.error());
-        }
-    }
+        return report::comparison_html(runs, comparison, reports);
+    });
+    write_asked(options.json, errors, [&] { return report::comparison_json(runs, comparison); });
     const std::string exit =
         errors.empty() ? std::string()
                        : report::exit_text(report::kExitInternal, "a file could not be written");

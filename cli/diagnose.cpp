@@ -54,9 +54,7 @@ std::vector<report::Diagnosis> diagnoses_of(const report::Run& run, const EachCa
 }
 
 EachCase each_of(const LoadedSuite& suite) {
-    return [&suite](const auto& visit) {
-        std::for_each(suite.cases.begin(), suite.cases.end(), visit);
-    };
+    return [&suite](const auto& visit) { std::ranges::for_each(suite.cases, visit); };
 }
 
 // The cases that a run was about: those of its suite, or of `root` if that is not empty, and files
@@ -83,10 +81,7 @@ void diagnose(report::Run& run, const EachCase& each_case) {
 
 void diagnose_again(const Program& program, report::Run& run) {
     run.diagnoses.clear();
-    const bool has_failed = std::any_of(run.cases.begin(), run.cases.end(), [](const auto& record) {
-        return record.status == report::Status::fail;
-    });
-    if (!has_failed) {
+    if (!has_failed(run)) {
         return;
     }
     try {
@@ -110,16 +105,13 @@ void keep_diagnoses(const report::Run& run, report::Journal& journal) {
 namespace {
 
 int carry_out(const Program& program, const DiagnoseOptions& options) {
-    cases::Expected<report::Run> run = report::load_journal(options.directory);
-    if (!run) {
-        throw stop_with(report::kExitInvalidFile, cases::to_string(run.error()));
-    }
-    const LoadedSuite loaded = cases_of(program, *run, options.suite.suite);
-    if (!run->suite_hash.empty() && run->suite_hash != cases::hex(suite_hash(loaded.root))) {
+    report::Run run = must_read(report::load_journal(options.directory));
+    const LoadedSuite loaded = cases_of(program, run, options.suite.suite);
+    if (!run.suite_hash.empty() && run.suite_hash != cases::hex(suite_hash(loaded.root))) {
         complain("the suite has changed since that run; what is told of changed cases is wrong");
     }
     size_t failed = 0;
-    for (report::CaseRecord& record : run->cases) {
+    for (report::CaseRecord& record : run.cases) {
         if (options.known && record.status == report::Status::xfail) {
             record.status = report::Status::fail;
         }
@@ -138,21 +130,17 @@ int carry_out(const Program& program, const DiagnoseOptions& options) {
         }
         progress->show(done - 1, std::nullopt);
     };
-    run->diagnoses = diagnoses_of(*run, each_of(loaded), bound);
+    run.diagnoses = diagnoses_of(run, each_of(loaded), bound);
     if (progress) {
         progress->clear();
     }
-    const std::vector<report::Diagnosis>& list = run->diagnoses;
-    const report::Repeated repeated(*run);
+    const std::vector<report::Diagnosis>& list = run.diagnoses;
+    const report::Repeated repeated(run);
     for (const report::Diagnosis& d : list) {
-        if (repeated.is_partial(static_cast<size_t>(&d - list.data()))) {
-            say(fmt::format("some cases look as if: {}\n  {}; {}\n  in {}{}\n",
-                            report::what_it_does(d), report::limits_of(d), report::evidence_for(d),
-                            cases::printable(fmt::format("{}", fmt::join(d.examples, ", "))),
-                            d.cases > d.examples.size() ? ", ..." : ""));
-            continue;
-        }
-        say(fmt::format("{}\n  {}\n  in {}{}\n", report::what_it_does(d), report::evidence_for(d),
+        const bool is_partial = repeated.is_partial(static_cast<size_t>(&d - list.data()));
+        say(fmt::format("{}{}\n  {}{}\n  in {}{}\n", is_partial ? "some cases look as if: " : "",
+                        report::what_it_does(d), is_partial ? report::limits_of(d) + "; " : "",
+                        report::evidence_for(d),
                         cases::printable(fmt::format("{}", fmt::join(d.examples, ", "))),
                         d.cases > d.examples.size() ? ", ..." : ""));
     }

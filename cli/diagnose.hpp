@@ -5,7 +5,6 @@
 #pragma once
 
 #include <functional>
-#include <string>
 
 #include "cases/model/case.hpp"
 #include "cli/options/program.hpp"

@@ -352,7 +352,7 @@ int carry_out(const Program& program, const DiffOptions& given) {
     if (o.diagnosis && !header.interrupted) {
         ending.complete = [&](report::Run& run) {
             const auto each = [&](const auto& visit) {
-                std::for_each(selection.cases.begin(), selection.cases.end(), visit);
+                std::ranges::for_each(selection.cases, visit);
             };
             diagnose(run, each);
             keep_diagnoses(run, journal);

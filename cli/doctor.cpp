@@ -10,7 +10,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <utility>
 
 #include "cases/base/counted.hpp"
@@ -18,7 +17,6 @@
 #include "cli/commands.hpp"
 #include "cli/options/shared_options.hpp"
 #include "cli/prepare/device_answer.hpp"
-#include "cli/prepare/run_plan.hpp"
 #include "cli/prepare/suite.hpp"
 #include "cli/renderers/renderers.hpp"
 #include "report/journal/json_codec.hpp"
@@ -341,7 +339,7 @@ int carry_out(const Program& program, const DoctorOptions& options) {
     d.parts = find_parts(program, d.installed);
     must(ask(program, options.device, d), report::kExitInternal);
     ask_shares(program, options.device, d);
-    if (!d.devices.empty() && std::none_of(d.devices.begin(), d.devices.end(), is_usable)) {
+    if (!d.devices.empty() && std::ranges::none_of(d.devices, is_usable)) {
         d.advice.emplace_back("sudo apt install mesa-vulkan-drivers");
     }
     if (options.json) {

@@ -15,7 +15,6 @@
 #include "cases/base/printable.hpp"
 #include "cases/model/device.hpp"
 #include "cli/commands.hpp"
-#include "cli/options/shared_options.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
 #include "report/journal/journal.hpp"
@@ -131,30 +130,27 @@ std::string settle_own_cases(report::Run& run, std::vector<std::string>& ids, bo
 
 run::Update make_update(const Program& program, const ExpectOptions& options,
                         const run::UpdateWords& words, std::string& before) {
-    cases::Expected<report::Run> run = report::load_journal(options.update);
-    if (!run) {
-        throw stop_with(report::kExitInvalidFile, "--update: " + cases::to_string(run.error()));
-    }
+    report::Run run = must_read(report::load_journal(options.update), "--update: ");
     std::error_code none;
-    std::string text = run::new_expectation_file(*run);
+    std::string text = run::new_expectation_file(run);
     if (fs::exists(options.file, none)) {
         const std::string all = must(cases::read_file(options.file), report::kExitInvalidFile,
                                      "'" + options.file + "' cannot be read: ");
         before = text = all;
     }
     const auto file = must(run::parse_expectations(text, options.file, run::today_utc(), true));
-    if (const std::string why = mismatch(file, run->device, run->profile); !why.empty()) {
+    if (const std::string why = mismatch(file, run.device, run.profile); !why.empty()) {
         throw stop_with(report::kExitDevice,
                         "the expectation file '" + options.file + "' does not fit the run: " + why);
     }
     SuiteOptions suite = options.suite;
     if (suite.suite.empty()) {
-        suite.suite = run->suite_root;
+        suite.suite = run.suite_root;
     }
     const LoadedSuite loaded = load_and_select(program, suite);
     std::vector<std::string> ids = known_ids(loaded);
-    const std::string left_out = settle_own_cases(*run, ids, is_beside(options.file, loaded.root));
-    run::Update update = run::update_expectations(text, file, *run, ids, words);
+    const std::string left_out = settle_own_cases(run, ids, is_beside(options.file, loaded.root));
+    run::Update update = run::update_expectations(text, file, run, ids, words);
     if (!left_out.empty()) {
         update.notes.push_back(left_out);
     }
@@ -200,28 +196,25 @@ void update_pictures(const Program& program, const ExpectOptions& options) {
             "a file of pictures says how failures look and not why; leave out --bits, --bug, "
             "--reason and --until, or name an expectation file (*.txt)");
     }
-    const cases::Expected<report::Run> run = report::load_journal(options.update);
-    if (!run) {
-        throw stop_with(report::kExitInvalidFile, "--update: " + cases::to_string(run.error()));
-    }
+    const report::Run run = must_read(report::load_journal(options.update), "--update: ");
     std::error_code none;
     run::SeenPictures file =
         must(fs::exists(options.file, none) ? run::load_pictures(options.file)
-                                            : run::new_pictures(*run, options.file));
-    if (!run::fits(file, run->device)) {
+                                            : run::new_pictures(run, options.file));
+    if (!run::fits(file, run.device)) {
         throw stop_with(report::kExitDevice, "the file of pictures '" + options.file +
                                                  "' does not fit the run: it is for the device '" +
                                                  file.device_glob + "', that was on '" +
-                                                 run->device.name + "'");
+                                                 run.device.name + "'");
     }
     SuiteOptions suite = options.suite;
     if (suite.suite.empty()) {
-        suite.suite = run->suite_root;
+        suite.suite = run.suite_root;
     }
     const Ids ids = ids_of_suite(program, suite);
     const std::string before = to_text(file);
     const size_t kept = count_pictures(file);
-    run::add_pictures(file, *run);
+    run::add_pictures(file, run);
     const size_t added = count_pictures(file) - kept;
     std::erase_if(file.bits, [&](const auto& entry) { return !ids.contains(entry.first); });
     const size_t removed = kept + added - count_pictures(file);

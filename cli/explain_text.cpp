@@ -148,8 +148,8 @@ std::string triangle_text(const ref::TriangleExplanation& t) {
             "        no edge is shown: a vertex has no place in the picture, since its w is not "
             "above "
             "0, it is no number or it lies beyond 2^32 pixels\n";
-    } else if (!std::all_of(t.boxes.begin(), t.boxes.end(),
-                            [](const auto& box) { return box && box->is_point(); })) {
+    } else if (!std::ranges::all_of(t.boxes,
+                                    [](const auto& box) { return box && box->is_point(); })) {
         text +=
             "        a device may have a vertex at more than one place: shown are the grid points "
             "nearest to the exact positions\n";
@@ -339,12 +339,12 @@ std::string rule_text(const cases::Rule& rule, const std::vector<cases::Case>& s
     std::vector<std::string> ids;
     size_t leaves = 0;
     for (const cases::Case& c : suite) {
-        if (std::find(c.claim.rules.begin(), c.claim.rules.end(), rule.id) == c.claim.rules.end()) {
+        if (std::ranges::find(c.claim.rules, rule.id) == c.claim.rules.end()) {
             continue;
         }
         ++leaves;
         const std::string base = c.id.substr(0, c.id.find(':'));
-        if (std::find(ids.begin(), ids.end(), base) == ids.end()) {
+        if (std::ranges::find(ids, base) == ids.end()) {
             ids.push_back(base);
         }
     }
@@ -376,7 +376,7 @@ std::string explain_text(const cases::Case& c, const ref::Limits& limits, cases:
     for (const ref::TriangleExplanation& t : s.triangles) {
         order.push_back(&t);
     }
-    std::stable_sort(order.begin(), order.end(), [](const auto* a, const auto* b) {
+    std::ranges::stable_sort(order, [](const auto* a, const auto* b) {
         const auto is_close = [](const auto& t) {
             return t.decision.coverage != ref::Coverage::must_not ||
                    t.why() == ref::ReasonKind::top_left_out;

@@ -5,7 +5,6 @@
 // one case as a C program for a bug report.
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
 

@@ -32,7 +32,6 @@ namespace fs = std::filesystem;
 using cases::counted;
 using fuzz::Entry;
 using fuzz::Hunt;
-using fuzz::Ledger;
 
 namespace {
 
@@ -139,9 +138,9 @@ class FuzzCommand {
                 entry.file.clear();  // keep_earlier() copies it
                 // What is not reduced explains next to nothing. Hunts that know the same third one
                 // each bring its causes.
-                if (entry.is_reduced &&
-                    std::none_of(ledger_.entries.begin(), ledger_.entries.end(),
-                                 [&](const Entry& e) { return e.text == entry.text; })) {
+                if (entry.is_reduced && std::ranges::none_of(ledger_.entries, [&](const Entry& e) {
+                        return e.text == entry.text;
+                    })) {
                     ledger_.entries.push_back(std::move(entry));
                 }
             }
@@ -226,9 +225,10 @@ class FuzzCommand {
         }
         ledger_.expectations = expected.checksum;
         files.write_ledger();
-        const auto causes = static_cast<size_t>(
-            std::count_if(ledger_.entries.begin(), ledger_.entries.end(),
-                          [](const Entry& entry) { return entry.file.starts_with(fuzz::kKnown); }));
+        const auto causes =
+            static_cast<size_t>(std::ranges::count_if(ledger_.entries, [](const Entry& entry) {
+                return entry.file.starts_with(fuzz::kKnown);
+            }));
         if (!options_.run.quiet) {
             say(fmt::format("known by {}: {} that {} as expected, by {}{}, reduced in {:.0f} s\n",
                             counted(expected.files, "expectation file"),
@@ -291,7 +291,7 @@ class FuzzCommand {
     const Program& program_;
     const FuzzOptions& options_;
     HuntStatus status_;
-    Ledger ledger_;
+    fuzz::Ledger ledger_;
     fuzz::MakeSource source_;
     size_t starts_ = 0;  // cases that the hunt starts from; 0: it makes its own
     fs::path folder_;

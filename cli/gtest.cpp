@@ -46,9 +46,9 @@ constexpr const char* kGroup = "edgecase.";
 // for these.
 std::string test_of(const std::string& id) {
     std::string name = id;
-    std::replace(name.begin(), name.end(), ':', '@');
-    std::replace(name.begin(), name.end(), ',', '&');
-    std::replace(name.begin(), name.end(), '.', '~');
+    std::ranges::replace(name, ':', '@');
+    std::ranges::replace(name, ',', '&');
+    std::ranges::replace(name, '.', '~');
     return name;
 }
 std::string name_of(const std::string& id) {
@@ -108,8 +108,7 @@ class Filter {
             }
         }
         bool has(const std::string& name) const {
-            return names.contains(name) ||
-                   std::any_of(globs.begin(), globs.end(), [&](const std::string& glob) {
+            return names.contains(name) || std::ranges::any_of(globs, [&](const std::string& glob) {
                        return ::fnmatch(glob.c_str(), name.c_str(), FNM_NOESCAPE) == 0;
                    });
         }

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -15,7 +14,6 @@
 
 #include "cases/base/counted.hpp"
 #include "cases/base/limits.hpp"
-#include "cases/load/loader.hpp"
 #include "cases/model/rule.hpp"
 #include "cases/model/sample.hpp"
 #include "cases/select/selector.hpp"

@@ -7,7 +7,6 @@
 
 #include "cases/base/counted.hpp"
 #include "cases/load/loader.hpp"
-#include "cases/select/selector.hpp"
 #include "cli/commands.hpp"
 #include "cli/options/shared_options.hpp"
 #include "cli/options/stop.hpp"
@@ -79,10 +78,9 @@ nlohmann::ordered_json to_json(const cases::Case& c) {
 int carry_out(const Program& program, const ListOptions& options) {
     // Names alone need no cases, unless something else than names is asked for: "@rule:...".
     const bool names_only = options.ids && !options.json && !options.long_form &&
-                            std::none_of(options.suite.selectors.begin(),
-                                         options.suite.selectors.end(), [](const std::string& s) {
-                                             return s.find('@') != std::string::npos || s == "-";
-                                         });
+                            std::ranges::none_of(options.suite.selectors, [](const std::string& s) {
+                                return s.find('@') != std::string::npos || s == "-";
+                            });
     const LoadedSuite suite = names_only
                                   ? load_and_select(program, options.suite, cases::Contents::ids)
                                   : load_selected(program, options.suite);

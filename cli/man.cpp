@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include <sstream>
 
 #include "cli/commands.hpp"
 #include "cli/options/command_table.hpp"

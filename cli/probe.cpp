@@ -8,7 +8,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 
 #include "cases/base/input_file.hpp"
 #include "cli/commands.hpp"
@@ -136,16 +135,8 @@ int carry_out(const Program& program, const ProbeOptions& options) {
     }
     const probe::Datasheet sheet = measure(program, options, signals);
     cases::Errors errors;
-    if (!options.json.empty()) {
-        if (const auto written = write_text(options.json, probe::to_json(sheet)); !written) {
-            errors.push_back(written.error());
-        }
-    }
-    if (!options.html.empty()) {
-        if (const auto written = write_text(options.html, probe::to_html(sheet)); !written) {
-            errors.push_back(written.error());
-        }
-    }
+    write_asked(options.json, errors, [&] { return probe::to_json(sheet); });
+    write_asked(options.html, errors, [&] { return probe::to_html(sheet); });
     std::FILE* console = console_beside(options.json, {}, options.html);
     std::fputs(probe::to_text(sheet, options.verbose).c_str(), console);
     std::fflush(console);

@@ -146,8 +146,7 @@ int carry_out(const Program& program, const ReduceOptions& options) {
         run::Session::Results results = drawer(std::move(cases), on_progress);
         is_interrupted = results.interrupted;
         failure = results.failure;
-        unsure += static_cast<size_t>(
-            std::count_if(results.records.begin(), results.records.end(), is_unsure));
+        unsure += static_cast<size_t>(std::ranges::count_if(results.records, is_unsure));
         return results;
     };
     cases::Case one = loaded;

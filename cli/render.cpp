@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -246,7 +245,7 @@ capture::Image values_image(Reference& r) {
     };
     for (size_t index = 0; index < e.samples.size(); ++index) {
         for (const ref::ExpectedValue& v : values_at(index)) {
-            if (std::find(quantities.begin(), quantities.end(), to_text(v)) == quantities.end()) {
+            if (std::ranges::find(quantities, to_text(v)) == quantities.end()) {
                 quantities.push_back(to_text(v));
             }
         }
@@ -258,7 +257,7 @@ capture::Image values_image(Reference& r) {
         image.channels.push_back(prefix + "hits_min");
         image.channels.push_back(prefix + "hits_max");
         for (std::string name : quantities) {
-            std::replace(name.begin(), name.end(), ' ', '_');
+            std::ranges::replace(name, ' ', '_');
             image.channels.push_back(prefix + name);
         }
     }
@@ -269,7 +268,7 @@ capture::Image values_image(Reference& r) {
         at[0] = static_cast<float>(s.hits.total_min);
         at[1] = static_cast<float>(s.hits.total_max);
         for (const ref::ExpectedValue& v : values_at(index)) {
-            const auto q = std::find(quantities.begin(), quantities.end(), to_text(v));
+            const auto q = std::ranges::find(quantities, to_text(v));
             at[2 + (q - quantities.begin())] = static_cast<float>(v.nearest);
         }
     }

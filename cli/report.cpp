@@ -67,14 +67,11 @@ Source load_one(const ReportOptions& options) {
         throw Stop{report::kExitUsage,
                    {"several folders need --merge; 'edgecase compare' sets runs side by side"}};
     }
-    cases::Expected<report::Run> run = report::load_for_reports(options.directories.front());
-    if (!run) {
-        throw Stop{report::kExitInvalidFile, {cases::to_string(run.error())}};
-    }
+    report::Run run = must_read(report::load_for_reports(options.directories.front()));
     const fs::path folder = options.output.empty() ? options.directories.front() : options.output;
     std::error_code error;
     fs::create_directories(folder, error);
-    return Source{std::move(*run), folder};
+    return Source{std::move(run), folder};
 }
 
 fs::path merged_folder(const ReportOptions& options) {
@@ -93,12 +90,8 @@ Source load_merged(const Program& program, const ReportOptions& options) {
                        {"the merged run would overwrite '" + directory +
                         "', which is one of its parts; choose another folder with -o"}};
         }
-        cases::Expected<report::Run> run = report::load_journal(directory);
-        if (!run) {
-            throw Stop{report::kExitInvalidFile, {cases::to_string(run.error())}};
-        }
-        is_diagnosed = is_diagnosed || !run->diagnoses.empty();
-        parts.push_back({directory, std::move(*run)});
+        parts.push_back({directory, must_read(report::load_journal(directory))});
+        is_diagnosed = is_diagnosed || !parts.back().run.diagnoses.empty();
     }
     report::Run merged = must(report::merge_runs(std::move(parts)), report::kExitInvalidFile);
     source.run = std::move(merged);
@@ -112,11 +105,11 @@ Source load_merged(const Program& program, const ReportOptions& options) {
 // A merge that fails leaves nothing that looks like its result.
 void forsake_merged(const ReportOptions& options) {
     const fs::path folder = merged_folder(options);
-    const bool is_part = std::any_of(options.directories.begin(), options.directories.end(),
-                                     [&](const std::string& directory) {
-                                         std::error_code none;
-                                         return fs::equivalent(directory, folder, none);
-                                     });
+    const bool is_part =
+        std::ranges::any_of(options.directories, [&](const std::string& directory) {
+            std::error_code none;
+            return fs::equivalent(directory, folder, none);
+        });
     if (!is_part) {
         remove_reports_of_last_run(ReportFiles{folder, options.json, options.junit, options.html});
     }

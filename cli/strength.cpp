@@ -10,7 +10,6 @@
 #include <tuple>
 #include <vector>
 
-#include "cases/base/counted.hpp"
 #include "cases/base/limits.hpp"
 #include "cases/fault/fault.hpp"
 #include "cases/model/profile.hpp"
@@ -21,8 +20,6 @@
 #include "rasterizers/strength/strength.hpp"
 
 namespace cli {
-
-using cases::counted;
 
 namespace {
 

@@ -4,7 +4,6 @@
 // The second half of "lint --strength".
 #pragma once
 
-#include "cases/load/loader.hpp"
 #include "cli/prepare/suite.hpp"
 
 namespace cli {

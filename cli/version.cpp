@@ -5,7 +5,6 @@
 #include "cli/commands.hpp"
 #include "cli/options/program.hpp"
 #include "cli/options/stop.hpp"
-#include "report/record/run.hpp"
 
 namespace cli {
 

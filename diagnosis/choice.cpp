@@ -18,7 +18,7 @@ namespace {
 std::vector<Choice> in_turns(std::map<std::string, std::vector<Choice>> kinds, size_t most) {
     std::vector<Choice> out;
     for (auto& [kind, list] : kinds) {
-        std::sort(list.begin(), list.end(), [](const Choice& a, const Choice& b) {
+        std::ranges::sort(list, [](const Choice& a, const Choice& b) {
             return std::tie(a.cost, a.record->id) < std::tie(b.cost, b.record->id);
         });
     }
@@ -30,8 +30,7 @@ std::vector<Choice> in_turns(std::map<std::string, std::vector<Choice>> kinds, s
                 of_turn.push_back(list[turn]);
             }
         }
-        std::stable_sort(of_turn.begin(), of_turn.end(),
-                         [](const Choice& a, const Choice& b) { return a.cost < b.cost; });
+        std::ranges::stable_sort(of_turn, {}, &Choice::cost);
         out.insert(out.end(), of_turn.begin(), of_turn.end());
         if (out.size() == before) {
             break;

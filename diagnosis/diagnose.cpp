@@ -38,7 +38,7 @@ class Diagnoser {
           profile_(run.profile) {
         // A known failure that fails otherwise, too, shows two errors at once: such cases are
         // looked at where there are no others.
-        const bool has_news = std::any_of(run.cases.begin(), run.cases.end(), [](const auto& r) {
+        const bool has_news = std::ranges::any_of(run.cases, [](const auto& r) {
             return r.status == report::Status::fail && !r.known.expected;
         });
         const auto counts = [has_news](const CaseRecord& record) {
@@ -113,8 +113,8 @@ class Diagnoser {
             }
             out.push_back(told(best));
         }
-        std::stable_sort(out.begin(), out.end(),
-                         [](const Diagnosis& a, const Diagnosis& b) { return a.cases > b.cases; });
+        std::ranges::stable_sort(
+            out, [](const Diagnosis& a, const Diagnosis& b) { return a.cases > b.cases; });
         return out;
     }
 
@@ -152,8 +152,8 @@ class Diagnoser {
                 fitted_hypotheses(subjects_[k], limits_.subpixel_bits);
             fits += fitted.empty() ? 0U : 1U;
             for (const Hypothesis& h : fitted) {
-                if (std::none_of(out.begin(), out.end(),
-                                 [&](const Hypothesis& o) { return o.name == h.name; })) {
+                if (std::ranges::none_of(out,
+                                         [&](const Hypothesis& o) { return o.name == h.name; })) {
                     out.push_back(h);
                 }
             }
@@ -221,8 +221,8 @@ class Diagnoser {
                 plausible.push_back(std::move(tally));
             }
         }
-        std::stable_sort(plausible.begin(), plausible.end(),
-                         [](const Tally& a, const Tally& b) { return a.score() > b.score(); });
+        std::ranges::stable_sort(
+            plausible, [](const Tally& a, const Tally& b) { return a.score() > b.score(); });
         // Those that are worse than one that stands cannot be told.
         std::vector<Tally> best;
         for (Tally& tally : plausible) {
@@ -234,9 +234,7 @@ class Diagnoser {
                 best.push_back(std::move(tally));
             }
         }
-        const auto least = std::min_element(
-            best.begin(), best.end(),
-            [](const Tally& a, const Tally& b) { return a.passed_against < b.passed_against; });
+        const auto least = std::ranges::min_element(best, {}, &Tally::passed_against);
         if (least != best.end()) {
             std::erase_if(best, [most = least->passed_against](const Tally& tally) {
                 return tally.passed_against > most;

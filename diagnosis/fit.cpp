@@ -155,7 +155,7 @@ std::vector<Hypothesis> fitted_hypotheses(const Subject& subject, int subpixel_b
         };
         const std::array<double, 2> d = {rounded((*shift)[0]), rounded((*shift)[1])};
         const bool is_zero = std::abs(d[0]) + std::abs(d[1]) <= 0;
-        if (is_zero || std::find(seen.begin(), seen.end(), d) != seen.end()) {
+        if (is_zero || std::ranges::find(seen, d) != seen.end()) {
             continue;
         }
         seen.push_back(d);

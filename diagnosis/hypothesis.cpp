@@ -16,7 +16,6 @@ namespace {
 using cases::operator""_fault;
 using software::Device;
 using software::Rounding;
-using software::TieRule;
 
 // Sentences stand in tables with a full stop.
 std::string without_stop(std::string_view sentence) {
@@ -40,7 +39,7 @@ std::vector<Hypothesis> choices(int subpixel_bits) {
     add("snaps-toward-zero", "Vertices snap towards zero",
         [](Device& d) { d.rounding = Rounding::truncate; });
     add("ties-by-axes", "Exactly vertical left edges and edges above own their samples",
-        [](Device& d) { d.ties = TieRule::left_top; });
+        [](Device& d) { d.ties = software::TieRule::left_top; });
     add("centroid-mean", "The centroid is the mean of the covered samples",
         [](Device& d) { d.centroid = software::Centroid::mean; });
     add("facing-unsnapped", "Facing comes from unsnapped positions",

@@ -133,11 +133,9 @@ bool can_match(const cases::Case& c, const report::CaseRecord& record) {
     const report::Pictures& p = record.evidence.pictures;
     const bool is_whole =
         p.width == c.target.width && p.height == c.target.rows() && !p.marks.empty();
-    return is_whole && std::none_of(record.outcome.groups.begin(), record.outcome.groups.end(),
-                                    [](const auto& g) {
-                                        return g.rule.starts_with("repeat.") ||
-                                               g.rule.starts_with("write.");
-                                    });
+    return is_whole && std::ranges::none_of(record.outcome.groups, [](const auto& g) {
+               return g.rule.starts_with("repeat.") || g.rule.starts_with("write.");
+           });
 }
 
 std::optional<double> number_at(const capture::Capture& capture, size_t index,
@@ -216,12 +214,10 @@ Match match(const report::CaseRecord& device, const diff::Verdict& other) {
     for (const diff::Finding& f : other.findings) {
         told.push_back(&f);
     }
-    std::sort(told.begin(), told.end(),
-              [](const auto* a, const auto* b) { return key_of(*a) < key_of(*b); });
+    const auto key = [](const diff::Finding* f) { return key_of(*f); };
+    std::ranges::sort(told, {}, key);
     for (const diff::Finding& f : device.outcome.findings) {
-        const auto at = std::lower_bound(
-            told.begin(), told.end(), f,
-            [](const diff::Finding* a, const diff::Finding& b) { return key_of(*a) < key_of(b); });
+        const auto at = std::ranges::lower_bound(told, key_of(f), {}, key);
         const bool is_told = at != told.end() && key_of(**at) == key_of(f);
         const bool is_kept_by_both = is_told || other.findings.size() < diff::kMaxFindings;
         if (!is_kept_by_both) {

@@ -26,14 +26,12 @@ bool is_against(const Subject& passed, const capture::Capture& drawn) {
 }
 
 size_t Tally::count(Says what) const {
-    return static_cast<size_t>(
-        std::count_if(answers.begin(), answers.end(),
-                      [what](const Answer& answer) { return answer.says == what; }));
+    return static_cast<size_t>(std::ranges::count(answers, what, &Answer::says));
 }
 
 bool Tally::is_alike(const Tally& other) const {
-    return std::equal(answers.begin(), answers.end(), other.answers.begin(), other.answers.end(),
-                      [](const Answer& a, const Answer& b) { return a.says == b.says; });
+    return std::ranges::equal(answers, other.answers,
+                              [](const Answer& a, const Answer& b) { return a.says == b.says; });
 }
 
 }  // namespace diagnosis

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diff/color.hpp"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <numeric>
 #include <optional>

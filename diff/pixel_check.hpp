@@ -5,7 +5,6 @@
 // samples each of them stands for.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "capture/capture.hpp"

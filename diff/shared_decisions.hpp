@@ -7,7 +7,6 @@
 // where the value is open: there samples are judged one by one.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <set>

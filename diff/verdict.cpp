@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diff/verdict.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <utility>

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 #include <vector>
 
 #include "cases/key/key.hpp"
@@ -14,7 +13,6 @@
 
 namespace fuzz {
 
-using cases::TomlEntry;
 using cases::TomlValue;
 using report::Status;
 
@@ -50,7 +48,7 @@ void add_depths(const TomlValue& draw, Essentials& all) {
     if (w.size() > 1) {
         all.insert({Trait::unequal_w});
     }
-    if (std::any_of(w.begin(), w.end(), [](double v) { return v <= 0; })) {
+    if (std::ranges::any_of(w, [](double v) { return v <= 0; })) {
         all.insert({Trait::behind_the_eye});
     }
     if (z.size() > 1) {
@@ -72,7 +70,7 @@ bool is_far(const TomlValue& rectangle) {
 
 void add_keys(const TomlValue& table, const std::string& path, const cases::KeyTable* keys,
               Essentials& all) {
-    for (const TomlEntry& entry : table.table) {
+    for (const cases::TomlEntry& entry : table.table) {
         const TomlValue& value = entry.value;
         const bool is_top = path.empty();
         const std::string name = is_top || path == "target" ? entry.key : path + "." + entry.key;
@@ -135,7 +133,7 @@ std::optional<std::array<double, 2>> place(const cases::Draw& draw, uint32_t ver
 
 bool has_thin_triangle(const cases::Case& c) {
     const std::vector<cases::Triangle> all = cases::assemble(c);
-    return std::any_of(all.begin(), all.end(), [&](const cases::Triangle& t) {
+    return std::ranges::any_of(all, [&](const cases::Triangle& t) {
         const cases::Draw& draw = c.draws[t.draw];
         const auto p = place(draw, t.vertex[0]), q = place(draw, t.vertex[1]),
                    r = place(draw, t.vertex[2]);
@@ -162,10 +160,9 @@ std::optional<Symptom> symptom_of(const report::CaseRecord& record) {
         return symptom;
     }
     const auto gravest =
-        std::min_element(record.outcome.groups.begin(), record.outcome.groups.end(),
-                         [](const auto& a, const auto& b) {
-                             return std::pair(a.level, b.count) < std::pair(b.level, a.count);
-                         });
+        std::ranges::min_element(record.outcome.groups, [](const auto& a, const auto& b) {
+            return std::pair(a.level, b.count) < std::pair(b.level, a.count);
+        });
     if (gravest == record.outcome.groups.end()) {
         return std::nullopt;
     }
@@ -180,11 +177,10 @@ bool shows(const report::CaseRecord& record, const Symptom& symptom) {
         return false;
     }
     return record.status != Status::fail ||
-           std::any_of(record.outcome.groups.begin(), record.outcome.groups.end(),
-                       [&](const auto& group) {
-                           return group.kind == symptom.kind && group.rule == symptom.rule &&
-                                  group.level == symptom.level;
-                       });
+           std::ranges::any_of(record.outcome.groups, [&](const auto& group) {
+               return group.kind == symptom.kind && group.rule == symptom.rule &&
+                      group.level == symptom.level;
+           });
 }
 
 std::string to_text(const Symptom& s) {

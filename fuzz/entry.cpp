@@ -9,9 +9,7 @@
 #include <iterator>
 #include <utility>
 
-#include "cases/load/loader.hpp"
 #include "cases/model/rule.hpp"
-#include "cases/model/words.hpp"
 #include "diff/color.hpp"
 #include "fuzz/document/document.hpp"
 #include "fuzz/reduce/neighbours.hpp"
@@ -49,11 +47,10 @@ bool is_value(const Symptom& symptom) {
 // than Direct3D's rules has to go on doing so.
 bool shows_like(const CaseRecord& record, const Symptom& symptom) {
     return record.status == Status::fail &&
-           std::any_of(record.outcome.groups.begin(), record.outcome.groups.end(),
-                       [&](const auto& group) {
-                           return (group.kind == diff::FindingKind::value) == is_value(symptom) &&
-                                  group.level <= std::max(symptom.level, cases::Profile::practice);
-                       });
+           std::ranges::any_of(record.outcome.groups, [&](const auto& group) {
+               return (group.kind == diff::FindingKind::value) == is_value(symptom) &&
+                      group.level <= std::max(symptom.level, cases::Profile::practice);
+           });
 }
 
 // The records of candidates, which are drawn under their numbers.
@@ -227,17 +224,16 @@ std::vector<Symptom> symptoms_of(const CaseRecord& record) {
         return gravest ? std::vector<Symptom>{*gravest} : all;
     }
     for (const diff::FindingGroup& group : record.outcome.groups) {
-        const auto like = std::find_if(all.begin(), all.end(), [&](const Symptom& s) {
-            return s.kind == group.kind && s.rule == group.rule;
-        });
+        const auto like = std::ranges::find_if(
+            all, [&](const Symptom& s) { return s.kind == group.kind && s.rule == group.rule; });
         if (like == all.end()) {
             all.push_back({Status::fail, group.kind, group.rule, group.level, {}});
         } else {
             like->level = std::min(like->level, group.level);
         }
     }
-    std::stable_sort(all.begin(), all.end(),
-                     [&](const Symptom& a, const Symptom& b) { return a.level < b.level; });
+    std::ranges::stable_sort(all,
+                             [&](const Symptom& a, const Symptom& b) { return a.level < b.level; });
     return all;
 }
 
@@ -300,8 +296,8 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
     const Essentials before = facts_of(text).essentials;
     const Essentials after =
         facts_of(to_text(like_failure(reduced.document, symptom, draw, options))).essentials;
-    std::set_intersection(after.begin(), after.end(), before.begin(), before.end(),
-                          std::inserter(entry.essentials, entry.essentials.end()));
+    std::ranges::set_intersection(after, before,
+                                  std::inserter(entry.essentials, entry.essentials.end()));
     std::string kept = to_text(described(reduced.document, symptom));
     if (const auto c = load_one(kept, "reduced"); c && !is_sound(*c, cases::Profile::vulkan)) {
         kept =
@@ -327,9 +323,8 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
     entry.also.insert({symptom.kind, symptom.rule});
     if (!last.outcome.findings.empty()) {
         // A run's line begins with the first finding of the gravest level.
-        const diff::Finding& leading =
-            *std::min_element(last.outcome.findings.begin(), last.outcome.findings.end(),
-                              [](const auto& a, const auto& b) { return a.level < b.level; });
+        const diff::Finding& leading = *std::ranges::min_element(
+            last.outcome.findings, [](const auto& a, const auto& b) { return a.level < b.level; });
         const Symptom first{Status::fail, leading.kind, leading.rule, leading.level, {}};
         entry.shown_first = first == symptom ? std::nullopt : std::optional(first);
     }

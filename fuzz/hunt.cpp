@@ -314,9 +314,8 @@ void Hunt::draw_chunk(Chunk chunk) {
 // Takes from an open case the symptoms that an entry explains.
 void Hunt::explain(Open& open) const {
     std::erase_if(open.waiting.symptoms, [&](const Symptom& symptom) {
-        const auto entry = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) {
-            return explains(e, symptom, open.facts);
-        });
+        const auto entry = std::ranges::find_if(
+            entries_, [&](const Entry& e) { return explains(e, symptom, open.facts); });
         if (entry == entries_.end()) {
             return false;
         }
@@ -339,8 +338,8 @@ void Hunt::count(const Open& open) {
 
 void Hunt::reduce_open() {
     // The shortest first: nearest to what it will be.
-    std::stable_sort(open_.begin(), open_.end(),
-                     [](const Open& a, const Open& b) { return a.text.size() < b.text.size(); });
+    std::ranges::stable_sort(
+        open_, [](const Open& a, const Open& b) { return a.text.size() < b.text.size(); });
     std::map<Symptom, size_t> reduced;
     size_t all = 0;
     for (Open& open : open_) {
@@ -397,8 +396,8 @@ void Hunt::reduce_one(Open& open) {
     }
     fresh->first_case = open.waiting.number;
     fresh->count = 0;  // the case counts when nothing of it is open
-    const auto same = std::find_if(entries_.begin(), entries_.end(),
-                                   [&](const Entry& e) { return is_same_cause(e, *fresh); });
+    const auto same =
+        std::ranges::find_if(entries_, [&](const Entry& e) { return is_same_cause(e, *fresh); });
     open.entry = open.entry.value_or(static_cast<size_t>(same - entries_.begin()));
     if (same != entries_.end()) {
         merge(*same, std::move(*fresh));

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -37,13 +36,12 @@ const Essentials kNumbers = {{Trait::behind_the_eye},
 const Essentials kSamples = {{Trait::several_samples}};
 
 bool is_within(const Essentials& part, const Essentials& whole) {
-    return std::includes(whole.begin(), whole.end(), part.begin(), part.end());
+    return std::ranges::includes(whole, part);
 }
 
 Essentials without(const Essentials& all, const Essentials& left_out) {
     Essentials rest;
-    std::set_difference(all.begin(), all.end(), left_out.begin(), left_out.end(),
-                        std::inserter(rest, rest.end()));
+    std::ranges::set_difference(all, left_out, std::inserter(rest, rest.end()));
     return rest;
 }
 
@@ -140,7 +138,7 @@ bool explains(const Entry& entry, const Symptom& symptom, const Facts& facts) {
     // By which rule a sample is missing depends on the triangle that misses it, and whether one hit
     // too many is the only one on what else is drawn there: where the case has something special to
     // blame, too few or too many is enough.
-    const bool is_like = std::any_of(entry.also.begin(), entry.also.end(), [&](const auto& known) {
+    const bool is_like = std::ranges::any_of(entry.also, [&](const auto& known) {
         return is_value(symptom) || entry.essentials.empty()
                    ? known == std::pair(symptom.kind, symptom.rule)
                    : sort_of(known.first) == sort_of(symptom.kind);
@@ -383,9 +381,8 @@ bool is_same_cause(const Entry& earlier, const Entry& fresh) {
     if (shows_the_same(earlier, fresh) || is_of_moved_centroid(earlier, fresh)) {
         return true;
     }
-    const bool is_same_rule =
-        std::any_of(fresh.also.begin(), fresh.also.end(),
-                    [&](const auto& one) { return earlier.also.contains(one); });
+    const bool is_same_rule = std::ranges::any_of(
+        fresh.also, [&](const auto& one) { return earlier.also.contains(one); });
     if (earlier.essentials == fresh.essentials) {
         return is_same_rule || !fresh.essentials.empty();
     }
@@ -415,9 +412,8 @@ void merge(Entry& earlier, Entry fresh) {
         return;
     }
     Essentials both;
-    std::set_intersection(earlier.essentials.begin(), earlier.essentials.end(),
-                          fresh.essentials.begin(), fresh.essentials.end(),
-                          std::inserter(both, both.end()));
+    std::ranges::set_intersection(earlier.essentials, fresh.essentials,
+                                  std::inserter(both, both.end()));
     earlier.essentials = std::move(both);
     if (fresh.symptom.level < earlier.symptom.level) {
         fresh.also = std::move(earlier.also);

@@ -37,8 +37,7 @@ constexpr auto kExperiments = std::to_array<Experiment>({
 
 size_t place_of(const Property& p) {
     const std::string section = p.section();
-    return static_cast<size_t>(std::find_if(kSections.begin(), kSections.end(),
-                                            [&](const Section& s) { return s.name == section; }) -
+    return static_cast<size_t>(std::ranges::find(kSections, section, &Section::name) -
                                kSections.begin());
 }
 
@@ -61,8 +60,8 @@ Datasheet measure(const Draw& draw, const Promises& promises,
             e.measure(bench);
         }
     }
-    std::stable_sort(sheet.properties.begin(), sheet.properties.end(),
-                     [](const auto& a, const auto& b) { return place_of(a) < place_of(b); });
+    std::ranges::stable_sort(
+        sheet.properties, [](const auto& a, const auto& b) { return place_of(a) < place_of(b); });
     return sheet;
 }
 

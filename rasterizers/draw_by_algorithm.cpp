@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 
 #include "capture/blank_capture.hpp"
 #include "rasterizers/captures.hpp"

@@ -7,7 +7,6 @@
 #include <functional>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "capture/capture.hpp"
 #include "cases/model/case.hpp"

@@ -3,7 +3,6 @@
 #include "run/order.hpp"
 
 #include <algorithm>
-#include <string_view>
 #include <utility>
 
 #include "cases/base/checksum.hpp"

@@ -6,7 +6,6 @@
 #include <poll.h>
 
 #include <algorithm>
-#include <memory>
 #include <utility>
 
 #include "capture/checksum.hpp"

@@ -103,6 +103,12 @@ tl::expected<std::vector<Instruction>, std::string> split(std::span<const uint32
     return out;
 }
 
+bool is_variable(std::span<const Instruction> code, uint32_t id, uint32_t storage) {
+    return std::ranges::any_of(code, [&](const Instruction& i) {
+        return i.op == kOpVariable && i.words[2] == id && i.words[3] == storage;
+    });
+}
+
 // The instruction that decorates the Input variable with the number, its Location or BuiltIn.
 tl::expected<const Instruction*, std::string> find_input(std::span<const Instruction> code,
                                                          const InputChange& change) {
@@ -114,10 +120,7 @@ tl::expected<const Instruction*, std::string> find_input(std::span<const Instruc
             i.words[3] != change.number) {
             continue;
         }
-        const bool is_input = std::any_of(code.begin(), code.end(), [&](const Instruction& v) {
-            return v.op == kOpVariable && v.words[2] == i.words[1] && v.words[3] == kStorageInput;
-        });
-        if (!is_input) {
+        if (!is_variable(code, i.words[1], kStorageInput)) {
             continue;
         }
         if (found != nullptr) {
@@ -132,7 +135,7 @@ tl::expected<const Instruction*, std::string> find_input(std::span<const Instruc
 }
 
 bool is_decorated(std::span<const Instruction> code, uint32_t id, uint32_t decoration) {
-    return std::any_of(code.begin(), code.end(), [&](const Instruction& i) {
+    return std::ranges::any_of(code, [&](const Instruction& i) {
         return i.op == kOpDecorate && i.words[1] == id && i.words[2] == decoration;
     });
 }
@@ -183,8 +186,7 @@ tl::expected<Edit, std::string> plan_edit(std::span<const Instruction> code,
 
 }  // namespace
 
-tl::expected<std::vector<uint32_t>, std::string> change_inputs(
-    std::span<const uint32_t> module, std::span<const InputChange> changes) {
+Changed change_inputs(std::span<const uint32_t> module, std::span<const InputChange> changes) {
     auto code = split(module);
     if (!code) {
         return Error(code.error());
@@ -196,8 +198,8 @@ tl::expected<std::vector<uint32_t>, std::string> change_inputs(
         if (!edit) {
             return Error(edit.error());
         }
-        const bool is_second = std::any_of(edits.begin(), edits.end(),
-                                           [&](const Edit& other) { return other.id == edit->id; });
+        const bool is_second =
+            std::ranges::any_of(edits, [&](const Edit& other) { return other.id == edit->id; });
         if (is_second) {
             return Error(fmt::format("input {} is changed twice", change.number));
         }
@@ -221,8 +223,7 @@ tl::expected<std::vector<uint32_t>, std::string> change_inputs(
         out.insert(out.end(), {first_word(kOpCapability, 2), capability});
     }
     for (const Instruction& i : *code) {
-        const auto edit =
-            std::find_if(edits.begin(), edits.end(), [&](const Edit& e) { return e.at == &i; });
+        const auto edit = std::ranges::find_if(edits, [&](const Edit& e) { return e.at == &i; });
         if (edit == edits.end()) {
             out.insert(out.end(), i.words.begin(), i.words.end());
             continue;
@@ -240,15 +241,14 @@ tl::expected<std::vector<uint32_t>, std::string> change_inputs(
     return out;
 }
 
-tl::expected<std::vector<uint32_t>, std::string> with_modes(std::span<const uint32_t> module,
-                                                            std::span<const uint32_t> modes) {
+Changed with_modes(std::span<const uint32_t> module, std::span<const uint32_t> modes) {
     auto code = split(module);
     if (!code) {
         return Error(code.error());
     }
     const auto is = [](uint32_t op) { return [op](const Instruction& i) { return i.op == op; }; };
-    const auto entry = std::find_if(code->begin(), code->end(), is(kOpEntryPoint));
-    const auto mode = std::find_if(code->begin(), code->end(), is(kOpExecutionMode));
+    const auto entry = std::ranges::find_if(*code, is(kOpEntryPoint));
+    const auto mode = std::ranges::find_if(*code, is(kOpExecutionMode));
     if (entry == code->end() || mode == code->end()) {
         return Error("the module has no entry point of a fragment shader");
     }
@@ -264,14 +264,13 @@ tl::expected<std::vector<uint32_t>, std::string> with_modes(std::span<const uint
     return out;
 }
 
-tl::expected<std::vector<uint32_t>, std::string> with_ending(std::span<const uint32_t> module,
-                                                             Ending ending) {
+Changed with_ending(std::span<const uint32_t> module, Ending ending) {
     auto code = split(module);
     if (!code) {
         return Error(code.error());
     }
     const auto is = [](uint32_t op) { return [op](const Instruction& i) { return i.op == op; }; };
-    if (std::none_of(code->begin(), code->end(), is(kOpKill))) {
+    if (std::ranges::none_of(*code, is(kOpKill))) {
         return Error("the module discards nothing");
     }
     if (ending == Ending::kill) {
@@ -282,7 +281,7 @@ tl::expected<std::vector<uint32_t>, std::string> with_ending(std::span<const uin
     if (is_demoted) {
         out.insert(out.end(), {first_word(kOpCapability, 2), kDemoteToHelperInvocation});
     }
-    const auto behind = std::find_if_not(code->begin(), code->end(), is(kOpCapability));
+    const auto behind = std::ranges::find_if_not(*code, is(kOpCapability));
     for (auto i = code->begin(); i != code->end(); ++i) {
         if (i == behind) {
             const std::string_view name =
@@ -315,10 +314,7 @@ std::map<uint32_t, uint32_t> outputs_by_location(std::span<const Instruction> co
         if (i.op != kOpDecorate || i.words[2] != kLocation || i.words.size() != 4) {
             continue;
         }
-        const bool is_output = std::any_of(code.begin(), code.end(), [&](const Instruction& v) {
-            return v.op == kOpVariable && v.words[2] == i.words[1] && v.words[3] == kStorageOutput;
-        });
-        if (is_output) {
+        if (is_variable(code, i.words[1], kStorageOutput)) {
             out[i.words[3]] = i.words[1];
         }
     }
@@ -344,8 +340,7 @@ std::vector<uint32_t> without(const Instruction& entry, const std::set<uint32_t>
 
 }  // namespace
 
-tl::expected<std::vector<uint32_t>, std::string> with_outputs(std::span<const uint32_t> module,
-                                                              const OutputChange& change) {
+Changed with_outputs(std::span<const uint32_t> module, const OutputChange& change) {
     if (change.integers.empty()) {
         return std::vector<uint32_t>(module.begin(), module.end());
     }
@@ -421,8 +416,7 @@ std::vector<uint32_t> with_variable(const Instruction& entry, uint32_t variable)
 
 }  // namespace
 
-tl::expected<std::vector<uint32_t>, std::string> with_unused_output(
-    std::span<const uint32_t> module, uint32_t location) {
+Changed with_unused_output(std::span<const uint32_t> module, uint32_t location) {
     constexpr uint32_t kValue = 0x3f400000;  // 0.75
     auto code = split(module);
     if (!code) {
@@ -432,8 +426,8 @@ tl::expected<std::vector<uint32_t>, std::string> with_unused_output(
         return Error(fmt::format("the module has an output at location {}", location));
     }
     const auto find = [&](uint32_t op, auto holds) {
-        return std::find_if(code->begin(), code->end(),
-                            [&](const Instruction& i) { return i.op == op && holds(i.words); });
+        return std::ranges::find_if(
+            *code, [&](const Instruction& i) { return i.op == op && holds(i.words); });
     };
     const auto entry = find(kOpEntryPoint, [](auto words) { return words.size() > 3; });
     const auto number =
@@ -489,8 +483,7 @@ tl::expected<std::vector<uint32_t>, std::string> with_unused_output(
     return out;
 }
 
-tl::expected<std::vector<uint32_t>, std::string> with_input_index(std::span<const uint32_t> module,
-                                                                  uint32_t index) {
+Changed with_input_index(std::span<const uint32_t> module, uint32_t index) {
     auto code = split(module);
     if (!code) {
         return Error(code.error());

@@ -16,6 +16,9 @@
 
 namespace shaders {
 
+// A changed module, or in one sentence why there is none.
+using Changed = tl::expected<std::vector<uint32_t>, std::string>;
+
 // How one Input variable is found: by its Location or by its BuiltIn.
 enum class InputBy : uint8_t { location, built_in };
 
@@ -35,8 +38,7 @@ inline constexpr uint32_t kBuiltInBaryCoord = 5286, kBuiltInBaryCoordNoPersp = 5
 // version 1.0 to 1.6 in this machine's byte order, instructions that run over its end, decoration
 // groups (which hide who is decorated), no Input variable or several with that number, a decoration
 // that is there already or contradicts another.
-tl::expected<std::vector<uint32_t>, std::string> change_inputs(
-    std::span<const uint32_t> module, std::span<const InputChange> changes);
+Changed change_inputs(std::span<const uint32_t> module, std::span<const InputChange> changes);
 
 // Which output each of several colours keeps, and where the first of them lies.
 struct OutputChange {
@@ -49,19 +51,16 @@ struct OutputChange {
 // first_location on, of numbers and of integers, with the one that each colour keeps at the
 // location of the colour. All others become Private variables, so that nothing is written. Errors:
 // as above, and outputs that are not there.
-tl::expected<std::vector<uint32_t>, std::string> with_outputs(std::span<const uint32_t> module,
-                                                              const OutputChange& change);
+Changed with_outputs(std::span<const uint32_t> module, const OutputChange& change);
 
 // The module of a vertex or fragment shader with one more output, a vec4 at that location, to which
 // its entry point writes a constant first of all. Errors: as above, and no entry point, no type of
 // binary32, or an output at that location.
-tl::expected<std::vector<uint32_t>, std::string> with_unused_output(
-    std::span<const uint32_t> module, uint32_t location);
+Changed with_unused_output(std::span<const uint32_t> module, uint32_t location);
 
 // The module of a fragment shader with one subpass input, which gets that InputAttachmentIndex.
 // Errors: as above, and no such input, or several.
-tl::expected<std::vector<uint32_t>, std::string> with_input_index(std::span<const uint32_t> module,
-                                                                  uint32_t index);
+Changed with_input_index(std::span<const uint32_t> module, uint32_t index);
 
 // Execution modes of fragment shaders (3.6 "Execution Mode").
 enum ExecutionMode : uint32_t {
@@ -73,8 +72,7 @@ enum ExecutionMode : uint32_t {
 
 // The module of a fragment shader with one entry point, with more execution modes. Errors: as
 // above, and no entry point or execution mode.
-tl::expected<std::vector<uint32_t>, std::string> with_modes(std::span<const uint32_t> module,
-                                                            std::span<const uint32_t> modes);
+Changed with_modes(std::span<const uint32_t> module, std::span<const uint32_t> modes);
 
 // What takes the place of OpKill.
 enum class Ending : uint8_t { kill, demote, terminate };
@@ -82,7 +80,6 @@ enum class Ending : uint8_t { kill, demote, terminate };
 // The module of a fragment shader that discards at its end, by another instruction:
 // OpDemoteToHelperInvocation and OpReturn (SPV_EXT_demote_to_helper_invocation), or
 // OpTerminateInvocation (SPV_KHR_terminate_invocation). Errors: as above, and no OpKill.
-tl::expected<std::vector<uint32_t>, std::string> with_ending(std::span<const uint32_t> module,
-                                                             Ending ending);
+Changed with_ending(std::span<const uint32_t> module, Ending ending);
 
 }  // namespace shaders

@@ -67,9 +67,7 @@ bool is_drawn_alone(const Device& device, const cases::Case& c) {
     }
     const bool is_static =
         c.variation.door == cases::Door::state_static || !device.capabilities().core.dynamic_state;
-    return is_static && std::any_of(c.draws.begin(), c.draws.end(), [](const cases::Draw& draw) {
-               return draw.rasterizer_discard;
-           });
+    return is_static && std::ranges::any_of(c.draws, &cases::Draw::rasterizer_discard);
 }
 
 void append(std::vector<std::string>& to, const std::vector<std::string>& from) {

@@ -4,8 +4,6 @@
 // Plans a batch, records it, submits it once, reads it back.
 #pragma once
 
-#include <memory>
-
 #include "vk_harness/commands/lod_texture.hpp"
 #include "vk_harness/commands/submission.hpp"
 #include "vk_harness/depth_codes.hpp"

@@ -74,8 +74,7 @@ void check_all(const Capabilities& capabilities, const cases::Case& c, bool read
                           c.target.color_count());
         }
         const std::vector<uint32_t> drawn = cases::drawn_attributes(c.target, draw);
-        if (std::any_of(drawn.begin(), drawn.end(),
-                        [&](uint32_t k) { return k >= draw.attributes.size(); })) {
+        if (std::ranges::any_of(drawn, [&](uint32_t k) { return k >= draw.attributes.size(); })) {
             throw invalid("a draw's colour comes from an attribute that it does not have");
         }
     }

@@ -9,7 +9,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "capture/capture.hpp"

@@ -91,14 +91,14 @@ bool names_constant_alpha(const cases::ColorOutput& output) {
 // Whether the unsigned format of the same size (bits_format) has other components.
 bool is_reinterpreted(cases::ColorFormat format) {
     const auto& bits = row_of(format).bits;
-    return std::any_of(bits.begin(), bits.end(), [](uint32_t b) { return b != 0 && b != 32; });
+    return std::ranges::any_of(bits, [](uint32_t b) { return b != 0 && b != 32; });
 }
 
 // A colour target's format, as an attachment, blended where a draw blends, read back.
 void check_color_format(const Capabilities& c, const cases::Case& test, uint32_t location) {
     const cases::ColorTarget& color = test.target.color_at(location);
     const auto any_output = [&](const auto& is) {
-        return std::any_of(test.draws.begin(), test.draws.end(), [&](const cases::Draw& draw) {
+        return std::ranges::any_of(test.draws, [&](const cases::Draw& draw) {
             return is(cases::output_at(test.target, draw, location));
         });
     };
@@ -210,29 +210,27 @@ void check_color(const Capabilities& c, const cases::Case& test) {
     if (!test.target.color) {
         return;
     }
-    const bool operates = std::any_of(test.draws.begin(), test.draws.end(), [](const auto& draw) {
-        return draw.color.logic.has_value();
-    });
+    const bool operates = std::ranges::any_of(
+        test.draws, [](const auto& draw) { return draw.color.logic.has_value(); });
     refuse_without(operates && !c.logic_op, "logicOp");
     if (operates && test.target.has_instruments) {
         throw invalid("a logical operation switches off the blending that counts hits");
     }
-    const bool takes_second = std::any_of(test.draws.begin(), test.draws.end(), [](const auto& d) {
+    const bool takes_second = std::ranges::any_of(test.draws, [](const auto& d) {
         return d.color.blend && cases::takes_second(*d.color.blend);
     });
     refuse_without(takes_second && !c.dual_source, "dualSrcBlend");
     if (takes_second && test.target.has_instruments) {
         throw invalid("a second source is blended beside the attachments that count hits");
     }
-    const bool is_one = std::any_of(test.draws.begin(), test.draws.end(),
-                                    [](const auto& draw) { return draw.color.alpha_to_one; });
+    const bool is_one =
+        std::ranges::any_of(test.draws, [](const auto& draw) { return draw.color.alpha_to_one; });
     refuse_without(is_one && !c.alpha_to_one, "alphaToOne");
     if (is_one && test.target.has_instruments) {
         throw invalid("alpha to one changes the attachments that tell of fragments");
     }
-    const bool takes_samples =
-        std::any_of(test.draws.begin(), test.draws.end(),
-                    [](const auto& draw) { return draw.color.alpha_to_coverage; });
+    const bool takes_samples = std::ranges::any_of(
+        test.draws, [](const auto& draw) { return draw.color.alpha_to_coverage; });
     if (takes_samples && test.target.has_instruments) {
         throw invalid("alpha to coverage takes the alpha of what tells of fragments");
     }

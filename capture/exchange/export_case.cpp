@@ -256,7 +256,7 @@ class Needs {
     std::vector<std::string> words;
 
     void add(bool is_needed, const char* name) {
-        if (is_needed && std::find(words.begin(), words.end(), name) == words.end()) {
+        if (is_needed && std::ranges::find(words, name) == words.end()) {
             words.emplace_back(name);
         }
     }
@@ -337,7 +337,7 @@ class Needs {
         add(a.probe == cases::Probe::lod, "query-lod");
         add(!is_at && a.probe != cases::Probe::value && a.probe != cases::Probe::lod,
             "derivatives");
-        add(!std::all_of(a.values.begin(), a.values.end(), is_finite), "bad-numbers");
+        add(!std::ranges::all_of(a.values, is_finite), "bad-numbers");
     }
 };
 

@@ -14,7 +14,6 @@
 #include "capture/exchange/plane_numbers.hpp"
 #include "cases/base/input_file.hpp"
 #include "cases/base/number_text.hpp"
-#include "cases/base/printable.hpp"
 #include "cases/format/color_format.hpp"
 #include "cases/model/derive.hpp"
 #include "cases/model/sample.hpp"
@@ -153,9 +152,7 @@ class Reader {
                 }
                 continue;
             }
-            const auto spec = std::find_if(specs.begin(), specs.end(), [&](const PlaneSpec& s) {
-                return s.name == file.stem().string();
-            });
+            const auto spec = std::ranges::find(specs, file.stem().string(), &PlaneSpec::name);
             if (fs::is_directory(file, none)) {
                 if (spec == specs.end()) {
                     continue;
@@ -212,7 +209,7 @@ class Reader {
                 files.push_back(entry.path());
             }
         }
-        std::sort(files.begin(), files.end());
+        std::ranges::sort(files);
         return files;
     }
 

@@ -12,7 +12,6 @@
 #include <cstring>
 #include <fstream>
 #include <functional>
-#include <optional>
 
 #include "capture/exchange/plane_files.hpp"
 #include "capture/image/image.hpp"
@@ -78,8 +77,7 @@ cases::Expected<PlaneNumbers> read_raw(const fs::path& file, const std::string& 
 // colours or coordinates, or else by order.
 std::vector<size_t> channels_of(const Image& image, const PlaneSpec& spec) {
     const auto lower = [](std::string name) {
-        std::transform(name.begin(), name.end(), name.begin(),
-                       [](unsigned char c) { return std::tolower(c); });
+        std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
         return name;
     };
     for (const std::vector<std::string>& names :
@@ -180,7 +178,7 @@ std::string quoted(const fs::path& file) {
 cases::Expected<PlaneNumbers> read_numbers(const fs::path& file, const PlaneSpec& spec,
                                            const cases::Target& target) {
     const std::string ending = file.extension().empty() ? "" : file.extension().string().substr(1);
-    if (std::find(spec.endings.begin(), spec.endings.end(), ending) == spec.endings.end()) {
+    if (std::ranges::find(spec.endings, ending) == spec.endings.end()) {
         return cases::failure("{} has no ending that the plane {} may have; use .{}", quoted(file),
                               spec.name, fmt::join(spec.endings, ", ."));
     }

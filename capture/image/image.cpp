@@ -3,7 +3,6 @@
 #include "capture/image/image.hpp"
 
 #include <dlfcn.h>
-#include <fmt/format.h>
 
 #include <array>
 #include <atomic>

@@ -16,7 +16,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <mutex>
-#include <new>
 
 // Named by the linker option that keeps this file in every program (CMakeLists.txt).
 extern "C" const int edgecase_number_memory = 1;

@@ -23,7 +23,7 @@ bool is_unsafe(uint32_t c) {
 
 // Letters, digits and signs of ASCII, and spaces.
 bool is_plain(std::string_view bytes) {
-    return std::all_of(bytes.begin(), bytes.end(), [](char c) { return c >= 0x20 && c < 0x7f; });
+    return std::ranges::all_of(bytes, [](char c) { return c >= 0x20 && c < 0x7f; });
 }
 
 }  // namespace

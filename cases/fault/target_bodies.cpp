@@ -7,7 +7,6 @@
 #include "cases/fault/bodies.hpp"
 #include "cases/fault/neighbour.hpp"
 #include "cases/format/color_format.hpp"
-#include "cases/model/derive.hpp"
 
 namespace cases::fault {
 

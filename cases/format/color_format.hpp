@@ -68,8 +68,8 @@ inline constexpr auto kLastColorFormat = static_cast<ColorFormat>(kColorFormats.
 constexpr const ColorFormatRow& row_of(ColorFormat format) {
     return kColorFormats.at(static_cast<size_t>(format));
 }
-static_assert(std::all_of(kColorFormats.begin(), kColorFormats.end(),
-                          [](const auto& row) { return &row == &row_of(row.format); }));
+static_assert(std::ranges::all_of(kColorFormats,
+                                  [](const auto& row) { return &row == &row_of(row.format); }));
 
 // The word of a format in case files, as "rgba8-unorm".
 constexpr std::string_view name_of(ColorFormat format) {

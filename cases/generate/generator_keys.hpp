@@ -4,7 +4,6 @@
 // What the generators share: reading their keys, rounding to a grid, exact areas.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>

@@ -5,7 +5,6 @@
 // (C. L. Lawson, Software for C1 surface interpolation, 1977) and exact integer predicates.
 #include <fmt/format.h>
 
-#include <array>
 #include <set>
 #include <utility>
 

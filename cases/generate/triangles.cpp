@@ -187,7 +187,7 @@ std::optional<Generated> generate_triangles(GeneratorKeys& keys) {
             std::array<ExactVertex, 3> t = {result.vertices[i], result.vertices[i + 1],
                                             result.vertices[i + 2]};
             push_out(t, random);
-            std::copy(t.begin(), t.end(), result.vertices.begin() + static_cast<std::ptrdiff_t>(i));
+            std::ranges::copy(t, result.vertices.begin() + static_cast<std::ptrdiff_t>(i));
         }
     }
     return result;

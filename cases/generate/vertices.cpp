@@ -89,8 +89,8 @@ ExactVertex exact_vertex(mpq_class x, mpq_class y) {
 }
 
 bool is_finite(const ExactVertex& vertex) {
-    return std::none_of(vertex.xyzw.begin(), vertex.xyzw.end(),
-                        [](const Number& n) { return n.non_finite.has_value(); });
+    return std::ranges::none_of(vertex.xyzw,
+                                [](const Number& n) { return n.non_finite.has_value(); });
 }
 
 std::optional<std::vector<ExactVertex>> read_vertices(LeafContext& context, const TomlValue& value,

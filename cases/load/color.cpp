@@ -89,8 +89,7 @@ int32_t read_attribute_name(LeafContext& context, const TomlValue& value, const 
     if (!name) {
         return -1;
     }
-    const auto found = std::find_if(attributes.begin(), attributes.end(),
-                                    [&](const Attribute& a) { return a.name == *name; });
+    const auto found = std::ranges::find(attributes, *name, &Attribute::name);
     if (found == attributes.end()) {
         context.error(value.where,
                       fmt::format("the draw has no attribute \"{}\" for its colour", *name));
@@ -105,15 +104,14 @@ int32_t read_attribute_name(LeafContext& context, const TomlValue& value, const 
         return -1;
     }
     if (is_integer(target.format)) {
-        const bool whole =
-            std::all_of(found->values.begin(), found->values.end(), [](const glm::vec4& v) {
-                for (int k = 0; k < 4; ++k) {
-                    if (!(v[k] >= 0.0F) || v[k] > 0x1p24F || std::floor(v[k]) < v[k]) {
-                        return false;
-                    }
+        const bool whole = std::ranges::all_of(found->values, [](const glm::vec4& v) {
+            for (int k = 0; k < 4; ++k) {
+                if (!(v[k] >= 0.0F) || v[k] > 0x1p24F || std::floor(v[k]) < v[k]) {
+                    return false;
                 }
-                return true;
-            });
+            }
+            return true;
+        });
         if (found->interpolation != Interpolation::flat || !whole) {
             context.error(value.where, fmt::format("the colour of a target of integers ({}) needs "
                                                    "a flat attribute of whole numbers",

@@ -4,10 +4,7 @@
 // The keys that speak of colour: [target] color, [[draw]] color, a format.
 #pragma once
 
-#include <array>
 #include <optional>
-#include <string_view>
-#include <vector>
 
 #include "cases/model/case.hpp"
 #include "cases/model/words.hpp"

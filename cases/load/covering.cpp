@@ -110,7 +110,7 @@ std::vector<size_t> cover_pairs(std::span<const size_t> sizes) {
         chosen.push_back(best);
         pairs.choose(best);
     }
-    std::sort(chosen.begin(), chosen.end());
+    std::ranges::sort(chosen);
     return chosen;
 }
 

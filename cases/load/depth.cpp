@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <string_view>
 #include <utility>
 
 namespace cases {

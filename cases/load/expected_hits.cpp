@@ -125,12 +125,11 @@ void check_expectation_keys(const TomlValue& root, const Matrix& matrix, Errors&
     }
     std::vector<std::string> leaves, left_out;
     for (size_t combination = 0; combination < matrix.size(); ++combination) {
-        const bool is_leaf =
-            std::binary_search(matrix.leaves.begin(), matrix.leaves.end(), combination);
+        const bool is_leaf = std::ranges::binary_search(matrix.leaves, combination);
         (is_leaf ? leaves : left_out).push_back(matrix.text(combination));
     }
     for (const TomlEntry& entry : expect->table) {
-        if (std::find(leaves.begin(), leaves.end(), entry.key) != leaves.end()) {
+        if (std::ranges::find(leaves, entry.key) != leaves.end()) {
             if (!entry.value.is(Kind::table)) {
                 errors.push_back(
                     {entry.value.where, fmt::format("the expectation of {} is {}; write a table",
@@ -138,7 +137,7 @@ void check_expectation_keys(const TomlValue& root, const Matrix& matrix, Errors&
             }
             continue;
         }
-        if (std::find(left_out.begin(), left_out.end(), entry.key) != left_out.end()) {
+        if (std::ranges::find(left_out, entry.key) != left_out.end()) {
             const std::string nearest = nearest_name(entry.key, leaves);
             errors.push_back(
                 {entry.where, fmt::format("the combination \"{}\" is left out by leaves; write "

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 #include <string_view>
 
 #include "cases/generate/generate.hpp"
@@ -226,7 +225,7 @@ class DrawLoader {
 
     static std::vector<glm::vec4> ordered(std::vector<glm::vec4> values,
                                           const std::vector<uint32_t>& order) {
-        if (values.empty() || std::is_sorted(order.begin(), order.end())) {
+        if (values.empty() || std::ranges::is_sorted(order)) {
             return values;  // none, or a permutation, so the identity
         }
         std::vector<glm::vec4> result;
@@ -480,10 +479,10 @@ class DrawLoader {
         }
         const TomlValue* where = table_.find("indices");
         where = where != nullptr ? where : table_.find("vertices");
-        if (*std::max_element(pieces.begin(), pieces.end()) < 3) {
+        if (*std::ranges::max_element(pieces) < 3) {
             context_.error(where != nullptr ? where->where : table_.where,
                            fmt::format("{} {} make no triangle; write at least 3",
-                                       *std::max_element(pieces.begin(), pieces.end()),
+                                       *std::ranges::max_element(pieces),
                                        draw_.indices ? "indices" : "vertices"));
         }
         for (const size_t piece : pieces) {

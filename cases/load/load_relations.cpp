@@ -28,7 +28,7 @@ constexpr WordList<kPlainKinds.size()> kPlainWords = [] {
 
 bool shades_samples(const Draw& draw) {
     return draw.multisample.min_sample_shading.has_value() ||
-           std::any_of(draw.attributes.begin(), draw.attributes.end(), [](const Attribute& a) {
+           std::ranges::any_of(draw.attributes, [](const Attribute& a) {
                return a.auxiliary == Auxiliary::sample || a.source == Source::sample_id ||
                       a.source == Source::sample_position;
            });
@@ -36,9 +36,7 @@ bool shades_samples(const Draw& draw) {
 
 // Why the relation says nothing about this case; empty if it does.
 std::string objection(const Relation& relation, const Case& c) {
-    const auto any_draw = [&](auto&& has) {
-        return std::any_of(c.draws.begin(), c.draws.end(), has);
-    };
+    const auto any_draw = [&](auto&& has) { return std::ranges::any_of(c.draws, has); };
     const uint32_t attributes = attributes_of(c);
     switch (relation.kind) {
         case RelationKind::same_twice:
@@ -121,7 +119,7 @@ void add(LeafContext& context, const TomlValue& element, const Relation& relatio
     const std::string name = relation.kind == RelationKind::door
                                  ? fmt::format("door {}", row_of(relation.door).word)
                                  : fmt::format("relation {}", to_string(relation.kind));
-    if (std::find(relations.begin(), relations.end(), relation) != relations.end()) {
+    if (std::ranges::find(relations, relation) != relations.end()) {
         context.error(element.where, fmt::format("the {} stands twice", name));
     } else if (const std::string why = objection(relation, c); !why.empty()) {
         context.error(element.where, fmt::format("the {} {}", name, why));

@@ -105,8 +105,7 @@ class CaseLoader {
                                fmt::format("the rule \"{}\" is of devices, not of what they draw; "
                                            "'edgecase run {}' judges it, and no case can claim it",
                                            *id, kLimitsCase));
-            } else if (std::find(c_.claim.rules.begin(), c_.claim.rules.end(), *id) !=
-                       c_.claim.rules.end()) {
+            } else if (std::ranges::find(c_.claim.rules, *id) != c_.claim.rules.end()) {
                 context_.error(element.where, fmt::format("the rule \"{}\" stands twice", *id));
             } else {
                 c_.claim.rules.push_back(*id);
@@ -197,11 +196,10 @@ class CaseLoader {
 
     // The shaders that write gl_Layer and gl_ViewportIndex have no clip and cull distances.
     void check_routes(const TomlValue& draws) {
-        const bool to_layers = std::any_of(c_.draws.begin(), c_.draws.end(),
-                                           [](const Draw& draw) { return draw.layer > 0; });
+        const bool to_layers =
+            std::ranges::any_of(c_.draws, [](const Draw& draw) { return draw.layer > 0; });
         const bool to_viewports =
-            std::any_of(c_.draws.begin(), c_.draws.end(),
-                        [](const Draw& draw) { return draw.viewport_index > 0; });
+            std::ranges::any_of(c_.draws, [](const Draw& draw) { return draw.viewport_index > 0; });
         for (const TomlValue& table : draws.array) {
             for (const char* key : {"clip_distance", "cull_distance"}) {
                 const TomlValue* value = table.find(key);

@@ -28,7 +28,7 @@ bool is_digit(char c) {
 
 // What may stand in an id: no separators of ids, file names' odd characters or selectors' signs.
 bool is_plain(const std::string& word) {
-    return !word.empty() && std::all_of(word.begin(), word.end(), [](char c) {
+    return !word.empty() && std::ranges::all_of(word, [](char c) {
         return is_letter(c) || is_digit(c) ||
                std::string_view("+-./^()").find(c) != std::string_view::npos;
     });
@@ -40,8 +40,7 @@ Expected<std::vector<size_t>> pairs_of(const TomlValue& key, const Matrix& matri
     for (const Matrix::Axis& axis : matrix.axes) {
         sizes.push_back(axis.values.size());
     }
-    const auto several =
-        std::count_if(sizes.begin(), sizes.end(), [](size_t size) { return size > 1; });
+    const auto several = std::ranges::count_if(sizes, [](size_t size) { return size > 1; });
     if (several < 3) {
         return tl::unexpected(Error{
             key.where,
@@ -66,13 +65,13 @@ ExpectedAll<std::vector<size_t>> named_leaves(const TomlValue& key, const Matrix
         if (!name) {
             continue;
         }
-        const auto found = std::find(texts.begin(), texts.end(), *name);
+        const auto found = std::ranges::find(texts, *name);
         if (found == texts.end()) {
             context.error(element.where, no_leaf(*name, texts, "\"" + texts.front() + "\""));
             continue;
         }
         chosen.push_back(static_cast<size_t>(found - texts.begin()));
-        if (std::count(chosen.begin(), chosen.end(), chosen.back()) > 1) {
+        if (std::ranges::count(chosen, chosen.back()) > 1) {
             context.error(element.where, fmt::format("the leaf \"{}\" stands twice", *name));
         }
         const std::vector<size_t> choice = matrix.choice(chosen.back());
@@ -101,7 +100,7 @@ ExpectedAll<std::vector<size_t>> named_leaves(const TomlValue& key, const Matrix
     if (!context.errors().empty()) {
         return tl::unexpected(context.errors());
     }
-    std::sort(chosen.begin(), chosen.end());
+    std::ranges::sort(chosen);
     return chosen;
 }
 
@@ -143,7 +142,7 @@ ExpectedAll<std::vector<size_t>> read_leaves(const TomlValue* key, const Matrix&
 
 bool is_name(const std::string& key) {
     return !key.empty() && is_letter(key[0]) &&
-           std::all_of(key.begin(), key.end(), [](char c) { return is_letter(c) || is_digit(c); });
+           std::ranges::all_of(key, [](char c) { return is_letter(c) || is_digit(c); });
 }
 
 tl::expected<std::string, std::string> value_text(const TomlValue& value) {
@@ -246,7 +245,7 @@ ExpectedAll<Matrix> read_matrix(const TomlValue* table, const TomlValue* leaves)
                                                            entry.key, text.error())});
                 continue;
             }
-            if (std::find(axis.texts.begin(), axis.texts.end(), *text) != axis.texts.end()) {
+            if (std::ranges::find(axis.texts, *text) != axis.texts.end()) {
                 errors.push_back(
                     {value.where, fmt::format("the value {} of the matrix key {} stands twice",
                                               *text, entry.key)});

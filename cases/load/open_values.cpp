@@ -44,7 +44,7 @@ class OpenReader {
                            fmt::format("the [fuzz] key \"{}\" is not a name; write letters, "
                                        "digits and _",
                                        entry.key));
-        } else if (std::any_of(matrix_.axes.begin(), matrix_.axes.end(), is_taken)) {
+        } else if (std::ranges::any_of(matrix_.axes, is_taken)) {
             context_.error(entry.where, fmt::format("{} is a key of [matrix], too; name one of the "
                                                     "two otherwise",
                                                     entry.key));
@@ -66,7 +66,7 @@ class OpenReader {
             if (!text) {
                 context_.error(value.where, fmt::format("a value of the [fuzz] key {} {}",
                                                         entry.key, text.error()));
-            } else if (std::find(texts.begin(), texts.end(), *text) != texts.end()) {
+            } else if (std::ranges::find(texts, *text) != texts.end()) {
                 context_.error(value.where, fmt::format("the value {} of the [fuzz] key {} stands "
                                                         "twice",
                                                         *text, entry.key));

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Case files on disk.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -65,7 +64,7 @@ std::string case_id(const fs::path& file, const fs::path& root) {
 }
 
 bool is_plain_id(const std::string& id) {
-    return std::all_of(id.begin(), id.end(), [](char c) {
+    return std::ranges::all_of(id, [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
                c == '_' || c == '-' || c == '.' || c == '/';
     });
@@ -101,7 +100,7 @@ Expected<void> add_case_files(const fs::path& folder, std::vector<fs::path>& abo
                               std::vector<fs::path>& files) {
     std::error_code error;
     const fs::path place = fs::canonical(folder, error);
-    if (!error && std::find(above.begin(), above.end(), place) != above.end()) {
+    if (!error && std::ranges::find(above, place) != above.end()) {
         return tl::unexpected(Error{
             {folder.string(), 0, 0},
             "the link leads to '" + place.string() + "', a folder that holds it; remove the link"});
@@ -158,7 +157,7 @@ Expected<std::vector<fs::path>> case_files(const fs::path& root) {
     if (auto added = add_case_files(root, above, files); !added) {
         return tl::unexpected(added.error());
     }
-    std::sort(files.begin(), files.end());
+    std::ranges::sort(files);
     return files;
 }
 

@@ -3,7 +3,6 @@
 #include "cases/load/transform.hpp"
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 #include <string_view>
 

@@ -8,7 +8,6 @@
 #include <glm/vec4.hpp>
 #include <optional>
 
-#include "cases/base/fields.hpp"
 #include "cases/format/color_format.hpp"
 
 namespace cases {

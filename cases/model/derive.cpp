@@ -40,7 +40,7 @@ bool depth_is_only_written(const Case& c) {
     const bool is_usual = c.target.depth_format == DepthFormat::d32_float &&
                           c.target.depth_clear >= kDepthClear &&
                           c.target.depth_clear <= kDepthClear;
-    return is_usual && std::all_of(c.draws.begin(), c.draws.end(), [](const Draw& draw) {
+    return is_usual && std::ranges::all_of(c.draws, [](const Draw& draw) {
                return draw.depth.compare == CompareOp::always && !draw.depth.bounds;
            });
 }
@@ -50,7 +50,7 @@ std::vector<Relation> all_relations(const Case& c) {
     std::vector<Relation> all = c.relations;
     for (const Door door : c.doors) {
         const Relation relation{RelationKind::door, {}, door};
-        if (std::find(all.begin(), all.end(), relation) == all.end()) {
+        if (std::ranges::find(all, relation) == all.end()) {
             all.push_back(relation);
         }
     }
@@ -112,8 +112,7 @@ bool has_two_numbers(const Attribute& a) {
         case Source::vertex:
             break;
     }
-    return a.probe == Probe::lod ||
-           std::all_of(a.values.begin(), a.values.end(), [](const glm::vec4& value) {
+    return a.probe == Probe::lod || std::ranges::all_of(a.values, [](const glm::vec4& value) {
                return std::bit_cast<uint32_t>(value.z) == 0 &&
                       std::bit_cast<uint32_t>(value.w) == 0;
            });
@@ -129,8 +128,8 @@ glm::vec4 blend_constants(const Draw& draw) {
     if (draw.color.blend) {
         return draw.color.blend->constants;
     }
-    const auto blended = std::find_if(draw.other_colors.begin(), draw.other_colors.end(),
-                                      [](const ColorOutput& o) { return o.blend.has_value(); });
+    const auto blended = std::ranges::find_if(
+        draw.other_colors, [](const ColorOutput& o) { return o.blend.has_value(); });
     return blended == draw.other_colors.end() ? glm::vec4(0) : blended->blend->constants;
 }
 
@@ -138,12 +137,12 @@ std::vector<uint32_t> drawn_attributes(const Target& target, const Draw& draw) {
     std::vector<uint32_t> out;
     for (uint32_t location = 0; location < target.color_count(); ++location) {
         const int32_t attribute = output_at(target, draw, location).attribute;
-        if (attribute >= 0 && std::find(out.begin(), out.end(), attribute) == out.end()) {
+        if (attribute >= 0 && std::ranges::find(out, attribute) == out.end()) {
             out.push_back(static_cast<uint32_t>(attribute));
         }
     }
     const auto discards = static_cast<int32_t>(draw.discard_attribute);
-    if (discards_by_value(draw) && std::find(out.begin(), out.end(), discards) == out.end()) {
+    if (discards_by_value(draw) && std::ranges::find(out, discards) == out.end()) {
         out.push_back(draw.discard_attribute);
     }
     return out;
@@ -199,8 +198,8 @@ std::vector<Derivation> derivations(const Case& c) {
 }
 
 bool claims_doors_alone(const Case& c) {
-    return std::all_of(c.claim.rules.begin(), c.claim.rules.end(),
-                       [](const std::string& rule) { return rule.starts_with("door."); });
+    return std::ranges::all_of(c.claim.rules,
+                               [](const std::string& rule) { return rule.starts_with("door."); });
 }
 
 Case derive(const Case& c, const Derivation& derivation) {

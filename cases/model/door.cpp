@@ -332,10 +332,9 @@ uint32_t split_of(Door door, const Draw& draw) {
 }
 
 bool are_half_floats(std::span<const glm::vec4> positions) {
-    return !positions.empty() &&
-           std::all_of(positions.begin(), positions.end(), [](const glm::vec4& p) {
-               return half_bits(p.x) && half_bits(p.y) && half_bits(p.z) && half_bits(p.w);
-           });
+    return !positions.empty() && std::ranges::all_of(positions, [](const glm::vec4& p) {
+        return half_bits(p.x) && half_bits(p.y) && half_bits(p.z) && half_bits(p.w);
+    });
 }
 
 uint32_t largest_index(const Draw& draw) {

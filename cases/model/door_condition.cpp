@@ -21,12 +21,12 @@ namespace {
 
 template <class Predicate>
 bool all_draws(const Case& c, Predicate holds) {
-    return std::all_of(c.draws.begin(), c.draws.end(), holds);
+    return std::ranges::all_of(c.draws, holds);
 }
 
 template <class Predicate>
 bool any_draw(const Case& c, Predicate holds) {
-    return std::any_of(c.draws.begin(), c.draws.end(), holds);
+    return std::ranges::any_of(c.draws, holds);
 }
 
 bool is_one(float value) {
@@ -50,8 +50,8 @@ bool is_written_as_cleared(const ComponentFormat& component, float value) {
 
 // In which order a stage gets and hands on the vertices of a triangle, barycentrics would tell.
 bool has_barycentrics(const Draw& draw) {
-    return std::any_of(draw.attributes.begin(), draw.attributes.end(),
-                       [](const Attribute& a) { return a.source == Source::barycentric; });
+    return std::ranges::any_of(draw.attributes,
+                               [](const Attribute& a) { return a.source == Source::barycentric; });
 }
 
 // Whether no triangle of a list has two vertices in one place, which a device may drop before they
@@ -66,10 +66,9 @@ bool are_corners_apart(const std::vector<glm::vec4>& p) {
 }
 
 bool is_constant(const std::vector<glm::vec4>& values) {
-    return !values.empty() &&
-           std::all_of(values.begin(), values.end(), [&values](const glm::vec4& value) {
-               return std::memcmp(&value, &values.front(), sizeof value) == 0;
-           });
+    return !values.empty() && std::ranges::all_of(values, [&values](const glm::vec4& value) {
+        return std::memcmp(&value, &values.front(), sizeof value) == 0;
+    });
 }
 
 // Whether it holds of the distances or of an attribute of some draw. Without instruments the only
@@ -86,8 +85,7 @@ bool any_input(const Case& c, Predicate holds) {
                 return k < attributes.size() && holds(attributes[k].values);
             });
         }
-        return std::any_of(attributes.begin(), attributes.end(),
-                           [&](const Attribute& a) { return holds(a.values); });
+        return std::ranges::any_of(attributes, [&](const Attribute& a) { return holds(a.values); });
     });
 }
 
@@ -191,8 +189,7 @@ bool has_no_indices(const Case& c) {
 bool has_w_one(const Case& c) {
     return any_draw(c, [](const Draw& draw) {
         return !draw.positions.empty() &&
-               std::all_of(draw.positions.begin(), draw.positions.end(),
-                           [](const glm::vec4& p) { return is_one(p.w); });
+               std::ranges::all_of(draw.positions, [](const glm::vec4& p) { return is_one(p.w); });
     });
 }
 
@@ -312,8 +309,8 @@ bool has_occlusion_query(const Case& c) {
 }
 
 bool has_several_draws(const Case& c) {
-    return std::count_if(c.draws.begin(), c.draws.end(),
-                         [](const Draw& draw) { return !draw.positions.empty(); }) > 1;
+    return std::ranges::count_if(c.draws,
+                                 [](const Draw& draw) { return !draw.positions.empty(); }) > 1;
 }
 
 bool can_be_static(const Case& c) {

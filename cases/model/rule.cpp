@@ -604,8 +604,7 @@ bool is_of_device(std::string_view id) {
 }
 
 const Rule* find_rule(std::string_view id) {
-    const auto it =
-        std::find_if(kRules.begin(), kRules.end(), [&](const Rule& r) { return r.id == id; });
+    const auto it = std::ranges::find(kRules, id, &Rule::id);
     return it == kRules.end() ? nullptr : &*it;
 }
 

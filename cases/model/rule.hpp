@@ -4,7 +4,6 @@
 // The rules a device is held to. docs/rules.md is generated from this table.
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string_view>
 

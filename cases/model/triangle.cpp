@@ -56,7 +56,7 @@ void assemble_draw(const Draw& draw, uint32_t draw_index, std::vector<Triangle>&
     }
     std::span<const uint32_t> rest(*draw.indices);
     while (draw.primitive_restart) {
-        const auto restart = std::find(rest.begin(), rest.end(), kRestartIndex);
+        const auto restart = std::ranges::find(rest, kRestartIndex);
         if (restart == rest.end()) {
             break;
         }

@@ -89,16 +89,15 @@ struct Matcher {
         for (const Rule& rule : all_rules()) {
             names.emplace_back(rule.id);
         }
-        if (std::none_of(names.begin(), names.end(),
-                         [&](const std::string& n) { return match(pattern, n); })) {
+        if (std::ranges::none_of(names, [&](const std::string& n) { return match(pattern, n); })) {
             return failure(with_hint("no rule is called " + pattern, nearest_name(pattern, names)));
         }
         for (size_t i = 0; i < all.size(); ++i) {
             const std::vector<std::string>& rules = all[i].claim.rules;
-            chosen[i] = std::any_of(rules.begin(), rules.end(),
-                                    [&](const std::string& r) { return match(pattern, r); });
+            chosen[i] =
+                std::ranges::any_of(rules, [&](const std::string& r) { return match(pattern, r); });
         }
-        if (std::none_of(chosen.begin(), chosen.end(), [](bool b) { return b; })) {
+        if (std::ranges::none_of(chosen, [](bool b) { return b; })) {
             return failure("no case checks the rule " + pattern);
         }
         return chosen;
@@ -115,8 +114,7 @@ struct Matcher {
         }
         for (size_t i = 0; i < all.size(); ++i) {
             const fs::path file = fs::weakly_canonical(all[i].claim.where.file, ignored);
-            const auto [rest, in_file] =
-                std::mismatch(path.begin(), path.end(), file.begin(), file.end());
+            const auto [rest, in_file] = std::ranges::mismatch(path, file);
             chosen[i] = rest == path.end();
         }
         return chosen;
@@ -134,10 +132,10 @@ struct Matcher {
         for (size_t i = 0; i < all.size(); ++i) {
             chosen[i] = glob_matches(word, all[i].id);
         }
-        if (std::none_of(chosen.begin(), chosen.end(), [](bool b) { return b; })) {
+        if (std::ranges::none_of(chosen, [](bool b) { return b; })) {
             chosen = by_path(word);
         }
-        if (std::none_of(chosen.begin(), chosen.end(), [](bool b) { return b; })) {
+        if (std::ranges::none_of(chosen, [](bool b) { return b; })) {
             return failure(nothing_matches(word));
         }
         return chosen;
@@ -178,7 +176,7 @@ struct Matcher {
                 folders.push_back(c.id.substr(0, at));
             }
         }
-        const bool is_folder = std::find(folders.begin(), folders.end(), bare) != folders.end();
+        const bool is_folder = std::ranges::find(folders, bare) != folders.end();
         std::error_code ignored;
         if (!is_folder && std::filesystem::is_directory(word, ignored)) {
             return word + " is a folder without case files (*.toml)";
@@ -237,8 +235,8 @@ Expected<std::vector<size_t>> select(const std::vector<Case>& all,
         }
     }
     const bool only_exclusions =
-        named.empty() && std::all_of(words.begin(), words.end(),
-                                     [](const std::string& w) { return w.rfind('!', 0) == 0; });
+        named.empty() &&
+        std::ranges::all_of(words, [](const std::string& w) { return w.rfind('!', 0) == 0; });
     std::vector<bool> chosen(all.size(), only_exclusions);
     for (const size_t k : named) {
         chosen[k] = true;

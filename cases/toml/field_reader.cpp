@@ -206,7 +206,7 @@ std::optional<size_t> LeafContext::word(const TomlValue& value, const std::strin
     if (!given) {
         return std::nullopt;
     }
-    const auto find = [&](std::string_view w) { return std::find(words.begin(), words.end(), w); };
+    const auto find = [&](std::string_view w) { return std::ranges::find(words, w); };
     auto it = find(*given);
     std::string shown = *given;
     if (it == words.end()) {
@@ -343,7 +343,7 @@ void LeafContext::known_keys(const TomlValue& table, const KeyTable& keys,
 
 void LeafContext::known_keys(const TomlValue& table, const std::string& what, Words keys) {
     for (const TomlEntry& entry : table.table) {
-        if (std::find(keys.begin(), keys.end(), entry.key) != keys.end()) {
+        if (std::ranges::find(keys, entry.key) != keys.end()) {
             continue;
         }
         const std::string nearest =

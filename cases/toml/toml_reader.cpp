@@ -107,11 +107,9 @@ class Converter {
                 {std::string(key.str()), location(key.source()), std::move(*converted)});
         }
         // The parser sorts keys by name.
-        std::stable_sort(value.table.begin(), value.table.end(),
-                         [](const TomlEntry& a, const TomlEntry& b) {
-                             return std::tie(a.where.line, a.where.column) <
-                                    std::tie(b.where.line, b.where.column);
-                         });
+        std::ranges::stable_sort(value.table, [](const TomlEntry& a, const TomlEntry& b) {
+            return std::tie(a.where.line, a.where.column) < std::tie(b.where.line, b.where.column);
+        });
         return value;
     }
 
@@ -165,9 +163,8 @@ uint32_t line_that_breaks_the_parser(std::string_view text) {
          end = text.find('\n', end + 1)) {
         ends.push_back(end + 1);
     }
-    const auto breaking = std::partition_point(ends.begin(), ends.end(), [&](size_t end) {
-        return !breaks_the_parser(text.substr(0, end));
-    });
+    const auto breaking = std::ranges::partition_point(
+        ends, [&](size_t end) { return !breaks_the_parser(text.substr(0, end)); });
     return static_cast<uint32_t>(breaking - ends.begin()) + 1;
 }
 

@@ -56,8 +56,7 @@ TomlValue numbers(const std::vector<double>& values) {
 }
 
 TomlValue* find(TomlValue& table, std::string_view key) {
-    const auto entry = std::find_if(table.table.begin(), table.table.end(),
-                                    [&](const TomlEntry& e) { return e.key == key; });
+    const auto entry = std::ranges::find(table.table, key, &TomlEntry::key);
     return entry == table.table.end() ? nullptr : &entry->value;
 }
 

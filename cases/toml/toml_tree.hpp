@@ -4,7 +4,6 @@
 // Making a TOML document: its values, and the entries of its tables.
 #pragma once
 
-#include <string>
 #include <string_view>
 #include <vector>
 

@@ -20,12 +20,12 @@ bool has_possible_sizes(const Case& c) {
         return a <= kMaxTargetSize && b <= kMaxTargetSize;
     };
     return (!c.blit || fits(c.blit->source_width, c.blit->source_height)) &&
-           std::all_of(c.relations.begin(), c.relations.end(),
-                       [&fits](const Relation& r) {
-                           return fits(r.tile[0], r.tile[1]) &&
-                                  (r.kind == RelationKind::door) == (r.door != Door::none);
-                       }) &&
-           std::find(c.doors.begin(), c.doors.end(), Door::none) == c.doors.end();
+           std::ranges::all_of(c.relations,
+                               [&fits](const Relation& r) {
+                                   return fits(r.tile[0], r.tile[1]) &&
+                                          (r.kind == RelationKind::door) == (r.door != Door::none);
+                               }) &&
+           std::ranges::find(c.doors, Door::none) == c.doors.end();
 }
 
 // Each draw writes to every colour target.
@@ -33,8 +33,8 @@ bool has_possible_colors(const Case& c) {
     const size_t others = c.target.other_colors.size();
     return others < kMaxColorTargets && c.target.judged_color <= others &&
            (others == 0 || c.target.color) &&
-           std::all_of(c.draws.begin(), c.draws.end(),
-                       [others](const Draw& draw) { return draw.other_colors.size() == others; });
+           std::ranges::all_of(
+               c.draws, [others](const Draw& draw) { return draw.other_colors.size() == others; });
 }
 
 // Of fragments: a side divides a pixel's coordinates, and their samples are numbered.

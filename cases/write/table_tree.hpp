@@ -6,10 +6,8 @@
 
 #include <cstdint>
 #include <initializer_list>
-#include <string>
 #include <string_view>
 #include <type_traits>
-#include <utility>
 
 #include "cases/base/fields.hpp"
 #include "cases/base/float_bits.hpp"

@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cases/write/to_toml.hpp"
 
-#include <fmt/format.h>
-
-#include "cases/base/float_bits.hpp"
 #include "cases/load/loader.hpp"
 #include "cases/model/words.hpp"
 #include "cases/toml/toml_text.hpp"

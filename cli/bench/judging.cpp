@@ -191,8 +191,8 @@ JudgingFigures time_judging(std::span<const cases::Case> cases, std::span<const 
 }
 
 double spread_of(std::span<const JudgingFigures::Size> sizes) {
-    const auto [slowest, fastest] = std::minmax_element(
-        sizes.begin(), sizes.end(), [](const auto& a, const auto& b) { return a.all < b.all; });
+    const auto [slowest, fastest] = std::ranges::minmax_element(
+        sizes, [](const auto& a, const auto& b) { return a.all < b.all; });
     return fastest->all / slowest->all;
 }
 

@@ -5,7 +5,6 @@
 // software device, which is right but for the fault that it is given.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>

@@ -17,13 +17,12 @@ namespace cli {
 
 namespace fs = std::filesystem;
 using cases::counted;
-using fuzz::Entry;
 using fuzz::Hunt;
 
 int end_hunt(Hunt& hunter, Hunt::State state, const fuzz::Ledger& ledger, const fs::path& folder,
              size_t starts) {
     size_t fresh = 0;
-    for (const Entry& entry : ledger.entries) {
+    for (const fuzz::Entry& entry : ledger.entries) {
         if (!entry.is_reduced) {
             tell_cause(entry, folder);
         }

@@ -36,8 +36,8 @@ struct Open {
 };
 
 bool is_explained(const std::vector<Entry>& entries, const Symptom& symptom, const Open& open) {
-    return std::any_of(entries.begin(), entries.end(),
-                       [&](const Entry& e) { return fuzz::explains(e, symptom, open.facts); });
+    return std::ranges::any_of(
+        entries, [&](const Entry& e) { return fuzz::explains(e, symptom, open.facts); });
 }
 
 bool is_known_failure(Status status) {
@@ -102,8 +102,8 @@ std::vector<Open> failing_cases(const ExpectedFailures& expected, Reducer& reduc
         }
     }
     // The shortest first: nearest to what it will be.
-    std::stable_sort(all.begin(), all.end(),
-                     [](const Open& a, const Open& b) { return a.text.size() < b.text.size(); });
+    std::ranges::stable_sort(
+        all, [](const Open& a, const Open& b) { return a.text.size() < b.text.size(); });
     return all;
 }
 

@@ -75,8 +75,7 @@ StartCases start_cases(const Program& program, const SuiteOptions& options, uint
         out.source = [seed] { return std::make_unique<fuzz::GeneratedSource>(seed); };
         return out;
     }
-    if (std::find(options.selectors.begin(), options.selectors.end(), "-") !=
-        options.selectors.end()) {
+    if (std::ranges::find(options.selectors, "-") != options.selectors.end()) {
         // A hunt that goes on could not read them again.
         throw stop_with(
             report::kExitUsage,

@@ -7,9 +7,6 @@
 
 #include <functional>
 #include <memory>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "cli/options/options.hpp"
 #include "cli/options/value_checks.hpp"

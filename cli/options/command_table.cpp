@@ -40,7 +40,7 @@ OptionEntry describe(const CLI::Option& option) {
 }  // namespace
 
 bool CommandEntry::takes_cases() const {
-    return std::any_of(options.begin(), options.end(), [](const OptionEntry& o) {
+    return std::ranges::any_of(options, [](const OptionEntry& o) {
         return o.is_positional && (o.names.front() == "SELECTOR" || o.names.front() == "CASE");
     });
 }

@@ -56,7 +56,7 @@ std::string name_variable(const std::string& text, const CLI::App& command, cons
 Stop parse_error(const CLI::ParseError& error, const CLI::App& app, const std::string& command,
                  const Words& words) {
     std::string text = error.what();
-    std::replace(text.begin(), text.end(), '\n', ' ');
+    std::ranges::replace(text, '\n', ' ');
     while (!text.empty() && (text.back() == ' ' || text.back() == '.')) {
         text.pop_back();
     }
@@ -180,7 +180,7 @@ CarryOut parse(std::span<const Command> commands, const Words& words) {
     const std::vector<Action> actions = declare(app, commands);
     const std::vector<std::string> names = names_of_commands(app);
     const std::string first = words.size() > 1 ? words[1] : "";
-    const auto named = std::find(names.begin(), names.end(), first);
+    const auto named = std::ranges::find(names, first);
     const bool is_command = named != names.end();
     if (first.empty()) {
         throw usage_error("a command is missing, for example 'edgecase run'", "");
@@ -209,7 +209,7 @@ CarryOut parse(std::span<const Command> commands, const Words& words) {
         }
         throw parse_error(error, app, is_command ? first : "", words);
     }
-    const auto chosen = is_command ? named : std::find(names.begin(), names.end(), "version");
+    const auto chosen = is_command ? named : std::ranges::find(names, "version");
     const Action& action = actions.at(static_cast<size_t>(chosen - names.begin()));
     if (!is_command) {
         return action.carry_out;
@@ -217,7 +217,7 @@ CarryOut parse(std::span<const Command> commands, const Words& words) {
     CLI::App* command = app.get_subcommand(first);
     check_empty_values(*command, words);
     std::vector<std::string> unknown = command->remaining();
-    if (const auto end = std::find(unknown.begin(), unknown.end(), "--"); end != unknown.end()) {
+    if (const auto end = std::ranges::find(unknown, "--"); end != unknown.end()) {
         unknown.erase(end);  // it ends the options, and CLI11 keeps it
     }
     if (!unknown.empty()) {

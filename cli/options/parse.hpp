@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "cli/options/command.hpp"
-#include "cli/options/options.hpp"
 #include "cli/options/stop.hpp"
 
 namespace cli {

@@ -4,7 +4,6 @@
 // How the program was started: what its own path is and how it starts itself again as a worker.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 

@@ -21,8 +21,7 @@ void check_resume(const CLI::App& run, const Words& words) {
     for (const CLI::Option* option : run.get_options()) {
         const std::string name = option->get_name();
         const bool is_variable = !option->get_envname().empty() && !is_given(*option, words);
-        if (option->count() > 0 && !is_variable &&
-            std::find(may.begin(), may.end(), name) == may.end()) {
+        if (option->count() > 0 && !is_variable && std::ranges::find(may, name) == may.end()) {
             const bool is_option = !name.empty() && name.front() == '-';
             throw usage_error(
                 "--resume goes on with the cases and options of the interrupted run, so " +

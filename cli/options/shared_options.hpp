@@ -10,7 +10,6 @@
 #include <charconv>
 #include <map>
 #include <string>
-#include <string_view>
 #include <type_traits>
 #include <vector>
 

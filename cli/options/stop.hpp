@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cases/base/error.hpp"
+#include "report/record/run.hpp"
 
 namespace cli {
 
@@ -41,6 +42,15 @@ T must(cases::Expected<T> value, int exit_code, const std::string& words = "") {
     if constexpr (!std::is_void_v<T>) {
         return *std::move(value);
     }
+}
+
+// What a file holds, or the end with what is wrong with it and where, behind these words.
+template <class T>
+T must_read(cases::Expected<T> value, const std::string& words = "") {
+    if (!value) {
+        throw stop_with(report::kExitInvalidFile, words + cases::to_string(value.error()));
+    }
+    return *std::move(value);
 }
 
 // Prints the lines, each after "edgecase: ", and returns the exit code.

@@ -128,13 +128,12 @@ bool is_given(const CLI::Option& option, const Words& words) {
     const auto names_it = [&](const std::string& word) {
         const bool is_long = word.starts_with("--");
         const std::vector<std::string>& names = is_long ? option.get_lnames() : option.get_snames();
-        return word.starts_with('-') &&
-               std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+        return word.starts_with('-') && std::ranges::any_of(names, [&](const std::string& name) {
                    return is_long ? word == "--" + name || word.starts_with("--" + name + "=")
                                   : word.starts_with("-" + name);
                });
     };
-    const auto end = std::find(words.begin(), words.end(), "--");
+    const auto end = std::ranges::find(words, "--");
     return std::any_of(words.begin(), end, names_it);
 }
 
@@ -161,7 +160,7 @@ void check_empty_values(const CLI::App& command, const Words& words) {
     }
     for (const CLI::Option* option : command.get_options()) {
         const std::vector<std::string>& values = option->results();
-        if (std::find(values.begin(), values.end(), "") == values.end()) {
+        if (std::ranges::find(values, "") == values.end()) {
             continue;
         }
         if (takes_value(*option)) {

@@ -89,9 +89,9 @@ std::string driver_settings() {
         "VK_", "EDGECASE_SELF_PREFIX", "LP_", "LVP_", "MESA_", "GALLIUM_"};
     std::string text;
     for (const auto& [name, value] : recorded_environment()) {
-        if (std::any_of(
-                kPrefixes.begin(), kPrefixes.end(),
-                [&, &n = name](std::string_view prefix) { return n.starts_with(prefix); })) {
+        if (std::ranges::any_of(kPrefixes, [&, &n = name](std::string_view prefix) {
+                return n.starts_with(prefix);
+            })) {
             text += name + "=" + shell_quote(value) + " ";
         }
     }
@@ -239,16 +239,15 @@ std::vector<std::pair<std::string, std::string>> recorded_environment() {
     for (char** variable = environ; *variable != nullptr; ++variable) {
         const std::string_view text = *variable;
         const size_t equals = text.find('=');
-        const bool wanted =
-            std::any_of(kPrefixes.begin(), kPrefixes.end(),
-                        [&](std::string_view prefix) { return text.starts_with(prefix); });
+        const bool wanted = std::ranges::any_of(
+            kPrefixes, [&](std::string_view prefix) { return text.starts_with(prefix); });
         if (wanted && equals != std::string_view::npos) {
             recorded.emplace_back(text.substr(0, equals), text.substr(equals + 1));
         }
     }
     std::error_code ignored;
     recorded.emplace_back("PWD", fs::current_path(ignored).string());
-    std::sort(recorded.begin(), recorded.end());
+    std::ranges::sort(recorded);
     return recorded;
 }
 

@@ -32,9 +32,7 @@ bool is_set(std::string_view word) {
 struct Wish {
     std::string set = "none";
     std::vector<cases::Door> named, without;
-    bool has(cases::Door door) const {
-        return std::find(without.begin(), without.end(), door) == without.end();
-    }
+    bool has(cases::Door door) const { return std::ranges::find(without, door) == without.end(); }
 };
 
 [[noreturn]] void refuse(const std::string& sentence) {
@@ -86,7 +84,7 @@ Wish wish_of(const std::string& words) {
                                wish.set, word));
         }
         std::vector<cases::Door>& list = is_left_out ? wish.without : wish.named;
-        if (std::find(list.begin(), list.end(), door) == list.end()) {
+        if (std::ranges::find(list, door) == list.end()) {
             list.push_back(door);
         }
     }

@@ -30,7 +30,7 @@ std::vector<fs::path> files_beside(const fs::path& suite_root, std::string_view 
             paths.push_back(entry.path());
         }
     }
-    std::sort(paths.begin(), paths.end());
+    std::ranges::sort(paths);
     return paths;
 }
 

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <utility>
 
 #include "cases/model/device.hpp"
 #include "run/worker/derived.hpp"

@@ -56,6 +56,14 @@ cases::Expected<void> write_text(const std::string& file, const std::string& tex
     return write_pieces(file, [&text](const cases::Put& put) { put(text); });
 }
 
+void write_asked(const std::string& file, cases::Errors& errors,
+                 const std::function<std::string()>& text) {
+    if (const auto written = file.empty() ? cases::Expected<void>() : write_text(file, text());
+        !written) {
+        errors.push_back(written.error());
+    }
+}
+
 namespace {
 
 cases::Expected<void> replace_pieces(const std::filesystem::path& file, const cases::Tell& tell) {
@@ -189,14 +197,10 @@ void print_errors(const cases::Errors& errors) {
     }
 }
 
-namespace {
-
 bool has_failed(const report::Run& run) {
-    return std::any_of(run.cases.begin(), run.cases.end(),
-                       [](const auto& record) { return record.status == report::Status::fail; });
+    return std::ranges::any_of(
+        run.cases, [](const auto& record) { return record.status == report::Status::fail; });
 }
-
-}  // namespace
 
 int conclude(const std::filesystem::path& folder, const RunOptions& options, Ci ci,
              std::FILE* console, report::ConsoleStyle style, const Ending& ending) {

@@ -10,7 +10,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "cases/base/error.hpp"
 #include "cases/base/output_file.hpp"
@@ -30,6 +29,9 @@ struct ReportFiles {
 // Writes text to a file that the user named, or "-": all of it, or the file stays as it was. Error:
 // one sentence with the file and errno's reason, also for a full disk.
 cases::Expected<void> write_text(const std::string& file, const std::string& text);
+// The same of a file that may be none, "": no text is made for it. An error joins the others.
+void write_asked(const std::string& file, cases::Errors& errors,
+                 const std::function<std::string()>& text);
 // The same of a text that is too long to be held at once.
 cases::Expected<void> write_pieces(const std::string& file, const cases::Tell& tell);
 // The same of a file in a folder of ours: where a link has its name, the file takes its place.
@@ -57,6 +59,9 @@ std::FILE* console_beside(const std::string& json, const std::string& junit,
 
 // Tells mistakes on standard error, a line each.
 void print_errors(const cases::Errors& errors);
+
+// Whether a case failed that was not to.
+bool has_failed(const report::Run& run);
 
 // What a command says at its end besides the summary.
 struct Ending {

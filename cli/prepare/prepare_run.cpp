@@ -23,7 +23,6 @@
 #include "cli/prepare/on_threads.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "report/journal/journal.hpp"
-#include "report/text/sentences.hpp"
 #include "run/limits_case.hpp"
 #include "run/worker/fault.hpp"
 
@@ -43,7 +42,7 @@ void warn_of_idle_faults(const std::vector<std::string>& ids) {
         return;  // the worker says so
     }
     for (const run::Fault& fault : *faults) {
-        if (fault.glob != "**" && std::none_of(ids.begin(), ids.end(), [&](const std::string& id) {
+        if (fault.glob != "**" && std::ranges::none_of(ids, [&](const std::string& id) {
                 return cases::glob_matches(fault.glob, id);
             })) {
             complain("warning: EDGECASE_FAULT: '" + fault.glob + "' matches no case");
@@ -149,7 +148,7 @@ std::string what_changed(const Run& earlier) {
     }
     const auto now = sources_of(earlier.cases);
     for (const auto& source : earlier.sources) {
-        if (std::find(now.begin(), now.end(), source) == now.end()) {
+        if (std::ranges::find(now, source) == now.end()) {
             return "the file '" + source.first + "' is not as it was when it began";
         }
     }
@@ -212,11 +211,8 @@ Prepared prepare_resume(const Program& program, const RunOptions& now) {
     std::vector<std::string> in_flight;
     std::error_code ignored;
     p.folder = fs::absolute(now.resume, ignored);
-    const cases::Expected<Run> earlier = report::load_journal(p.folder, &in_flight);
-    if (!earlier) {
-        throw stop_with(report::kExitInvalidFile, "--resume: " + cases::to_string(earlier.error()));
-    }
-    for (const auto& [name, value] : earlier->environment) {
+    const Run earlier = must_read(report::load_journal(p.folder, &in_flight), "--resume: ");
+    for (const auto& [name, value] : earlier.environment) {
         if (name == "PWD") {  // paths of the first command line count from there
             fs::current_path(value, ignored);
         }
@@ -225,13 +221,13 @@ Prepared prepare_resume(const Program& program, const RunOptions& now) {
     for (const char* variable :
          {"EDGECASE_PROFILE", "EDGECASE_DEVICE", "EDGECASE_ICD", "EDGECASE_TIMEOUT"}) {
         ::unsetenv(variable);
-        for (const auto& [name, value] : earlier->environment) {
+        for (const auto& [name, value] : earlier.environment) {
             if (name == variable) {
                 ::setenv(variable, value.c_str(), 1);
             }
         }
     }
-    RunOptions options = parse_run_arguments(earlier->arguments);
+    RunOptions options = parse_run_arguments(earlier.arguments);
     check_agreed(options, now, agreed, has_icd);
     p.options = std::move(options);
     p.options.resume = now.resume;  // its folder is not an earlier run's, whatever goes wrong
@@ -241,12 +237,12 @@ Prepared prepare_resume(const Program& program, const RunOptions& now) {
     p.options.color = now.color;
     p.options.progress = now.progress;
     SuiteOptions suite = p.options.suite;
-    suite.suite = earlier->suite_root;
+    suite.suite = earlier.suite_root;
     std::erase_if(suite.selectors, [&](const std::string& s) {
-        return !is_outside(s, earlier->suite_root);  // the journal has the ids
+        return !is_outside(s, earlier.suite_root);  // the journal has the ids
     });
     LoadedSuite loaded = load_and_select(program, suite);
-    p.header = *earlier;
+    p.header = earlier;
     p.selection.root = loaded.root;
     p.selection.known_ids = loaded.ids();
     p.selection.suite_ids = loaded.suite_ids();
@@ -256,10 +252,10 @@ Prepared prepare_resume(const Program& program, const RunOptions& now) {
     }
     const auto is_of_device = [](const CaseRecord& r) { return r.id == cases::kLimitsCase; };
     p.selection.whole_suite =
-        earlier->cases.size() ==
-        loaded.cases.size() + (std::ranges::any_of(earlier->cases, is_of_device) ? 1U : 0U);
+        earlier.cases.size() ==
+        loaded.cases.size() + (std::ranges::any_of(earlier.cases, is_of_device) ? 1U : 0U);
     const std::set<std::string> cut_off(in_flight.begin(), in_flight.end());
-    for (const CaseRecord& record : earlier->cases) {
+    for (const CaseRecord& record : earlier.cases) {
         const auto found = by_id.find(record.id);
         if (found != by_id.end() && !record.content.empty() &&
             run::planned_case(*found->second).content != record.content) {
@@ -289,7 +285,7 @@ Prepared prepare_resume(const Program& program, const RunOptions& now) {
         task.alone = cut_off.contains(record.id);
         p.plan.push_back(std::move(task));
     }
-    if (const std::string changed = what_changed(*earlier); !changed.empty()) {
+    if (const std::string changed = what_changed(earlier); !changed.empty()) {
         throw stop_with(report::kExitInvalidFile,
                         "the run cannot go on: " + changed + "; start a new run");
     }

@@ -31,17 +31,13 @@ namespace {
 // What ended unexpectedly in the run of --failed-in. Where no selector chooses, all of it is meant:
 // a case of one's own that nobody names must not look as if it passed.
 std::set<std::string> failed_ids(const RunOptions& options, const LoadedSuite& suite) {
-    const cases::Expected<report::Run> earlier = report::load_journal(options.failed_in);
-    if (!earlier) {
-        throw stop_with(report::kExitInvalidFile,
-                        "--failed-in: " + cases::to_string(earlier.error()));
-    }
+    const report::Run earlier = must_read(report::load_journal(options.failed_in), "--failed-in: ");
     std::set<std::string> failed, selected;
     for (const size_t k : suite.selected) {
         selected.insert(suite.cases[k].id);
     }
     std::vector<const report::CaseRecord*> left_out;
-    for (const report::CaseRecord& record : earlier->cases) {
+    for (const report::CaseRecord& record : earlier.cases) {
         if (!report::is_expected(record.status)) {
             failed.insert(record.id);
             if (!selected.contains(record.id) && record.id != cases::kLimitsCase) {
@@ -68,7 +64,7 @@ std::set<std::string> failed_ids(const RunOptions& options, const LoadedSuite& s
 
 // The same for the same cases, whatever selected them in whichever order.
 std::string selection_text(std::vector<std::string> ids) {
-    std::sort(ids.begin(), ids.end());
+    std::ranges::sort(ids);
     uint64_t hash = 0;
     for (const std::string& id : ids) {
         hash = cases::stable_hash(id, hash);

@@ -5,14 +5,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <iostream>
 #include <map>
 #include <numeric>
 #include <set>
 #include <utility>
-#include <variant>
 
 #include "cases/base/checksum.hpp"
 #include "cases/base/counted.hpp"
@@ -160,8 +158,7 @@ LoadedSuite load_contents(LoadedSuite suite) {
         if (fresh) {
             file->second = must(cases::load_file(c.claim.where.file, suite.root));
         }
-        const auto full = std::find_if(file->second.begin(), file->second.end(),
-                                       [&](const cases::Case& other) { return other.id == c.id; });
+        const auto full = std::ranges::find(file->second, c.id, &cases::Case::id);
         if (full == file->second.end()) {
             throw stop_with(report::kExitInvalidFile,
                             c.claim.where.file + " changed while it was read");
@@ -329,7 +326,7 @@ LoadedSuite load_with_ids(const Program& program, const SuiteOptions& options) {
     // What is no name is asked of the cases themselves.
     const auto is_asked = [](const std::string& s) { return s == "-" || s.find('@') != s.npos; };
     const std::vector<std::string>& all = options.selectors;
-    if (all.empty() || std::any_of(all.begin(), all.end(), is_asked)) {
+    if (all.empty() || std::ranges::any_of(all, is_asked)) {
         return load_and_select(program, options);
     }
     return load_contents(load_and_select(program, options, cases::Contents::ids));
@@ -339,7 +336,7 @@ LoadedSuite load_selected(const Program& program, const SuiteOptions& options) {
     const fs::path root = find_suite_root(program, options.suite);
     const std::vector<std::string>& all = options.selectors;
     const auto is_own = [&](const std::string& s) { return is_outside(s, root); };
-    return !all.empty() && std::all_of(all.begin(), all.end(), is_own)
+    return !all.empty() && std::ranges::all_of(all, is_own)
                ? select_of({root, {}, {}, 0, {}}, options)
                : load_with_ids(program, options);
 }
@@ -409,7 +406,7 @@ std::string hash_of_files(const std::set<std::string>& files) {
     }
     uint64_t hash = 0;
     for (auto& [name, all] : texts) {
-        std::sort(all.begin(), all.end());
+        std::ranges::sort(all);
         for (const std::string& text : all) {
             hash = cases::stable_hash(text, cases::stable_hash(name, hash));
         }

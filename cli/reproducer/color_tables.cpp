@@ -161,8 +161,8 @@ std::string ColorRows::row(const Sequence& sequence, cases::SampleId id) {
 
 bool judges_bare_depth(const cases::Case& c) {
     return c.target.depth_format == cases::DepthFormat::d32_float &&
-           std::all_of(c.draws.begin(), c.draws.end(),
-                       [](const cases::Draw& d) { return d.depth == cases::DepthState{}; });
+           std::ranges::all_of(c.draws,
+                               [](const cases::Draw& d) { return d.depth == cases::DepthState{}; });
 }
 
 }  // namespace cli

@@ -4,7 +4,6 @@
 // What a colour target may hold, as rows of a reproducer's table kColors.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -6,7 +6,6 @@
 
 #include <string>
 
-#include "cases/base/error.hpp"
 #include "cases/model/case.hpp"
 #include "cases/model/profile.hpp"
 

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <array>
-#include <map>
 #include <vector>
 
 #include "cases/model/case.hpp"

@@ -53,8 +53,7 @@ struct Missing {
 };
 
 std::string_view first_of(std::initializer_list<Missing> features) {
-    const auto* found =
-        std::find_if(features.begin(), features.end(), [](const Missing& m) { return m.has; });
+    const auto* found = std::ranges::find_if(features, &Missing::has);
     return found == features.end() ? "" : found->name;
 }
 
@@ -65,7 +64,7 @@ bool is_finite(const glm::vec4& v) {
 std::string_view missing_of(const cases::Attribute& a) {
     const bool is_flat = a.interpolation == cases::Interpolation::flat;
     return first_of({
-        {is_flat && !std::all_of(a.values.begin(), a.values.end(), is_finite),
+        {is_flat && !std::ranges::all_of(a.values, is_finite),
          "a flat attribute that is no finite number"},
     });
 }
@@ -134,9 +133,8 @@ std::string target_text(const cases::Target& t, bool has_own_places) {
 }
 
 std::string color_text(const cases::Case& c, cases::Profile profile) {
-    const bool is_blended = std::any_of(c.draws.begin(), c.draws.end(), [&](const auto& d) {
-        return c.target.color && d.color.blend.has_value();
-    });
+    const bool is_blended = std::ranges::any_of(
+        c.draws, [&](const auto& d) { return c.target.color && d.color.blend.has_value(); });
     const cases::ColorTarget target = c.target.color.value_or(cases::ColorTarget{});
     const cases::ColorFormatRow& row = row_of(target.format);
     std::array<uint32_t, 4> clear{};
@@ -163,9 +161,8 @@ std::string color_text(const cases::Case& c, cases::Profile profile) {
 std::string_view undrawable_part(const cases::Case& c) {
     constexpr size_t kMaxDraws = 0x7fff;  // the shader packs their number into 16 bits
     const cases::Target& t = c.target;
-    const bool claims_doors =
-        std::any_of(c.relations.begin(), c.relations.end(),
-                    [](const cases::Relation& r) { return r.kind == cases::RelationKind::door; });
+    const bool claims_doors = std::ranges::any_of(
+        c.relations, [](const cases::Relation& r) { return r.kind == cases::RelationKind::door; });
     for (const cases::Draw& draw : c.draws) {
         if (const std::string_view missing = missing_of(draw); !missing.empty()) {
             return missing;

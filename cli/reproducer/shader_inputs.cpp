@@ -51,8 +51,8 @@ Inputs inputs_of(const cases::Case& c, const cases::Draw& d) {
         for (size_t k = 0; k < cases::attributes_of(c); ++k) {
             add(k);
         }
-    } else if (std::any_of(c.draws.begin(), c.draws.end(),
-                           [](const cases::Draw& draw) { return draw.color.attribute >= 0; })) {
+    } else if (std::ranges::any_of(
+                   c.draws, [](const cases::Draw& draw) { return draw.color.attribute >= 0; })) {
         // The colour alone; of a draw without such an attribute it is a constant.
         add(d.color.attribute >= 0 ? static_cast<size_t>(d.color.attribute) : d.attributes.size());
     }
@@ -88,7 +88,7 @@ std::vector<uint32_t> Inputs::fragment_code(const cases::Draw& d) const {
         }
         const bool is_change =
             change.flat || change.no_perspective || change.centroid || change.sample;
-        if (is_change && std::find(changes.begin(), changes.end(), change) == changes.end()) {
+        if (is_change && std::ranges::find(changes, change) == changes.end()) {
             changes.push_back(change);
         }
     }
@@ -123,21 +123,22 @@ std::span<const uint32_t> vertex_code(const cases::Case& c, const cases::Draw& d
     vertex.attributes = static_cast<uint32_t>(inputs_of(c, d).attributes.size());
     vertex.clip_count = d.distances.clip_count;
     vertex.cull_count = d.distances.cull_count;
-    vertex.layer = std::any_of(c.draws.begin(), c.draws.end(),
-                               [](const cases::Draw& draw) { return draw.layer > 0; });
+    vertex.layer =
+        std::ranges::any_of(c.draws, [](const cases::Draw& draw) { return draw.layer > 0; });
     return shaders::capture_vertex(vertex);
 }
 
 bool has_shaders(const cases::Case& c) {
     const auto all_have = [](const cases::Case& drawn) {
-        return std::all_of(drawn.draws.begin(), drawn.draws.end(), [&](const cases::Draw& d) {
+        return std::ranges::all_of(drawn.draws, [&](const cases::Draw& d) {
             return !vertex_code(drawn, d).empty() &&
                    !shaders::capture_fragment(variant_of(d, inputs_of(drawn, d))).empty();
         });
     };
     const std::vector<cases::Derivation> derivations = cases::derivations(c);
-    return all_have(c) && std::all_of(derivations.begin(), derivations.end(),
-                                      [&](const auto& d) { return all_have(cases::derive(c, d)); });
+    return all_have(c) && std::ranges::all_of(derivations, [&](const auto& d) {
+               return all_have(cases::derive(c, d));
+           });
 }
 
 }  // namespace cli

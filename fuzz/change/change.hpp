@@ -4,8 +4,6 @@
 // One change of a case, drawn by dice. Whether the result is a case is for the loader to say.
 #pragma once
 
-#include <array>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -27,17 +25,22 @@ Words change_geometry(Document& document, Dice& dice, const Document* other);
 
 // --- parts of changes of a state: depth bounds, gl_FragDepth, logical operations and alpha,
 // queries, stencil states, and what a blit has instead of draws ---
-Words change_bounds(Document& document, Dice& dice);
-Words change_frag_depth(Document& document, Dice& dice);
-Words change_query(Document& document, Dice& dice);
-Words change_codes(Document& document, Dice& dice);
-Words change_fragment_size(Document& document, Dice& dice);
+Words change_bounds(Document& document, Document& draw, Dice& dice);
+Words change_frag_depth(Document& document, Document& draw, Dice& dice);
+Words change_query(Document& document, Document& draw, Dice& dice);
+Words change_codes(Document& document, Document& draw, Dice& dice);
+Words change_fragment_size(Document& document, Document& draw, Dice& dice);
 Words change_stencil(Document& document, Dice& dice);
 Words change_blit(Document& document, Dice& dice);
 
 // --- what the parts share ---
 // A draw of the document, or nullptr; its words are "draw 2 ", or nothing if it is the only one.
 Document* any_draw(Document& document, Dice& dice, Words& words);
+// Changes any draw of the document; nothing if it has none.
+Words change_draw(Document& document, Dice& dice,
+                  Words (*change)(Document& document, Document& draw, Dice& dice));
+// The colour of the target or of a draw, unless it is a list of several.
+Document* color_table(Document& table);
 inline std::string_view any_of(cases::Words words, Dice& dice) {
     return words[dice.below(words.size())];
 }

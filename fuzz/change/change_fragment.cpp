@@ -65,12 +65,6 @@ bool drops(Document* table, std::string_view key, Dice& dice) {
     return table != nullptr && find(*table, key) != nullptr && dice.one_in(3) && erase(*table, key);
 }
 
-// What the draw writes, unless these are several colours.
-Document* one_color(Document& draw) {
-    Document* color = find(draw, "color");
-    return color != nullptr && color->is(Document::Kind::table) ? color : nullptr;
-}
-
 // Blending counts hits, which a logical operation switches off and alpha changes; queries are
 // judged by hits.
 void without_instruments(Document& document, Dice& dice) {
@@ -83,15 +77,10 @@ void without_instruments(Document& document, Dice& dice) {
 
 }  // namespace
 
-Words change_bounds(Document& document, Dice& dice) {
-    Words words;
-    Document* draw = any_draw(document, dice, words);
-    if (draw == nullptr) {
-        return {};
-    }
-    Document* depth = find(*draw, "depth");
+Words change_bounds(Document& document, Document& draw, Dice& dice) {
+    Document* depth = find(draw, "depth");
     if (drops(depth, "bounds", dice)) {
-        return words + "without depth bounds";
+        return "without depth bounds";
     }
     const std::vector<double> depths = depths_of(document);
     const double one = near_depth(depths, dice);
@@ -99,21 +88,17 @@ Words change_bounds(Document& document, Dice& dice) {
     const uint64_t kind = dice.below(5);
     const double other = kind == 0 ? 0 : kind == 1 ? 1 : kind == 2 ? one : near_depth(depths, dice);
     const auto [min, max] = std::minmax(one, other);
-    set(depth != nullptr ? *depth : set(*draw, "depth", table()), "bounds", numbers({min, max}));
-    return fmt::format("{}depth bounds {} to {}", words, min, max);
+    set(depth != nullptr ? *depth : set(draw, "depth", table()), "bounds", numbers({min, max}));
+    return fmt::format("depth bounds {} to {}", min, max);
 }
 
-Words change_frag_depth(Document& document, Dice& dice) {
+Words change_frag_depth(Document& document, Document& draw, Dice& dice) {
+    if (drops(&draw, "frag_depth", dice)) {
+        return "without a written depth";
+    }
     Words words;
-    Document* draw = any_draw(document, dice, words);
-    if (draw == nullptr) {
-        return {};
-    }
-    if (drops(draw, "frag_depth", dice)) {
-        return words + "without a written depth";
-    }
     Document written = table();
-    Document* depth = find(*draw, "depth");
+    Document* depth = find(draw, "depth");
     const std::vector<double> depths = depths_of(document);
     if (dice.one_in(4)) {
         set(written, "from", text("frag-coord"));
@@ -135,52 +120,43 @@ Words change_frag_depth(Document& document, Dice& dice) {
     if (dice.one_in(4)) {
         set_any(written, cases::kFragDepthKeys, "layout", dice);
     }
-    set(*draw, "frag_depth", std::move(written));
+    set(draw, "frag_depth", std::move(written));
     return words;
 }
 
-Words change_fragment_size(Document& document, Dice& dice) {
-    Words words;
-    Document* draw = any_draw(document, dice, words);
-    if (draw == nullptr) {
-        return {};
-    }
-    if (drops(draw, "fragment_size", dice)) {
-        return words + "without a fragment size";
+Words change_fragment_size(Document& /*document*/, Document& draw, Dice& dice) {
+    if (drops(&draw, "fragment_size", dice)) {
+        return "without a fragment size";
     }
     const auto width = static_cast<double>(1U << dice.below(3));
     const auto height = static_cast<double>(1U << dice.below(3));
-    set(*draw, "fragment_size", numbers({width, height}));
-    return fmt::format("{}fragments of {} x {} pixels", words, width, height);
+    set(draw, "fragment_size", numbers({width, height}));
+    return fmt::format("fragments of {} x {} pixels", width, height);
 }
 
-Words change_codes(Document& document, Dice& dice) {
+Words change_codes(Document& document, Document& draw, Dice& dice) {
     static constexpr std::array<std::string_view, 3> kKeys = {"logic", "alpha_to_one",
                                                               "alpha_to_coverage"};
-    Words words;
-    Document* draw = any_draw(document, dice, words);
-    Document* color = draw == nullptr ? nullptr : one_color(*draw);
+    Document* color = color_table(draw);
     if (color == nullptr) {
         return {};
     }
     const std::string_view key = dice.of(kKeys);
     if (drops(color, key, dice)) {
-        return fmt::format("{}without {}", words, key);
+        return fmt::format("without {}", key);
     }
-    words += set_any(*color, cases::kColorKeys, key, dice);
+    Words words = set_any(*color, cases::kColorKeys, key, dice);
     without_instruments(document, dice);
     return words;
 }
 
-Words change_query(Document& document, Dice& dice) {
-    Words words;
-    Document* draw = any_draw(document, dice, words);
+Words change_query(Document& document, Document& draw, Dice& dice) {
     Document* target = find(document, "target");
-    if (draw == nullptr || target == nullptr) {
+    if (target == nullptr) {
         return {};
     }
-    if (drops(draw, "query", dice)) {
-        return words + "without a query";
+    if (drops(&draw, "query", dice)) {
+        return "without a query";
     }
     erase(*target, "attachments");
     for_each_draw(document, [](Document& one) {
@@ -190,7 +166,7 @@ Words change_query(Document& document, Dice& dice) {
             }
         }
     });
-    return words + set_any(*draw, cases::kDrawKeys, "query", dice);
+    return set_any(draw, cases::kDrawKeys, "query", dice);
 }
 
 }  // namespace fuzz

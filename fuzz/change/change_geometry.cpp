@@ -28,43 +28,37 @@ std::string_view topology_of(const Document& draw) {
     return topology == nullptr ? "triangle-list" : std::string_view(topology->string);
 }
 
-// A draw whose vertices are told one by one, or nullptr.
-Document* any_vertices(Document& document, Dice& dice, Document*& draw, Words& words) {
-    draw = any_draw(document, dice, words);
-    Document* vertices = draw == nullptr ? nullptr : find(*draw, "vertices");
-    return vertices == nullptr || vertices->array.empty() ? nullptr : vertices;
+// Changes a draw, if its vertices are told one by one.
+template <Words (*change)(Document& draw, Document& vertices, Dice& dice)>
+Words change_vertices(Document& document, Dice& dice) {
+    return change_draw(document, dice, [](Document&, Document& draw, Dice& rolled) {
+        Document* vertices = find(draw, "vertices");
+        return vertices == nullptr || vertices->array.empty() ? Words()
+                                                              : change(draw, *vertices, rolled);
+    });
 }
 
-Words move_vertex(Document& document, Dice& dice) {
-    Words words;
-    Document* draw = nullptr;
-    Document* vertices = any_vertices(document, dice, draw, words);
-    if (vertices == nullptr) {
-        return {};
-    }
-    const size_t k = dice.below(vertices->array.size());
-    Document& vertex = vertices->array[k];
+Words move_vertex(Document& draw, Document& vertices, Dice& dice) {
+    const size_t k = dice.below(vertices.array.size());
+    Document& vertex = vertices.array[k];
     if (vertex.array.empty()) {
         return {};
     }
     // Mostly x or y.
     const size_t c = dice.one_in(4) ? dice.below(vertex.array.size()) : dice.below(2);
-    return c < vertex.array.size() && change_number(vertex.array[c], dice, is_clip(*draw))
-               ? fmt::format("{}vertex {} moved", words, k)
+    return c < vertex.array.size() && change_number(vertex.array[c], dice, is_clip(draw))
+               ? fmt::format("vertex {} moved", k)
                : Words();
 }
 
-Words move_all(Document& document, Dice& dice) {
-    Words words;
-    Document* draw = nullptr;
-    Document* vertices = any_vertices(document, dice, draw, words);
-    if (vertices == nullptr || is_clip(*draw)) {
+Words move_all(Document& draw, Document& vertices, Dice& dice) {
+    if (is_clip(draw)) {
         return {};
     }
     const double step = dice.of(kSteps);
-    const std::array<double, 2> by = {step * static_cast<double>(dice.between(-2, 2)),
-                                      step * static_cast<double>(dice.between(-2, 2))};
-    for (Document& vertex : vertices->array) {
+    const std::array<double, 2> by = {step * dice.fraction(-2, 2, 1),
+                                      step * dice.fraction(-2, 2, 1)};
+    for (Document& vertex : vertices.array) {
         for (size_t c = 0; c < 2 && c < vertex.array.size(); ++c) {
             const std::optional<double> now = value_of(vertex.array[c]);
             if (!now) {
@@ -73,27 +67,21 @@ Words move_all(Document& document, Dice& dice) {
             vertex.array[c] = number(*now + by.at(c));
         }
     }
-    return fmt::format("{}moved by {}, {}", words, by[0], by[1]);
+    return fmt::format("moved by {}, {}", by[0], by[1]);
 }
 
-Words repeat_or_swap(Document& document, Dice& dice) {
-    Words words;
-    Document* draw = nullptr;
-    Document* vertices = any_vertices(document, dice, draw, words);
-    if (vertices == nullptr) {
-        return {};
-    }
-    const size_t a = dice.below(vertices->array.size()), b = dice.below(vertices->array.size());
+Words repeat_or_swap(Document& /*draw*/, Document& vertices, Dice& dice) {
+    const size_t a = dice.below(vertices.array.size()), b = dice.below(vertices.array.size());
     if (a == b) {
         return {};
     }
     if (dice.one_in(2)) {
-        std::swap(vertices->array[a], vertices->array[b]);
-        return fmt::format("{}vertices {} and {} exchanged", words, a, b);
+        std::swap(vertices.array[a], vertices.array[b]);
+        return fmt::format("vertices {} and {} exchanged", a, b);
     }
-    Document copy = vertices->array[b];
-    vertices->array[a] = std::move(copy);
-    return fmt::format("{}vertex {} in place of {}", words, b, a);
+    Document copy = vertices.array[b];
+    vertices.array[a] = std::move(copy);
+    return fmt::format("vertex {} in place of {}", b, a);
 }
 
 // The vertex once more, with its values.
@@ -108,44 +96,32 @@ void repeat_vertex(Document& draw, Document& vertices, size_t k) {
     });
 }
 
-Words add_triangle(Document& document, Dice& dice) {
-    Words words;
-    Document* draw = nullptr;
-    Document* vertices = any_vertices(document, dice, draw, words);
-    if (vertices == nullptr) {
-        return {};
-    }
-    const size_t fresh = topology_of(*draw) == "triangle-list" ? 3 : 1;
-    Document* indices = find(*draw, "indices");
+Words add_triangle(Document& draw, Document& vertices, Dice& dice) {
+    const size_t fresh = topology_of(draw) == "triangle-list" ? 3 : 1;
+    Document* indices = find(draw, "indices");
     for (size_t n = 0; n < fresh; ++n) {
-        repeat_vertex(*draw, *vertices, dice.below(vertices->array.size()));
-        Document& vertex = vertices->array.back();
+        repeat_vertex(draw, vertices, dice.below(vertices.array.size()));
+        Document& vertex = vertices.array.back();
         for (size_t c = 0; c < 2 && c < vertex.array.size(); ++c) {
             if (const std::optional<double> now = value_of(vertex.array[c])) {
                 const double step = dice.of(kSteps);
-                const double moved = *now + step * static_cast<double>(dice.between(-6, 6));
+                const double moved = *now + step * dice.fraction(-6, 6, 1);
                 vertex.array[c] =
-                    number(is_clip(*draw) ? static_cast<double>(static_cast<float>(moved)) : moved);
+                    number(is_clip(draw) ? static_cast<double>(static_cast<float>(moved)) : moved);
             }
         }
         if (indices != nullptr) {
             indices->array.push_back(number(static_cast<double>(
-                dice.one_in(2) ? dice.below(vertices->array.size()) : vertices->array.size() - 1)));
+                dice.one_in(2) ? dice.below(vertices.array.size()) : vertices.array.size() - 1)));
         }
     }
-    return words + "one triangle more";
+    return "one triangle more";
 }
 
-Words drop_triangle(Document& document, Dice& dice) {
-    Words words;
-    Document* draw = nullptr;
-    Document* vertices = any_vertices(document, dice, draw, words);
-    if (vertices == nullptr) {
-        return {};
-    }
-    const size_t size = topology_of(*draw) == "triangle-list" ? 3 : 1;
-    Document* indices = find(*draw, "indices");
-    const size_t count = (indices != nullptr ? *indices : *vertices).array.size();
+Words drop_triangle(Document& draw, Document& vertices, Dice& dice) {
+    const size_t size = topology_of(draw) == "triangle-list" ? 3 : 1;
+    Document* indices = find(draw, "indices");
+    const size_t count = (indices != nullptr ? *indices : vertices).array.size();
     if (count < size + 3) {
         return {};
     }
@@ -159,38 +135,32 @@ Words drop_triangle(Document& document, Dice& dice) {
     if (indices != nullptr) {
         cut(*indices);
     } else {
-        cut(*vertices);
-        for_each_values(*draw, cut);
+        cut(vertices);
+        for_each_values(draw, cut);
     }
-    return fmt::format("{}without the triangle at {}", words, first);
+    return fmt::format("without the triangle at {}", first);
 }
 
-Words change_indices(Document& document, Dice& dice) {
-    Words words;
-    Document* draw = nullptr;
-    Document* vertices = any_vertices(document, dice, draw, words);
-    if (vertices == nullptr) {
-        return {};
-    }
-    Document* indices = find(*draw, "indices");
+Words change_indices(Document& draw, Document& vertices, Dice& dice) {
+    Document* indices = find(draw, "indices");
     if (indices == nullptr) {
         std::vector<double> in_turn;
-        for (size_t k = 0; k < vertices->array.size(); ++k) {
+        for (size_t k = 0; k < vertices.array.size(); ++k) {
             in_turn.push_back(static_cast<double>(k));
         }
-        set(*draw, "indices", numbers(in_turn));
-        return words + "with indices in turn";
+        set(draw, "indices", numbers(in_turn));
+        return "with indices in turn";
     }
     if (indices->array.empty()) {
         return {};
     }
     const size_t k = dice.below(indices->array.size());
-    if (topology_of(*draw) != "triangle-list" && dice.one_in(3)) {
+    if (topology_of(draw) != "triangle-list" && dice.one_in(3)) {
         indices->array.insert(indices->array.begin() + static_cast<ptrdiff_t>(k), text("restart"));
-        return fmt::format("{}restart before index {}", words, k);
+        return fmt::format("restart before index {}", k);
     }
-    indices->array[k] = number(static_cast<double>(dice.below(vertices->array.size())));
-    return fmt::format("{}index {} changed", words, k);
+    indices->array[k] = number(static_cast<double>(dice.below(vertices.array.size())));
+    return fmt::format("index {} changed", k);
 }
 
 // A scissor or a viewport that is moved, or given where the target stood for it.
@@ -226,51 +196,44 @@ Words move_window(Document& document, Dice& dice) {
             return {};
         }
         const uint64_t kind = dice.below(12);
-        side =
-            number(kind == 0                 ? *now * 2
-                   : kind == 1               ? *now + 65536
-                   : kind < 4 && !is_scissor ? *now + static_cast<double>(dice.between(-8, 8)) / 16
-                                             : *now + static_cast<double>(dice.between(-3, 3)));
+        side = number(kind == 0                 ? *now * 2
+                      : kind == 1               ? *now + 65536
+                      : kind < 4 && !is_scissor ? *now + dice.fraction(-8, 8, 16)
+                                                : *now + dice.fraction(-3, 3, 1));
     }
     return fmt::format("{}another {}", words, key);
 }
 
 // All four numbers of a position twice as large, or half: the same place.
-Words scale_vertex(Document& document, Dice& dice) {
-    Words words;
-    Document* draw = nullptr;
-    Document* vertices = any_vertices(document, dice, draw, words);
-    if (vertices == nullptr || !is_clip(*draw)) {
+Words scale_vertex(Document& draw, Document& vertices, Dice& dice) {
+    if (!is_clip(draw)) {
         return {};
     }
-    const size_t k = dice.below(vertices->array.size());
+    const size_t k = dice.below(vertices.array.size());
     const double by = dice.one_in(2) ? 2 : 0.5;
-    for (Document& number_of : vertices->array[k].array) {
+    for (Document& number_of : vertices.array[k].array) {
         const std::optional<double> now = value_of(number_of);
         if (!now) {
             return {};
         }
         number_of = number(*now * by);
     }
-    return fmt::format("{}vertex {} times {}", words, k, by);
+    return fmt::format("vertex {} times {}", k, by);
 }
 
-Words spoil_number(Document& document, Dice& dice) {
-    Words words;
-    Document* draw = nullptr;
-    Document* vertices = any_vertices(document, dice, draw, words);
-    if (vertices == nullptr || !is_clip(*draw)) {
+Words spoil_number(Document& draw, Document& vertices, Dice& dice) {
+    if (!is_clip(draw)) {
         return {};
     }
-    const size_t k = dice.below(vertices->array.size());
-    Document& vertex = vertices->array[k];
+    const size_t k = dice.below(vertices.array.size());
+    Document& vertex = vertices.array[k];
     if (vertex.array.empty()) {
         return {};
     }
     static constexpr std::array<std::string_view, 3> kBad = {"nan", "inf", "-inf"};
     const std::string_view bad = dice.of(kBad);
     vertex.array[dice.below(vertex.array.size())] = text(std::string(bad));
-    return fmt::format("{}vertex {} with {}", words, k, bad);
+    return fmt::format("vertex {} with {}", k, bad);
 }
 
 // Numbers below a value, but for vertices and what makes a target larger.
@@ -324,6 +287,14 @@ Document* any_draw(Document& document, Dice& dice, Words& words) {
     const size_t k = dice.below(draws->array.size());
     words = draws->array.size() == 1 ? "" : fmt::format("draw {} ", k);
     return &draws->array[k];
+}
+
+Words change_draw(Document& document, Dice& dice,
+                  Words (*change)(Document& document, Document& draw, Dice& dice)) {
+    Words words;
+    Document* draw = any_draw(document, dice, words);
+    const Words what = draw == nullptr ? Words() : change(document, *draw, dice);
+    return what.empty() ? what : words + what;
 }
 
 double other_number(double value, Dice& dice) {
@@ -397,25 +368,26 @@ Words change_geometry(Document& document, Dice& dice, const Document* other) {
         case 2:
         case 3:
         case 4:
-            return move_vertex(document, dice);
+            return change_vertices<move_vertex>(document, dice);
         case 5:
-            return move_all(document, dice);
+            return change_vertices<move_all>(document, dice);
         case 6:
-            return repeat_or_swap(document, dice);
+            return change_vertices<repeat_or_swap>(document, dice);
         case 7:
         case 8:
-            return add_triangle(document, dice);
+            return change_vertices<add_triangle>(document, dice);
         case 9:
-            return drop_triangle(document, dice);
+            return change_vertices<drop_triangle>(document, dice);
         case 10:
-            return change_indices(document, dice);
+            return change_vertices<change_indices>(document, dice);
         case 11:
         case 12:
             return move_window(document, dice);
         case 13:
-            return scale_vertex(document, dice);
+            return change_vertices<scale_vertex>(document, dice);
         case 14:
-            return dice.one_in(4) ? spoil_number(document, dice) : move_vertex(document, dice);
+            return dice.one_in(4) ? change_vertices<spoil_number>(document, dice)
+                                  : change_vertices<move_vertex>(document, dice);
         case 15:
         case 16:
             return change_any_number(document, dice);

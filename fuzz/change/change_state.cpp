@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <span>
 #include <vector>
 
@@ -37,12 +36,6 @@ const std::vector<Place>& places() {
         return all;
     }();
     return kAll;
-}
-
-// The colour, unless it is a list of several.
-Document* color_table(Document& table) {
-    Document* color = find(table, "color");
-    return color != nullptr && color->is(Document::Kind::table) ? color : nullptr;
 }
 
 // The table with these keys, made where it may be missing; nullptr if there is none. Its words end
@@ -100,9 +93,7 @@ Words change_key(Document& document, Dice& dice) {
         if (word == "at-sample") {
             set(*in, "sample", number(static_cast<double>(dice.below(4))));
         } else if (word == "at-offset") {
-            set(*in, "offset",
-                numbers({static_cast<double>(dice.between(-8, 7)) / 16,
-                         static_cast<double>(dice.between(-8, 7)) / 16}));
+            set(*in, "offset", numbers({dice.fraction(-8, 7, 16), dice.fraction(-8, 7, 16)}));
         } else if (word == "query-lod") {
             set(*in, "texture",
                 numbers({static_cast<double>(1U << dice.below(9)),
@@ -120,28 +111,23 @@ Words change_key(Document& document, Dice& dice) {
     return words + set_to;
 }
 
-Words change_bias(Document& document, Dice& dice) {
-    Words words;
-    Document* draw = any_draw(document, dice, words);
-    if (draw == nullptr) {
-        return {};
-    }
+Words change_bias(Document& /*document*/, Document& draw, Dice& dice) {
     Document bias = table();
     if (!dice.one_in(3)) {
-        set(bias, "constant", number(static_cast<double>(dice.between(-9, 9))));
+        set(bias, "constant", number(dice.fraction(-9, 9, 1)));
     }
     if (!dice.one_in(3)) {
-        set(bias, "slope", number(static_cast<double>(dice.between(-8, 8)) / 4));
+        set(bias, "slope", number(dice.fraction(-8, 8, 4)));
     }
     if (dice.one_in(3)) {
-        set(bias, "clamp", number(static_cast<double>(dice.between(-8, 8)) / 64));
+        set(bias, "clamp", number(dice.fraction(-8, 8, 64)));
     }
-    Document* depth = find(*draw, "depth");
+    Document* depth = find(draw, "depth");
     if (bias.table.empty()) {
-        return depth != nullptr && erase(*depth, "bias") ? words + "without depth bias" : Words();
+        return depth != nullptr && erase(*depth, "bias") ? "without depth bias" : Words();
     }
-    set(depth != nullptr ? *depth : set(*draw, "depth", table()), "bias", std::move(bias));
-    return words + "another depth bias";
+    set(depth != nullptr ? *depth : set(draw, "depth", table()), "bias", std::move(bias));
+    return "another depth bias";
 }
 
 // A key that goes, which then has its default.
@@ -177,7 +163,7 @@ Words add_color(Document& document, Dice& dice) {
         std::vector<double> value;
         for (int k = 0; k < 4; ++k) {
             value.push_back(is_integer ? static_cast<double>(dice.below(256))
-                                       : static_cast<double>(dice.between(0, 16)) / 16);
+                                       : dice.fraction(0, 16, 16));
         }
         Document& of_draw = set(draw, "color", table());
         set(of_draw, "value", numbers(value));
@@ -192,12 +178,10 @@ Words add_color(Document& document, Dice& dice) {
 }
 
 // An attribute, or a clip or cull distance, for each vertex of a draw.
-Words add_input(Document& document, Dice& dice) {
+Words add_input(Document& /*document*/, Document& draw, Dice& dice) {
     static constexpr std::array<std::string_view, 4> kKeys = {"attribute", "attribute",
                                                               "clip_distance", "cull_distance"};
-    Words words;
-    Document* draw = any_draw(document, dice, words);
-    const Document* vertices = draw == nullptr ? nullptr : find(*draw, "vertices");
+    const Document* vertices = find(draw, "vertices");
     if (vertices == nullptr) {
         return {};
     }
@@ -207,15 +191,13 @@ Words add_input(Document& document, Dice& dice) {
     const size_t components = key == "attribute" ? 1 + dice.below(4) : 1;
     if (key != "attribute" && dice.one_in(2)) {
         set(input, "half_space",
-            numbers({static_cast<double>(dice.between(-3, 3)),
-                     static_cast<double>(dice.between(-3, 3)),
-                     static_cast<double>(dice.between(-1, 1)),
-                     static_cast<double>(dice.between(-8, 8)) / 8}));
+            numbers({dice.fraction(-3, 3, 1), dice.fraction(-3, 3, 1), dice.fraction(-1, 1, 1),
+                     dice.fraction(-8, 8, 8)}));
     } else {
         for (size_t v = 0; v < vertices->array.size(); ++v) {
             std::vector<double> one;
             for (size_t c = 0; c < components; ++c) {
-                one.push_back(static_cast<double>(dice.between(-8, 24)) / 16);
+                one.push_back(dice.fraction(-8, 24, 16));
             }
             values.push_back(one.size() == 1 ? number(one[0]) : numbers(one));
         }
@@ -225,9 +207,9 @@ Words add_input(Document& document, Dice& dice) {
         set(input, "interpolation",
             text(std::string(any_of(cases::kWords<cases::Interpolation>, dice))));
     }
-    Document* inputs = find(*draw, key);
-    (inputs != nullptr ? *inputs : set(*draw, key, list({}))).array.push_back(std::move(input));
-    return fmt::format("{}one {} more", words, key);
+    Document* inputs = find(draw, key);
+    (inputs != nullptr ? *inputs : set(draw, key, list({}))).array.push_back(std::move(input));
+    return fmt::format("one {} more", key);
 }
 
 Words add_relation(Document& document, Dice& dice) {
@@ -235,9 +217,7 @@ Words add_relation(Document& document, Dice& dice) {
     Document relation = text(std::string(word));
     if (word == "scissor-tiles") {
         relation = table();
-        set(relation, word,
-            numbers({static_cast<double>(dice.between(1, 9)),
-                     static_cast<double>(dice.between(1, 9))}));
+        set(relation, word, numbers({dice.fraction(1, 9, 1), dice.fraction(1, 9, 1)}));
     }
     if (word == "doors") {
         const std::span<const cases::DoorRow> rows = cases::all_doors();
@@ -289,6 +269,11 @@ Words change_draws(Document& document, Dice& dice, const Document* other) {
 
 }  // namespace
 
+Document* color_table(Document& table) {
+    Document* color = find(table, "color");
+    return color != nullptr && color->is(Document::Kind::table) ? color : nullptr;
+}
+
 Words set_any(Document& table, const cases::KeyTable& keys, std::string_view name, Dice& dice) {
     const cases::Key* row = keys.find(name);
     if (row == nullptr) {
@@ -308,17 +293,17 @@ Words change_state(Document& document, Dice& dice, const Document* other) {
     }
     const uint64_t kind = dice.below(28);
     return kind < 12   ? change_key(document, dice)
-           : kind < 13 ? change_bias(document, dice)
+           : kind < 13 ? change_draw(document, dice, change_bias)
            : kind < 14 ? remove_key(document, dice)
            : kind < 15 ? add_color(document, dice)
-           : kind < 17 ? add_input(document, dice)
+           : kind < 17 ? change_draw(document, dice, add_input)
            : kind < 18 ? add_relation(document, dice)
            : kind < 20 ? change_draws(document, dice, other)
-           : kind < 21 ? change_bounds(document, dice)
-           : kind < 22 ? change_frag_depth(document, dice)
-           : kind < 24 ? change_codes(document, dice)
-           : kind < 25 ? change_query(document, dice)
-           : kind < 26 ? change_fragment_size(document, dice)
+           : kind < 21 ? change_draw(document, dice, change_bounds)
+           : kind < 22 ? change_draw(document, dice, change_frag_depth)
+           : kind < 24 ? change_draw(document, dice, change_codes)
+           : kind < 25 ? change_draw(document, dice, change_query)
+           : kind < 26 ? change_draw(document, dice, change_fragment_size)
                        : change_stencil(document, dice);
 }
 

@@ -7,10 +7,8 @@
 
 #include <cstdint>
 #include <memory>
-#include <string>
 #include <vector>
 
-#include "cases/load/loader.hpp"
 #include "cases/load/open_values.hpp"
 #include "fuzz/change/change.hpp"
 #include "fuzz/generate/source.hpp"

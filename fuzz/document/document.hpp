@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <string_view>
-#include <vector>
 
 #include "cases/toml/toml_text.hpp"
 #include "cases/toml/toml_tree.hpp"

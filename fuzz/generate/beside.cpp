@@ -28,7 +28,7 @@ std::string key_of(std::string_view text, std::string_view begin, char close) {
 
 std::string number_of(bool is_integer, Dice& dice) {
     return is_integer ? fmt::format("{}", dice.below(256))
-                      : fmt::format("{}", static_cast<double>(dice.between(-8, 32)) / 16);
+                      : fmt::format("{}", dice.fraction(-8, 32, 16));
 }
 
 std::string value_of(bool is_integer, Dice& dice) {

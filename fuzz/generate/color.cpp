@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string_view>
 #include <vector>
@@ -18,9 +17,9 @@ namespace fuzz {
 namespace {
 
 const cases::ColorFormatRow& row_of(const Pose& pose) {
-    const auto row =
-        std::find_if(cases::kColorFormats.begin(), cases::kColorFormats.end(),
-                     [&](const cases::ColorFormatRow& r) { return pose.is("color", r.word); });
+    const auto row = std::ranges::find_if(
+        cases::kColorFormats,
+        [&](const cases::ColorFormatRow& r) { return pose.is("color", r.word); });
     return row == cases::kColorFormats.end() ? cases::kColorFormats.front() : *row;
 }
 
@@ -65,7 +64,7 @@ std::string component(const Pose& pose, uint32_t k, Dice& dice) {
     if (kind < 2 && is_float) {
         const double sign = dice.one_in(3) ? -1 : 1;
         const auto exponent = static_cast<int>(dice.between(-12, 14));
-        const auto significand = static_cast<double>(dice.between(1, 15));
+        const auto significand = dice.fraction(1, 15, 1);
         return fmt::format("{}", sign * std::ldexp(significand, exponent));
     }
     return fmt::format(

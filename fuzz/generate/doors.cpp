@@ -82,8 +82,7 @@ std::string through_doors(std::string text, Dice dice) {
     std::vector<std::string> words;
     const auto add = [&](const cases::DoorRow& row) {
         const std::string word = fmt::format("\"{}\"", row.word);
-        if (cases::can_take(row.door, test) &&
-            std::find(words.begin(), words.end(), word) == words.end()) {
+        if (cases::can_take(row.door, test) && std::ranges::find(words, word) == words.end()) {
             words.push_back(word);
         }
     };

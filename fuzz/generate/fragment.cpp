@@ -62,7 +62,7 @@ double StoredDepths::near(Dice& dice) const {
     double depth = any(dice);
     const uint64_t kind = dice.below(4);
     if (kind == 0) {
-        depth = static_cast<double>(dice.between(0, 16)) / 16;
+        depth = dice.fraction(0, 16, 16);
     } else if (kind == 1) {
         depth = beside(depth, dice);
     }
@@ -164,8 +164,7 @@ std::string frag_depth_of(const Pose& pose, size_t number, size_t draws,
     }
     const auto depth = [&] {
         const bool is_beyond = is_clamped && dice.one_in(3);
-        const double z =
-            is_beyond ? static_cast<double>(dice.between(-4, 8)) / 4 : stored.near(dice);
+        const double z = is_beyond ? dice.fraction(-4, 8, 4) : stored.near(dice);
         return normal(static_cast<float>(std::clamp(z, low, high)));
     };
     const double value = depth();

@@ -15,8 +15,7 @@ namespace {
 
 size_t index_of(std::string_view name) {
     const std::vector<Feature>& all = features();
-    const auto at =
-        std::find_if(all.begin(), all.end(), [&](const Feature& f) { return f.name == name; });
+    const auto at = std::ranges::find(all, name, &Feature::name);
     if (at == all.end()) {
         std::abort();  // a name that this folder misspells
     }
@@ -165,7 +164,7 @@ size_t value_of(size_t feature, size_t first, Dice& dice) {
     const Feature& row = features()[feature];
     for (const Often& often : kOften) {
         if (often.feature == row.name && dice.one_in(often.times)) {
-            const auto at = std::find(row.values.begin(), row.values.end(), often.value);
+            const auto at = std::ranges::find(row.values, often.value);
             return static_cast<size_t>(at - row.values.begin());
         }
     }

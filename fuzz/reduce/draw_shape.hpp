@@ -4,7 +4,6 @@
 // The vertices of a draw and what goes with them, as its table writes them.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <vector>
 

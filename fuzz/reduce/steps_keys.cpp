@@ -4,7 +4,6 @@
 // Steps that leave out a key, which then has its default, and those that make attributes plainer.
 // Every key of every table is tried, so that keys to come are reduced too: what a case cannot do
 // without does not load, and is no step.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>

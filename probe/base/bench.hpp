@@ -12,7 +12,6 @@
 #include "capture/renderer.hpp"
 #include "cases/model/case.hpp"
 #include "probe/base/datasheet.hpp"
-#include "probe/base/vote.hpp"
 #include "ref/position/limits.hpp"
 
 namespace probe {

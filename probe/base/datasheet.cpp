@@ -7,8 +7,7 @@
 namespace probe {
 
 const Property* Datasheet::find(std::string_view id) const {
-    const auto it = std::find_if(properties.begin(), properties.end(),
-                                 [&](const auto& p) { return p.id == id; });
+    const auto it = std::ranges::find_if(properties, [&](const auto& p) { return p.id == id; });
     return it == properties.end() ? nullptr : &*it;
 }
 

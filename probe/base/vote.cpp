@@ -31,8 +31,7 @@ void Vote::add(const std::function<bool(size_t)>& explains) {
 }
 
 size_t Vote::best() const {
-    return static_cast<size_t>(std::max_element(explained_.begin(), explained_.end()) -
-                               explained_.begin());
+    return static_cast<size_t>(std::ranges::max_element(explained_) - explained_.begin());
 }
 
 void Vote::settle(Property& property, const std::function<std::string(size_t)>& label) const {

@@ -44,7 +44,7 @@ std::vector<double> gaps(int bits, int steps) {
     for (int k = 1; k <= steps; ++k) {
         out.push_back(k / 64.0);
     }
-    std::sort(out.begin(), out.end());
+    std::ranges::sort(out);
     out.erase(std::unique(out.begin(), out.end()), out.end());
     return out;
 }

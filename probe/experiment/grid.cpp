@@ -4,9 +4,7 @@
 // The subpixel grid by a vernier of coverage.
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
-#include <functional>
 
 #include "probe/base/scene.hpp"
 #include "probe/base/vote.hpp"

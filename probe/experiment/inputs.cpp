@@ -24,17 +24,11 @@ Scene make_scene(const std::string& id, bool is_projected, uint32_t seed) {
     Scene scene(id, kSide, kSide);
     Dice dice(seed);
     for (uint32_t cell = 0; cell < kAcross * kAcross; ++cell) {
-        std::array<Corner, 3> c;
-        Points p;
-        do {
-            for (size_t k = 0; k < 3; ++k) {
-                c[k] = {(cell % kAcross) * kCell + dice.real(0, kCell),
-                        (cell / kAcross) * kCell + dice.real(0, kCell), dice.real(0, 1),
-                        is_projected ? dice.real(1, 8) : 1};
-                p[k] = {c[k].x, c[k].y};
-            }
-        } while (std::fabs(doubled_area(p)) < 32);
-        scene.add(c[0], c[1], c[2]);
+        add_triangle(scene, 32, [&](size_t) {
+            return Corner{(cell % kAcross) * kCell + dice.real(0, kCell),
+                          (cell / kAcross) * kCell + dice.real(0, kCell), dice.real(0, 1),
+                          is_projected ? dice.real(1, 8) : 1};
+        });
     }
     return scene;
 }

@@ -55,19 +55,13 @@ Scene make_scene(const std::string& id) {
     Scene scene(id, kSide, kSide);
     Dice dice(59);
     for (uint32_t cell = 0; cell < kAcross * kAcross; ++cell) {
-        std::array<Corner, 3> c;
-        Points p;
-        do {
-            for (size_t k = 0; k < 3; ++k) {
-                // Powers of two as w leave positions exact.
-                c[k] = {
-                    (cell % kAcross) * kCell + static_cast<double>(dice.whole(0, 16 * kCell)) / 16,
-                    (cell / kAcross) * kCell + static_cast<double>(dice.whole(0, 16 * kCell)) / 16,
-                    dice.real(0, 1), std::ldexp(1.0, static_cast<int>(dice.whole(0, 3)))};
-                p[k] = {c[k].x, c[k].y};
-            }
-        } while (std::fabs(doubled_area(p)) < 256);
-        scene.add(c[0], c[1], c[2]);
+        add_triangle(scene, 256, [&](size_t) {
+            // Powers of two as w leave positions exact.
+            return Corner{
+                (cell % kAcross) * kCell + static_cast<double>(dice.whole(0, 16 * kCell)) / 16,
+                (cell / kAcross) * kCell + static_cast<double>(dice.whole(0, 16 * kCell)) / 16,
+                dice.real(0, 1), std::ldexp(1.0, static_cast<int>(dice.whole(0, 3)))};
+        });
     }
     return scene;
 }
@@ -129,7 +123,7 @@ void settle(Property& property, Errors errors) {
         property.why = "no fragment has such a number";
         return;
     }
-    std::sort(all.begin(), all.end());
+    std::ranges::sort(all);
     double sum = 0;
     double squares = 0;
     for (const double e : all) {

@@ -33,6 +33,14 @@ double off_grid(Dice& dice, int bits, double low, double high) {
     return base + off * unit;
 }
 
+// A corner off the grid in one of the squares, with z of 1/2 and w of 1.
+Corner corner_in(uint32_t cell, const Grid& grid, Dice& dice) {
+    const double left = (cell % kAcross) * kCell;
+    const double top = (cell / kAcross) * kCell;
+    return {off_grid(dice, grid.x.bits, left + 1, left + kCell - 1),
+            off_grid(dice, grid.y.bits, top + 1, top + kCell - 1)};
+}
+
 // One triangle as it was handed over.
 struct Given {
     Points at;
@@ -48,19 +56,12 @@ Sheet make_sheet(const Grid& grid) {
     Sheet sheet{Scene("setup", kSide, kSide), {}};
     Dice dice(41);
     for (uint32_t cell = 0; cell < kAcross * kAcross; ++cell) {
-        std::array<Corner, 3> c;
-        Points p;
-        do {
-            for (size_t k = 0; k < 3; ++k) {
-                const double left = (cell % kAcross) * kCell;
-                const double top = (cell / kAcross) * kCell;
-                c[k] = {off_grid(dice, grid.x.bits, left + 1, left + kCell - 1),
-                        off_grid(dice, grid.y.bits, top + 1, top + kCell - 1), dice.real(0, 1),
-                        dice.real(1, 4)};
-                p[k] = {c[k].x, c[k].y};
-            }
-        } while (std::fabs(doubled_area(p)) < 32);
-        sheet.scene.add(c[0], c[1], c[2]);
+        add_triangle(sheet.scene, 32, [&](size_t) {
+            Corner c = corner_in(cell, grid, dice);
+            c.z = dice.real(0, 1);
+            c.w = dice.real(1, 4);
+            return c;
+        });
     }
     cases::Attribute smooth;
     smooth.name = "smooth";
@@ -183,19 +184,11 @@ void measure_clipped(const Bench& bench, const Grid& grid) {
     std::vector<Given> given;
     std::vector<Points> pieces;
     for (uint32_t cell = 0; cell < kAcross * kAcross; ++cell) {
-        std::array<Corner, 3> c;
-        Points p;
-        do {
-            for (size_t k = 0; k < 3; ++k) {
-                const double left = (cell % kAcross) * kCell;
-                const double top = (cell / kAcross) * kCell;
-                c[k] = {off_grid(dice, grid.x.bits, left + 1, left + kCell - 1),
-                        off_grid(dice, grid.y.bits, top + 1, top + kCell - 1),
-                        k == 0 ? 0.75 : -0.25, 1};
-                p[k] = {c[k].x, c[k].y};
-            }
-        } while (std::fabs(doubled_area(p)) < 64);
-        scene.add(c[0], c[1], c[2]);
+        add_triangle(scene, 64, [&](size_t k) {
+            Corner c = corner_in(cell, grid, dice);
+            c.z = k == 0 ? 0.75 : -0.25;
+            return c;
+        });
         Given g;
         for (size_t k = 0; k < 3; ++k) {
             g.at[k] = in_framebuffer(scene.draw().positions[3 * cell + k], scene.draw().viewport);

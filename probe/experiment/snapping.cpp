@@ -53,7 +53,7 @@ Grid grid_of(const Datasheet& sheet, int promised_bits) {
         const std::string axis = is_y ? "y" : "x";
         const std::string_view bits = sheet.answer("grid.bits." + axis);
         const std::string_view rounding = sheet.answer("grid.rounding." + axis);
-        const auto* const name = std::find(kRoundingNames.begin(), kRoundingNames.end(), rounding);
+        const auto* const name = std::ranges::find(kRoundingNames, rounding);
         grid.is_known = grid.is_known && bits != kCannotTell && name != kRoundingNames.end();
         if (bits != kCannotTell) {
             std::from_chars(bits.data(), bits.data() + bits.size(), snapping.bits);

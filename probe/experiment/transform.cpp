@@ -213,9 +213,8 @@ void measure_transform(const Bench& bench) {
             const int64_t b = snapped(grid.y, edges[row].across_b);
             const auto explains = [&](size_t way) {
                 const std::vector<int64_t>& at = vertices[row].at.at(way);
-                return std::any_of(at.begin(), at.end(), [&](int64_t a) {
-                    return counts_of(edges[row], a, b).has(count);
-                });
+                return std::ranges::any_of(
+                    at, [&](int64_t a) { return counts_of(edges[row], a, b).has(count); });
             };
             for (size_t g = 0; g < groups.size(); ++g) {
                 votes.at(g).add([&](size_t k) { return explains(groups.at(g).at(k)); });

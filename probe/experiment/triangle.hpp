@@ -7,7 +7,6 @@
 
 #include <array>
 #include <cmath>
-#include <vector>
 
 #include "probe/base/scene.hpp"
 #include "probe/experiment/snapping.hpp"
@@ -21,6 +20,16 @@ using Points = std::array<Point, 3>;
 
 inline double doubled_area(const Points& p) {
     return (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[2].x - p[0].x) * (p[1].y - p[0].y);
+}
+// Adds a triangle of corners that are made anew until twice its area is at least this large.
+template <class MakeCorner>
+void add_triangle(Scene& scene, double doubled, MakeCorner corner) {
+    std::array<Corner, 3> c;
+    do {
+        c = {corner(0), corner(1), corner(2)};
+    } while (std::fabs(doubled_area({{{c[0].x, c[0].y}, {c[1].x, c[1].y}, {c[2].x, c[2].y}}})) <
+             doubled);
+    scene.add(c[0], c[1], c[2]);
 }
 // The barycentric coordinates of a point [Vulkan, "Basic Polygon Rasterization"].
 inline std::array<double, 3> barycentrics(const Points& p, const Point& at) {

@@ -52,9 +52,9 @@ std::string comparison_text(const Datasheet& a, const Datasheet& b, const std::s
     for (const Difference& d : all) {
         out += fmt::format("\n  {}  [{}]\n    A: {}\n    B: {}\n", d.question, d.id, d.a, d.b);
     }
-    const size_t same = a.properties.size() - static_cast<size_t>(std::count_if(
-                                                  all.begin(), all.end(),
-                                                  [](const auto& d) { return d.a != kNotAsked; }));
+    const size_t same =
+        a.properties.size() - static_cast<size_t>(std::ranges::count_if(
+                                  all, [](const auto& d) { return d.a != kNotAsked; }));
     out += fmt::format("\n{} other answers, {} the same\n",
                        all.empty() ? "no" : std::to_string(all.size()),
                        cases::counted(same, "answer"));

@@ -74,7 +74,7 @@ Property property_of(const Json& json) {
     if (json.contains("picture")) {
         const Json& picture = json.at("picture");
         const auto* const kind =
-            std::find(kPictures.begin(), kPictures.end(), picture.at("kind").get<std::string>());
+            std::ranges::find(kPictures, picture.at("kind").get<std::string>());
         p.picture.kind = kind == kPictures.end()
                              ? PictureKind::none
                              : static_cast<PictureKind>(kind - kPictures.begin());

@@ -69,8 +69,7 @@ std::string curve(const Picture& p, bool has_steps) {
         return {};
     }
     auto points = p.points;
-    std::stable_sort(points.begin(), points.end(),
-                     [](const auto& a, const auto& b) { return a[0] < b[0]; });
+    std::ranges::stable_sort(points, [](const auto& a, const auto& b) { return a[0] < b[0]; });
     double low_x = points.front()[0];
     double high_x = points.back()[0];
     double low_y = points.front()[1];

@@ -23,8 +23,7 @@ std::string figures_text(const Property& p) {
 }
 
 std::string how_many_are_known(const Datasheet& sheet) {
-    const auto known = std::count_if(sheet.properties.begin(), sheet.properties.end(),
-                                     [](const Property& p) { return p.is_known(); });
+    const auto known = std::ranges::count_if(sheet.properties, &Property::is_known);
     return fmt::format("{} of {} properties could be told", known, sheet.properties.size());
 }
 

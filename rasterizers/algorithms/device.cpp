@@ -3,7 +3,6 @@
 #include "rasterizers/algorithms/device.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "rasterizers/algorithms/block_integers.hpp"
@@ -146,8 +145,7 @@ std::span<const Device> all_devices() {
 
 const Device* find_device(std::string_view name) {
     const std::span<const Device> all = all_devices();
-    const auto found = std::find_if(all.begin(), all.end(),
-                                    [name](const Device& device) { return device.name == name; });
+    const auto found = std::ranges::find(all, name, &Device::name);
     return found == all.end() ? nullptr : &*found;
 }
 
@@ -181,7 +179,7 @@ std::string unsupported_reason(const cases::Case& c) {
         if (d.discard != cases::Discard::none || d.early_tests || d.frag_depth) {
             return "the algorithms have no shaders that discard fragments or write their depth";
         }
-        if (!std::all_of(d.attributes.begin(), d.attributes.end(), is_plain)) {
+        if (!std::ranges::all_of(d.attributes, is_plain)) {
             return "the algorithms interpolate plain vertex attributes only";
         }
     }

@@ -80,7 +80,7 @@ void fill(const Corners& left_edge_first, int64_t y_begin, int64_t y_end,
 void scan_flat_parts(const Corners& triangle, const PixelRect& rect, const SubpixelPoint& offset,
                      Picture& out) {
     Corners t = triangle;
-    std::sort(t.begin(), t.end(), [](const SubpixelPoint& a, const SubpixelPoint& b) {
+    std::ranges::sort(t, [](const SubpixelPoint& a, const SubpixelPoint& b) {
         return std::pair(a.y, a.x) < std::pair(b.y, b.x);
     });
     const SubpixelPoint& top = t[0];

@@ -31,7 +31,7 @@ void move_planes(Rendered& rendered, const capture::PlaneStore& store, size_t sl
     capture::for_each_plane(
         [&to](const capture::Plane&, auto& plane) {
             const auto bytes = std::as_bytes(std::span(plane));
-            to = std::copy(bytes.begin(), bytes.end(), to);
+            to = std::ranges::copy(bytes, to).out;
             plane.clear();
         },
         c, c);

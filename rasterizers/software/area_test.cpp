@@ -54,8 +54,7 @@ PixelRect AreaTest::within(const PixelRect& rect) const {
 }
 
 bool AreaTest::covers_sample(int64_t x, int64_t y) const {
-    return std::all_of(edges_.begin(), edges_.end(),
-                       [&](const Edge& e) { return e.at(x, y) >= 0; });
+    return std::ranges::all_of(edges_, [&](const Edge& e) { return e.at(x, y) >= 0; });
 }
 
 bool AreaTest::covers_pixel(int64_t i, int64_t j, std::span<const SampleOffset> samples) const {
@@ -69,8 +68,8 @@ bool AreaTest::covers_pixel(int64_t i, int64_t j, std::span<const SampleOffset> 
         const auto is_covered = [&](const SampleOffset& s) {
             return covers_sample(x + s.x, y + s.y);
         };
-        return fills_ ? std::all_of(samples.begin(), samples.end(), is_covered)
-                      : std::any_of(samples.begin(), samples.end(), is_covered);
+        return fills_ ? std::ranges::all_of(samples, is_covered)
+                      : std::ranges::any_of(samples, is_covered);
     }
     if (!fills_ && !device_.mitres_corners && !meets_box(x, y)) {
         return false;
@@ -78,7 +77,7 @@ bool AreaTest::covers_pixel(int64_t i, int64_t j, std::span<const SampleOffset> 
     if (fills_ && fault == "underestimate-two-corners"_fault) {
         return is_inside(x, y) && is_inside(x + pixel_, y + pixel_);
     }
-    return std::all_of(edges_.begin(), edges_.end(), [&](const Edge& e) {
+    return std::ranges::all_of(edges_, [&](const Edge& e) {
         // The corner that lies farthest inside, or outside.
         const bool is_right = (e.a > 0) != fills_;
         const bool is_lower = (e.b > 0) != fills_;

@@ -36,8 +36,7 @@ class AreaTest {
     static Enlargement enlargement(const cases::Draw& draw, const Device& device);
     bool counts(int64_t value) const { return device_.counts_borders ? value >= 0 : value > 0; }
     bool is_inside(int64_t x, int64_t y) const {
-        return std::all_of(edges_.begin(), edges_.end(),
-                           [&](const Edge& e) { return counts(e.at(x, y)); });
+        return std::ranges::all_of(edges_, [&](const Edge& e) { return counts(e.at(x, y)); });
     }
     bool meets_box(int64_t x, int64_t y) const {
         return counts(x + pixel_ + by_.box - x0_) && counts(x1_ - x + by_.box) &&

@@ -132,7 +132,7 @@ std::vector<Primitive> assemble_primitives(const cases::Draw& draw, Fault fault)
         }
     }
     if (fault == "primitives-reversed"_fault) {
-        std::reverse(primitives.begin(), primitives.end());
+        std::ranges::reverse(primitives);
     }
     return primitives;
 }

@@ -149,10 +149,9 @@ ClippedPolygon clip_triangle(const std::array<ClipVertex, 3>& triangle, const ca
     for (const Plane& plane : planes_of(draw, device)) {
         const auto is_beyond = [&](const ClipVertex& v) { return distance(plane, v) < 0; };
         if (!plane.is_user && plane.coordinate == 2 && device.tests_depth &&
-            std::all_of(triangle.begin(), triangle.end(),
-                        [](const ClipVertex& v) { return v.position.w > 0; }) &&
-            !std::all_of(triangle.begin(), triangle.end(), is_beyond)) {
-            const bool is_cut = std::any_of(triangle.begin(), triangle.end(), is_beyond);
+            std::ranges::all_of(triangle, [](const ClipVertex& v) { return v.position.w > 0; }) &&
+            !std::ranges::all_of(triangle, is_beyond)) {
+            const bool is_cut = std::ranges::any_of(triangle, is_beyond);
             polygon.tests_depth = polygon.tests_depth || is_cut;
             continue;
         }

@@ -429,9 +429,7 @@ void DrawCommand::cover_degenerate(const Primitive& primitive,
         ++culled_;
         return;
     }
-    const auto provoking = std::find_if(polygon.begin(), polygon.end(), [&](const WindowVertex& v) {
-        return v.source == primitive.provoking;
-    });
+    const auto provoking = std::ranges::find(polygon, primitive.provoking, &WindowVertex::source);
     const WindowVertex& v = provoking == polygon.end() ? polygon.front() : *provoking;
     std::array<WindowVertex, 3> level{v, v, v};
     level[1].x += 1.0F;  // planes need an area

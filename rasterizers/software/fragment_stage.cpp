@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "rasterizers/software/depth.hpp"
-#include "rasterizers/software/snapping.hpp"
 #include "rasterizers/software/target/neighbour.hpp"
 
 namespace software {
@@ -77,10 +76,7 @@ bool FragmentStage::is_depth_clipped(const Facet& facet, const TrianglePlanes& p
 }
 
 // With the fault that the scissor is tested by the sample, half a pixel too early.
-bool FragmentStage::is_before_scissor(int64_t i, int64_t j, uint32_t s) const {
-    const double unit = std::ldexp(1.0, -device_.subpixel_bits);
-    const double x = static_cast<double>(i) + static_cast<double>(samples_[s].x) * unit;
-    const double y = static_cast<double>(j) + static_cast<double>(samples_[s].y) * unit;
+bool FragmentStage::is_before_scissor(double x, double y) const {
     return x < draw_.scissor.x - 0.5 || y < draw_.scissor.y - 0.5;
 }
 
@@ -98,7 +94,7 @@ void FragmentStage::cover(const Facet& facet, const TrianglePlanes& planes, int6
     if (!is_seen(facet, planes, x, y) || is_distance_clipped(planes, i, j, s)) {
         return;
     }
-    if (device_.fault == "scissor-half-early"_fault && is_before_scissor(i, j, s)) {
+    if (device_.fault == "scissor-half-early"_fault && is_before_scissor(x, y)) {
         return;
     }
     if (draw_.fragment_size[0] > 1 || draw_.fragment_size[1] > 1) {

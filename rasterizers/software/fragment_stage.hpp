@@ -50,7 +50,7 @@ class FragmentStage {
     bool inside_viewport(double x, double y) const;
     bool is_distance_clipped(const TrianglePlanes& planes, int64_t i, int64_t j, uint32_t s) const;
     bool is_depth_clipped(const Facet& facet, const TrianglePlanes& planes, float x, float y) const;
-    bool is_before_scissor(int64_t i, int64_t j, uint32_t s) const;
+    bool is_before_scissor(double x, double y) const;
     void shade(Fragment fragment);
     void shade_in_layer(Fragment at);
     float plane_depth(const Fragment& at) const;

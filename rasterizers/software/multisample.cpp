@@ -14,7 +14,7 @@ bool is_per_sample(const cases::Draw& draw, const Device& device) {
         return false;
     }
     return draw.multisample.min_sample_shading.has_value() ||
-           std::any_of(draw.attributes.begin(), draw.attributes.end(), [](const auto& a) {
+           std::ranges::any_of(draw.attributes, [](const auto& a) {
                return a.source == cases::Source::sample_id ||
                       a.source == cases::Source::sample_position;
            });

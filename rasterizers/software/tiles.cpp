@@ -251,7 +251,7 @@ void scan(const ScanTriangle& triangle, const PixelRect& rect,
             return covers_binary32(edges[0], fx, fy) && covers_binary32(edges[1], fx, fy) &&
                    covers_binary32(edges[2], fx, fy);
         }
-        return std::all_of(edges.begin(), edges.end(), [&](const Edge& e) {
+        return std::ranges::all_of(edges, [&](const Edge& e) {
             const int64_t value = arithmetic.wrap(e.a * x + e.b * y + e.c);
             return (device.fault == "edge-truncated"_fault ? value / pixel : value) >= 0;
         });
@@ -260,7 +260,7 @@ void scan(const ScanTriangle& triangle, const PixelRect& rect,
     // Tiles lie on a grid of the target, not of the bounding box. kTile is a power of two.
     for (int64_t ty = box.y0 & -kTile; ty < box.y1; ty += kTile) {
         for (int64_t tx = box.x0 & -kTile; tx < box.x1; tx += kTile) {
-            const bool rejected = std::any_of(edges.begin(), edges.end(), [&](const Edge& e) {
+            const bool rejected = std::ranges::any_of(edges, [&](const Edge& e) {
                 return rejects(e, tx, ty, pixel, arithmetic, device.fault);
             });
             if (rejected && !everything && !binary32) {

@@ -13,8 +13,7 @@ namespace software {
 // Turned so that the provoking vertex is the first, or the last.
 size_t VertexStage::barycentric_of(const Primitive& primitive, size_t k) const {
     const auto provoking = static_cast<size_t>(
-        std::find(primitive.vertex.begin(), primitive.vertex.end(), primitive.provoking) -
-        primitive.vertex.begin());
+        std::ranges::find(primitive.vertex, primitive.provoking) - primitive.vertex.begin());
     size_t turn = draw_.provoking == cases::ProvokingVertex::last ? 2 : 3;
     turn += device_.fault == "barycentric-rotated"_fault ? 1 : 0;
     const bool keeps_order =
@@ -178,8 +177,8 @@ bool VertexStage::is_distance_culled(const Primitive& primitive) const {
     }
     bool is_culled = false;
     for (uint32_t k = 0; k < d.cull_count; ++k) {
-        const auto count = std::count_if(primitive.vertex.begin(), primitive.vertex.end(),
-                                         [&](uint32_t v) { return is_out(v, k); });
+        const auto count =
+            std::ranges::count_if(primitive.vertex, [&](uint32_t v) { return is_out(v, k); });
         switch (device_.fault) {
             case "cull-distance-any"_fault:
                 is_culled = is_culled || count > 0;

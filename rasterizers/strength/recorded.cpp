@@ -186,8 +186,8 @@ std::string legal_text(const Matrix& matrix) {
 
 std::vector<Kill> kills_of(const Matrix& matrix, Fault fault) {
     std::vector<Kill> out;
-    std::copy_if(matrix.kills.begin(), matrix.kills.end(), std::back_inserter(out),
-                 [&](const Kill& kill) { return kill.fault == fault; });
+    std::ranges::copy_if(matrix.kills, std::back_inserter(out),
+                         [&](const Kill& kill) { return kill.fault == fault; });
     return out;
 }
 

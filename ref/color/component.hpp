@@ -17,7 +17,6 @@
 #include <gmpxx.h>
 
 #include <cstdint>
-#include <optional>
 #include <string>
 
 #include "cases/format/color_format.hpp"

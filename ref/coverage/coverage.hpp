@@ -12,8 +12,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
-#include <vector>
 
 #include "cases/model/case.hpp"
 #include "cases/model/profile.hpp"

@@ -31,7 +31,6 @@
 #include "ref/coverage/distance_planes.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "ref/number/plane_budget.hpp"
 #include "ref/number/rational.hpp"

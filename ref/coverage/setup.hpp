@@ -19,7 +19,6 @@
 
 #include "cases/model/case.hpp"
 #include "cases/model/profile.hpp"
-#include "cases/model/sample.hpp"
 #include "cases/model/triangle.hpp"
 #include "ref/coverage/coverage.hpp"
 #include "ref/coverage/pixel_area.hpp"

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "cases/model/case.hpp"
-#include "cases/model/profile.hpp"
 #include "cases/model/triangle.hpp"
 #include "ref/coverage/triangle_setups.hpp"
 #include "ref/exercise/shown.hpp"

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "cases/fault/change.hpp"
-#include "cases/model/rule.hpp"
 #include "ref/blit/blit.hpp"
 #include "ref/exercise/exercise_table.hpp"
 #include "ref/expectation/expectation.hpp"

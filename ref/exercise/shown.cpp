@@ -3,7 +3,6 @@
 #include "ref/exercise/shown.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "cases/base/float_bits.hpp"
 #include "cases/format/color_format.hpp"

@@ -8,7 +8,6 @@
 
 #include <gmpxx.h>
 
-#include <cstdint>
 #include <span>
 
 #include "ref/number/fixed_point.hpp"

@@ -10,7 +10,6 @@
 #include <array>
 #include <glm/vec4.hpp>
 #include <optional>
-#include <vector>
 
 #include "cases/model/case.hpp"
 #include "cases/model/profile.hpp"

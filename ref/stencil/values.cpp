@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace ref::stencil {
 
 uint32_t least_of(const Values& values) {

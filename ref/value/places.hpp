@@ -16,7 +16,6 @@
 // pixels within").
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "cases/model/case.hpp"

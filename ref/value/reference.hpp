@@ -11,8 +11,6 @@
 // (exact_budget_factor), is accepted.
 #pragma once
 
-#include <gmpxx.h>
-
 #include <array>
 #include <cstdint>
 #include <functional>

@@ -28,7 +28,7 @@ std::optional<int> severity(const CaseRecord* record) {
     }
     constexpr std::array kOrder = {Status::pass,        Status::flake,   Status::fail,
                                    Status::device_lost, Status::timeout, Status::crash};
-    const auto at = std::find(kOrder.begin(), kOrder.end(), actual_status(*record));
+    const auto at = std::ranges::find(kOrder, actual_status(*record));
     return at == kOrder.end() ? std::nullopt : std::optional(static_cast<int>(at - kOrder.begin()));
 }
 
@@ -49,11 +49,11 @@ bool is_gone(const CaseRecord* record) {
 std::vector<std::string> news_of(const CaseRecord& a, const CaseRecord& b) {
     std::vector<std::string> news;
     for (const diff::FindingGroup& g : b.outcome.groups) {
-        const auto same = std::find_if(a.outcome.groups.begin(), a.outcome.groups.end(),
-                                       [&](const diff::FindingGroup& other) {
-                                           return g.kind == other.kind && g.rule == other.rule &&
-                                                  g.level == other.level && g.door == other.door;
-                                       });
+        const auto same =
+            std::ranges::find_if(a.outcome.groups, [&](const diff::FindingGroup& other) {
+                return g.kind == other.kind && g.rule == other.rule && g.level == other.level &&
+                       g.door == other.door;
+            });
         const uint64_t before = same == a.outcome.groups.end() ? 0 : same->count;
         if (g.count > before) {
             news.push_back(fmt::format("{} {} of {} [{}]{}", g.count, diff::to_string(g.kind),
@@ -301,21 +301,20 @@ cases::Expected<Comparison> compare_runs(const std::vector<NamedRun>& runs, Stri
     }();
     if (const auto at = index.find(cases::kLimitsCase); at != index.end()) {
         auto& records = result.cases[at->second].records;
-        std::replace(records.begin(), records.end(), static_cast<const CaseRecord*>(nullptr),
-                     &kRightLimits);
+        std::ranges::replace(records, static_cast<const CaseRecord*>(nullptr), &kRightLimits);
     }
     for (ComparedCase& c : result.cases) {
         c.other = run_with_other_case(c.records, runs);
     }
     if (strictness.common) {
         std::erase_if(result.cases, [](const ComparedCase& c) {
-            return c.other != 0 || std::any_of(c.records.begin(), c.records.end(), is_lacking);
+            return c.other != 0 || std::ranges::any_of(c.records, is_lacking);
         });
     }
     for (ComparedCase& c : result.cases) {
         c.change = change_of(c);
         c.detail = detail_of(c, result.letters);
-        std::replace(c.detail.begin(), c.detail.end(), '\n', ' ');
+        std::ranges::replace(c.detail, '\n', ' ');
         ++result.counts.at(static_cast<size_t>(c.change));
     }
     return result;

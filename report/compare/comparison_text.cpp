@@ -10,7 +10,6 @@
 #include "cases/base/printable.hpp"
 #include "report/compare/comparison.hpp"
 #include "report/journal/json_codec.hpp"
-#include "report/text/sentences.hpp"
 #include "report/text/wrap.hpp"
 
 namespace report {
@@ -24,7 +23,7 @@ constexpr uint32_t kMaxSide = 64;  // characters and lines of a picture
 
 std::string status_word(const CaseRecord* record) {
     std::string word(record == nullptr ? "-" : to_string(actual_status(*record)));
-    std::replace(word.begin(), word.end(), '_', ' ');
+    std::ranges::replace(word, '_', ' ');
     return word;
 }
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/files/json.hpp"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 

@@ -17,7 +17,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -34,8 +33,7 @@ namespace {
 
 constexpr int kFormat = 1;
 
-tl::unexpected<cases::Error> failure(std::string message, std::string file = {},
-                                     uint32_t line = 0) {
+tl::unexpected<cases::Error> failure_in(std::string file, std::string message, uint32_t line = 0) {
     return tl::unexpected(
         cases::Error{{std::move(file), line, line > 0 ? 1U : 0U}, std::move(message)});
 }
@@ -102,35 +100,31 @@ cases::Expected<Journal> Journal::open(const std::filesystem::path& dir, bool ap
     if (fd < 0) {
         const int error = errno;
         if (error == ELOOP) {
-            return failure(
-                fmt::format("{} is a link; remove it, or choose another directory with "
-                            "-o",
-                            file));
+            return cases::failure("{} is a link; remove it, or choose another directory with -o",
+                                  file);
         }
         if (append && error == ENOENT) {
-            return failure(
-                fmt::format("{} does not exist, so there is no run to go on with", file));
+            return cases::failure("{} does not exist, so there is no run to go on with", file);
         }
-        return failure(
-            fmt::format("cannot open {}: {}{}", file, std::strerror(error), advice(error)));
+        return cases::failure("cannot open {}: {}{}", file, std::strerror(error), advice(error));
     }
     Journal journal(fd);
     journal.file_ = file;
     // Held until the journal is closed or its process ends. A file system without locks has none.
     if (::flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-        return failure(
-            fmt::format("another run is writing {}; wait for its end, or choose another "
-                        "directory with -o",
-                        file));
+        return cases::failure(
+            "another run is writing {}; wait for its end, or choose another "
+            "directory with -o",
+            file);
     }
     if (!append && ::ftruncate(fd, 0) != 0) {
-        return failure(fmt::format("cannot empty {}: {}", file, std::strerror(errno)));
+        return cases::failure("cannot empty {}: {}", file, std::strerror(errno));
     }
     if (append && !drop_torn_line(fd)) {
-        return failure(
-            fmt::format("cannot go on with {}: it is no ordinary file, or its torn last "
-                        "line cannot be cut off",
-                        file));
+        return cases::failure(
+            "cannot go on with {}: it is no ordinary file, or its torn last "
+            "line cannot be cut off",
+            file);
     }
     return journal;
 }
@@ -152,7 +146,7 @@ bool put_aside_journal(const std::filesystem::path& dir) {
 
 cases::Expected<void> Journal::write_line(const std::string& line) {
     if (fd_ < 0) {
-        return failure("the journal was moved away and cannot be written to");
+        return cases::failure("the journal was moved away and cannot be written to");
     }
     size_t done = 0;
     while (done < line.size()) {
@@ -165,8 +159,8 @@ cases::Expected<void> Journal::write_line(const std::string& line) {
             if (done > 0) {
                 drop_torn_line(fd_);  // so that a later record begins a line
             }
-            return failure(
-                fmt::format("cannot write {}: {}{}", file_, std::strerror(error), advice(error)));
+            return cases::failure("cannot write {}: {}{}", file_, std::strerror(error),
+                                  advice(error));
         }
         done += static_cast<size_t>(count);
     }
@@ -368,16 +362,16 @@ cases::Expected<Run> load(const std::filesystem::path& dir, std::vector<std::str
     const std::string file = (dir / "journal.jsonl").string();
     const cases::Expected<std::filesystem::path> place = cases::place_inside(dir, file);
     if (!place) {
-        return failure(fmt::format("cannot read {}: {}; name the directory of a run", file,
-                                   place.error().message));
+        return cases::failure("cannot read {}: {}; name the directory of a run", file,
+                              place.error().message);
     }
     if (!std::filesystem::is_regular_file(*place)) {  // opening a pipe waits for its writer
-        return failure(fmt::format("cannot read {}: it is no ordinary file", file));
+        return cases::failure("cannot read {}: it is no ordinary file", file);
     }
     std::ifstream stream(*place, std::ios::binary);
     if (!stream) {
-        return failure(fmt::format("cannot read {}: {}; name the directory of a run", file,
-                                   std::strerror(errno)));
+        return cases::failure("cannot read {}: {}; name the directory of a run", file,
+                              std::strerror(errno));
     }
     Rebuilder rebuilder(detailed_bytes);
     uint32_t number = 0;
@@ -390,10 +384,11 @@ cases::Expected<Run> load(const std::filesystem::path& dir, std::vector<std::str
             }
         } catch (const Json::exception&) {  // as if it were none
         } catch (const std::exception& e) {
-            return failure(std::string(e.what()) + "; the journal was changed or damaged", file,
-                           number);
+            return failure_in(file, std::string(e.what()) + "; the journal was changed or damaged",
+                              number);
         }
-        return failure("this line is not JSON; the journal was changed or damaged", file, number);
+        return failure_in(file, "this line is not JSON; the journal was changed or damaged",
+                          number);
     };
     for (std::vector<Line> lines = read_lines(stream); !lines.empty(); lines = read_lines(stream)) {
         for (Line& line : lines) {
@@ -403,10 +398,10 @@ cases::Expected<Run> load(const std::filesystem::path& dir, std::vector<std::str
         }
     }
     if (stream.bad()) {
-        return failure(fmt::format("cannot read {}: {}", file, std::strerror(errno)));
+        return cases::failure("cannot read {}: {}", file, std::strerror(errno));
     }
     if (!rebuilder.begun()) {
-        return failure("the journal ends before its first record; start the run again", file);
+        return failure_in(file, "the journal ends before its first record; start the run again");
     }
     return rebuilder.take(in_flight);
 }

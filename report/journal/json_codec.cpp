@@ -201,7 +201,7 @@ void decode(const Json& json, const char* /*key*/, Shape& to) {
     to.primitive = of[1];
     to.layer = of.size() > 2 ? of[2] : 0;
     to.has_points = !points.empty();
-    std::copy(points.begin(), points.end(), to.points.begin());
+    std::ranges::copy(points, to.points.begin());
     to.is_exact = (flags & 1U) != 0;
     to.is_clipped = (flags & 2U) != 0;
     if (to.is_clipped) {

@@ -102,14 +102,13 @@ cases::Expected<Run> merge_runs(std::vector<Part> parts) {
         run.missing_shards.insert(run.missing_shards.end(), part.missing_shards.begin(),
                                   part.missing_shards.end());  // of a part that is a merged run
         run.jobs += part.jobs;
-        std::move(part.cases.begin(), part.cases.end(), std::back_inserter(run.cases));
-        std::move(part.sources.begin(), part.sources.end(), std::back_inserter(run.sources));
+        std::ranges::move(part.cases, std::back_inserter(run.cases));
+        std::ranges::move(part.sources, std::back_inserter(run.sources));
     }
-    std::sort(run.sources.begin(), run.sources.end());
+    std::ranges::sort(run.sources);
     run.sources.erase(std::unique(run.sources.begin(), run.sources.end()), run.sources.end());
-    const auto twice =
-        std::adjacent_find(run.sources.begin(), run.sources.end(),
-                           [](const auto& a, const auto& b) { return a.first == b.first; });
+    const auto twice = std::ranges::adjacent_find(
+        run.sources, [](const auto& a, const auto& b) { return a.first == b.first; });
     if (twice != run.sources.end()) {
         return cases::failure(
             "the case file '{}' is not the same in all parts; only parts of one run can be merged, "
@@ -122,7 +121,7 @@ cases::Expected<Run> merge_runs(std::vector<Part> parts) {
         }
     }
     run.shard = run.shards = 1;
-    std::sort(run.cases.begin(), run.cases.end(), [](const CaseRecord& a, const CaseRecord& b) {
+    std::ranges::sort(run.cases, [](const CaseRecord& a, const CaseRecord& b) {
         return std::pair(a.id, b.status) < std::pair(b.id, a.status);
     });
     const auto of_one_id = [](const CaseRecord& a, const CaseRecord& b) { return a.id == b.id; };

@@ -16,8 +16,6 @@
 
 namespace report {
 
-using Json = nlohmann::ordered_json;
-
 namespace {
 
 // The page, from report/page/ (cmake/Embed.cmake).
@@ -61,9 +59,8 @@ std::string key_fact(std::string_view name, const std::string& value) {
 }
 
 std::string title_of(const Run& run) {
-    const auto unexpected =
-        std::count_if(run.cases.begin(), run.cases.end(),
-                      [](const CaseRecord& record) { return !is_expected(record.status); });
+    const auto unexpected = std::ranges::count_if(
+        run.cases, [](const CaseRecord& record) { return !is_expected(record.status); });
     return fmt::format("edgecase: {}{} of {} unexpected, {}",
                        run.missing_shards.empty() ? "" : "not the whole run, ", unexpected,
                        run.cases.size(), run.device.name.empty() ? "no device" : run.device.name);

@@ -104,8 +104,7 @@ Json diagnoses_json(const Run& run) {
     for (const Diagnosis& d : run.diagnoses) {
         Json members = Json::array();
         for (const std::string& id : d.examples) {
-            const auto at = std::find_if(run.cases.begin(), run.cases.end(),
-                                         [&](const CaseRecord& r) { return r.id == id; });
+            const auto at = std::ranges::find(run.cases, id, &CaseRecord::id);
             if (at != run.cases.end()) {
                 members.push_back(at - run.cases.begin());
             }
@@ -236,8 +235,8 @@ std::vector<size_t> add_evidence(const Run& run, const std::vector<Cause>& all, 
             rest.push_back(k);
         }
     }
-    std::for_each(rest.begin(), rest.end(), add_picture);
-    std::for_each(rest.begin(), rest.end(), add_values);
+    std::ranges::for_each(rest, add_picture);
+    std::ranges::for_each(rest, add_values);
     return without;
 }
 
@@ -335,9 +334,8 @@ PageData page_data(const Run& run, size_t part) {
         meanings[std::string(cases::to_string(profile))] = meaning(profile);
     }
     Json total = encode_totals(run);
-    const auto wrong = static_cast<size_t>(
-        std::count_if(run.cases.begin(), run.cases.end(),
-                      [](const CaseRecord& record) { return !record.outcome.findings.empty(); }));
+    const auto wrong = static_cast<size_t>(std::ranges::count_if(
+        run.cases, [](const CaseRecord& record) { return !record.outcome.findings.empty(); }));
     const size_t most =
         std::clamp(kFindingBudget / std::max<size_t>(wrong, 1), kLeastFindings, kMostFindings);
     const Repeated repeated(run);

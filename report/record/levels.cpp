@@ -37,10 +37,9 @@ bool has_findings(const CaseRecord& record, cases::Profile level, Of which) {
     if (record.outcome.groups.empty()) {  // journals that do not tell
         return record.outcome.level == level;
     }
-    return std::any_of(record.outcome.groups.begin(), record.outcome.groups.end(),
-                       [&](const diff::FindingGroup& group) {
-                           return group.level == level && (!is_news || group.known < group.count);
-                       });
+    return std::ranges::any_of(record.outcome.groups, [&](const diff::FindingGroup& group) {
+        return group.level == level && (!is_news || group.known < group.count);
+    });
 }
 
 std::optional<cases::Profile> level_of(const CaseRecord& record, Of which) {

@@ -23,7 +23,7 @@ std::string_view to_string(Status status) {
 }
 
 std::optional<Status> parse_status(std::string_view name) {
-    const auto it = std::find(kNames.begin(), kNames.end(), name);
+    const auto it = std::ranges::find(kNames, name);
     if (it == kNames.end()) {
         return std::nullopt;
     }
@@ -79,8 +79,8 @@ int exit_code(const Run& run) {
     if (of(Status::not_run) > 0 || of(Status::error) > 0 || !run.missing_shards.empty()) {
         return kExitInternal;  // something was not judged: worse than a wrong sample
     }
-    if (std::any_of(run.cases.begin(), run.cases.end(),
-                    [&](const CaseRecord& record) { return makes_fail(run, record); })) {
+    if (std::ranges::any_of(run.cases,
+                            [&](const CaseRecord& record) { return makes_fail(run, record); })) {
         return kExitUnexpected;
     }
     // A run that judged nothing proves nothing, so it never exits 0. What fails here does so at

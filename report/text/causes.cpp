@@ -17,7 +17,6 @@
 #include <utility>
 
 #include "cases/base/counted.hpp"
-#include "cases/base/printable.hpp"
 #include "cases/model/rule.hpp"
 #include "report/record/levels.hpp"
 #include "report/text/sentences.hpp"
@@ -59,7 +58,7 @@ int rank(const Cause& cause) {
     constexpr std::array kOrder = {Status::error,       Status::crash, Status::timeout,
                                    Status::device_lost, Status::fail,  Status::flake,
                                    Status::improved,    Status::xpass};
-    const auto place = std::find(kOrder.begin(), kOrder.end(), cause.status) - kOrder.begin();
+    const auto place = std::ranges::find(kOrder, cause.status) - kOrder.begin();
     // vulkan, practice, direct3d, and those of which no level is told
     const bool is_failure = cause.status == Status::fail || cause.status == Status::xfail;
     const int level = cause.level ? static_cast<int>(*cause.level) : 3;
@@ -74,9 +73,7 @@ struct Reach {
 // Where a rule stands in the list of rules: what is decided earlier in the pipeline comes first.
 std::ptrdiff_t number_of(std::string_view rule) {
     const auto all = cases::all_rules();
-    return std::find_if(all.begin(), all.end(),
-                        [&](const cases::Rule& r) { return r.id == rule; }) -
-           all.begin();
+    return std::ranges::find(all, rule, &cases::Rule::id) - all.begin();
 }
 
 // The causes of those results of a run that `is_meant` picks by their status, by all their findings
@@ -116,8 +113,8 @@ std::vector<Cause> causes_of(const Run& run, bool (*is_meant)(Status), Of which)
         return std::tuple(-rank(a), reach.families, reach.cases, -number_of(a.rule),
                           a.cases.size());
     };
-    std::stable_sort(list.begin(), list.end(),
-                     [&](const Cause& a, const Cause& b) { return order(b) < order(a); });
+    std::ranges::stable_sort(list,
+                             [&](const Cause& a, const Cause& b) { return order(b) < order(a); });
     return list;
 }
 
@@ -154,9 +151,8 @@ const CaseRecord& smallest_case(const Cause& cause) {
     const auto size = [](const CaseRecord* r) {
         return std::pair(r->outcome.compared_samples, r->outcome.finding_total());
     };
-    return **std::min_element(
-        cause.cases.begin(), cause.cases.end(),
-        [&](const CaseRecord* a, const CaseRecord* b) { return size(a) < size(b); });
+    return **std::ranges::min_element(
+        cause.cases, [&](const CaseRecord* a, const CaseRecord* b) { return size(a) < size(b); });
 }
 
 std::string why_it_happened(const Cause& cause) {
@@ -170,7 +166,7 @@ std::string why_it_happened(const Cause& cause) {
 
 std::string cause_title(const Cause& cause) {
     std::string text(to_string(cause.status));
-    std::replace(text.begin(), text.end(), '_', ' ');
+    std::ranges::replace(text, '_', ' ');
     if (!cause.rule.empty() || !cause.kind.empty()) {
         text += ": " + rule_and_door(cause.rule, cause.door) +
                 (cause.rule.empty() || cause.kind.empty() ? "" : " ") + cause.kind;

@@ -218,8 +218,8 @@ std::string diagnoses_text(const Run& run, const ConsoleStyle& style) {
         }
         text += fmt::format("diagnosis: {}\n{}{}\n", painted(what_it_does(d), "1", style), kIndent,
                             evidence_for(d));
-        const auto folded = std::count_if(
-            list.begin(), list.end(), [&](const Cause& cause) { return repeated.by(cause) == k; });
+        const auto folded = std::ranges::count_if(
+            list, [&](const Cause& cause) { return repeated.by(cause) == k; });
         if (folded > 0) {
             text += fmt::format("{}{} of {} {} the same{}\n", kIndent, folded,
                                 cases::counted(list.size(), "cause"), folded == 1 ? "says" : "say",
@@ -270,12 +270,11 @@ std::string free_text(const Run& run) {
 
 // Those of which something is known of the device: not unsupported, skipped, not run or in error.
 size_t judged_cases(const Run& run) {
-    return static_cast<size_t>(
-        std::count_if(run.cases.begin(), run.cases.end(), [](const CaseRecord& record) {
-            const Status status = actual_status(record);
-            return status != Status::unsupported && status != Status::skip &&
-                   status != Status::not_run && status != Status::error;
-        }));
+    return static_cast<size_t>(std::ranges::count_if(run.cases, [](const CaseRecord& record) {
+        const Status status = actual_status(record);
+        return status != Status::unsupported && status != Status::skip &&
+               status != Status::not_run && status != Status::error;
+    }));
 }
 
 }  // namespace
@@ -290,7 +289,7 @@ std::string console_header(const Run& run, const ConsoleStyle& style) {
         or_unknown(d.driver_name), d.driver_info.empty() ? "" : " ",
         cases::printable(d.driver_info), is_other ? "" : "  Vulkan " + or_unknown(d.api_version),
         d.subpixel_bits, judged_bits_note(d), cases::to_string(run.profile), run.seed);
-    std::replace(text.begin(), text.end(), '\n', ' ');
+    std::ranges::replace(text, '\n', ' ');
     text += '\n';
     return style.wrap ? wrapped(text, style.width) : text;
 }
@@ -329,7 +328,7 @@ std::string console_totals(const Run& run, const ConsoleStyle& style) {
         if (count.at(k) > 0) {
             const auto status = static_cast<Status>(k);
             std::string word(to_string(status));
-            std::replace(word.begin(), word.end(), '_', ' ');
+            std::ranges::replace(word, '_', ' ');
             text +=
                 "  " + painted(fmt::format("{} {}", count.at(k), word), color_of(status), style);
         }

@@ -74,8 +74,8 @@ std::string headline(const Run& run) {
             text += fmt::format(" {}", n == 1 ? one : several);
         }
     };
-    const auto beyond = static_cast<size_t>(
-        std::count_if(run.cases.begin(), run.cases.end(), [&](const CaseRecord& record) {
+    const auto beyond =
+        static_cast<size_t>(std::ranges::count_if(run.cases, [&](const CaseRecord& record) {
             return record.status == Status::fail && !makes_fail(run, record);
         }));
     for (const Deed& deed : kDeeds) {
@@ -95,7 +95,7 @@ std::string headline(const Run& run) {
         return "No case was judged";
     }
     if (known > 0) {
-        const auto unseen = std::count_if(run.cases.begin(), run.cases.end(), is_new_picture);
+        const auto unseen = std::ranges::count_if(run.cases, is_new_picture);
         return fmt::format("All as expected: {} of {} {}, as is known{}", known,
                            cases::counted(judged, "judged case"), known == 1 ? "fails" : "fail",
                            unseen > 0 ? fmt::format(", {} of them with bits that nobody has seen "

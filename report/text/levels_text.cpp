@@ -33,8 +33,8 @@ std::string families(const std::vector<const CaseRecord*>& of) {
         ++count[one_line(family_of(*record))];
     }
     std::vector<std::pair<std::string, size_t>> list(count.begin(), count.end());
-    std::stable_sort(list.begin(), list.end(),
-                     [](const auto& a, const auto& b) { return a.second > b.second; });
+    std::ranges::stable_sort(list,
+                             [](const auto& a, const auto& b) { return a.second > b.second; });
     std::string text;
     for (size_t k = 0; k < std::min(list.size(), kNamed); ++k) {
         text += (k > 0 ? ", " : "") + list[k].first;

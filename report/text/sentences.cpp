@@ -44,11 +44,10 @@ std::string counted_findings(diff::FindingKind kind, uint64_t count, bool is_bes
 
 // Whether an expectation speaks of all findings of its group.
 bool is_known(const CaseRecord& record, const diff::Finding& f) {
-    return std::any_of(
-        record.outcome.groups.begin(), record.outcome.groups.end(), [&](const auto& group) {
-            return group.kind == f.kind && group.rule == f.rule && group.level == f.level &&
-                   group.door == f.door && group.count == group.known;
-        });
+    return std::ranges::any_of(record.outcome.groups, [&](const auto& group) {
+        return group.kind == f.kind && group.rule == f.rule && group.level == f.level &&
+               group.door == f.door && group.count == group.known;
+    });
 }
 
 // "rule [level: what it means]" of what a case is known by; no level if it could not be judged.
@@ -73,17 +72,16 @@ std::string rule_and_level(const CaseRecord& record) {
 
 std::string one_line(std::string_view bytes) {
     std::string text = cases::printable(bytes);
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    std::replace(text.begin(), text.end(), '\t', ' ');
+    std::ranges::replace(text, '\n', ' ');
+    std::ranges::replace(text, '\t', ' ');
     return text;
 }
 
 const diff::Finding& leading_finding(const CaseRecord& record) {
-    return *std::min_element(record.outcome.findings.begin(), record.outcome.findings.end(),
-                             [&](const diff::Finding& a, const diff::Finding& b) {
-                                 return std::pair(is_known(record, a), a.level) <
-                                        std::pair(is_known(record, b), b.level);
-                             });
+    return *std::ranges::min_element(record.outcome.findings, [&](const diff::Finding& a,
+                                                                  const diff::Finding& b) {
+        return std::pair(is_known(record, a), a.level) < std::pair(is_known(record, b), b.level);
+    });
 }
 
 std::optional<diff::FindingGroup> leading_news(const CaseRecord& record) {
@@ -92,10 +90,10 @@ std::optional<diff::FindingGroup> leading_news(const CaseRecord& record) {
         (!record.outcome.findings.empty() && !is_known(record, leading_finding(record)))) {
         return std::nullopt;
     }
-    const auto found = std::find_if(record.outcome.groups.begin(), record.outcome.groups.end(),
-                                    [&](const diff::FindingGroup& group) {
-                                        return group.level == *level && group.known < group.count;
-                                    });
+    const auto found =
+        std::ranges::find_if(record.outcome.groups, [&](const diff::FindingGroup& group) {
+            return group.level == *level && group.known < group.count;
+        });
     return found == record.outcome.groups.end() ? std::nullopt : std::optional(*found);
 }
 
@@ -356,9 +354,8 @@ std::string exit_text(const Run& run) {
         add(Status::not_run, "case was not run", "cases were not run");
         add(Status::error, "case could not be judged", "cases could not be judged");
     } else if (code == kExitOk) {
-        const auto beyond = static_cast<size_t>(
-            std::count_if(run.cases.begin(), run.cases.end(),
-                          [](const CaseRecord& record) { return !is_expected(record.status); }));
+        const auto beyond = static_cast<size_t>(std::ranges::count_if(
+            run.cases, [](const CaseRecord& record) { return !is_expected(record.status); }));
         if (beyond > 0) {
             why = fmt::format("all as expected at {}; {} only beyond it",
                               cases::to_string(fail_level(run)),
@@ -381,8 +378,8 @@ std::string exit_text(int code, const std::string& why) {
          {kExitDevice, "no device, or the wrong one"},
          {kExitAllSkipped, "everything was skipped or unsupported"},
          {kExitInterrupted, "interrupted"}}};
-    const auto row = std::find_if(kTexts.begin(), kTexts.end(),
-                                  [code](const auto& known) { return known.first == code; });
+    const auto row =
+        std::ranges::find_if(kTexts, [code](const auto& known) { return known.first == code; });
     const std::string_view text =
         row != kTexts.end() ? row->second
                             : "internal error, or cases were not run or could not be judged";

@@ -25,8 +25,8 @@ size_t columns(std::string_view text) {
 bool starts_as_command(std::string_view text) {
     constexpr std::array<std::string_view, 5> kWords = {
         "rerun: ", "explain: ", "update: ", "debug: ", "settings: "};
-    return std::any_of(kWords.begin(), kWords.end(),
-                       [text](std::string_view word) { return text.starts_with(word); });
+    return std::ranges::any_of(kWords,
+                               [text](std::string_view word) { return text.starts_with(word); });
 }
 
 std::string wrapped_line(std::string_view line, size_t width) {

@@ -18,7 +18,6 @@
 
 namespace run {
 
-using cases::Error;
 using cases::Errors;
 using report::Status;
 

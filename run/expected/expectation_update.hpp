@@ -9,7 +9,6 @@
 #include <string_view>
 #include <vector>
 
-#include "cases/base/error.hpp"
 #include "report/record/run.hpp"
 #include "run/expected/expectation_file.hpp"
 

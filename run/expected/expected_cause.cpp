@@ -9,7 +9,6 @@
 #include <charconv>
 #include <csignal>
 #include <cstddef>
-#include <cstring>
 #include <optional>
 #include <tuple>
 #include <utility>

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <map>
 #include <set>
-#include <string_view>
 
 #include "cases/select/selector.hpp"
 

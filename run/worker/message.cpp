@@ -3,7 +3,6 @@
 #include "run/worker/message.hpp"
 
 #include <algorithm>
-#include <span>
 
 #include "cases/model/words.hpp"
 #include "cases/wire/case_bytes.hpp"

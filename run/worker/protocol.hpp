@@ -23,7 +23,6 @@ enum class WorkerState : uint8_t {
     busy,          // has a batch
     dead,
 };
-inline constexpr size_t kWorkerStates = 6;
 
 // A frame that is legal in a state, and the state behind it.
 struct LegalFrame {

@@ -96,7 +96,7 @@ BlitImages::BlitImages(const Device& device, const cases::Case& c) {
     upload_ = Buffer::create(device, poison_offset_ + poison, VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                              HostAccess::write);
     const std::span<std::byte> upload = upload_.bytes();
-    std::copy(texels.begin(), texels.end(), upload.begin());
+    std::ranges::copy(texels, upload.begin());
     std::fill(upload.begin() + static_cast<std::ptrdiff_t>(poison_offset_), upload.end(),
               kPoisonByte);
     upload_.flush();

@@ -3,7 +3,6 @@
 #include "vk_harness/commands/rendering.hpp"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <vector>
 

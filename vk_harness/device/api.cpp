@@ -58,7 +58,7 @@ bool has_device_extension(VkPhysicalDevice physical, const char* name) {
     vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
     std::vector<VkExtensionProperties> extensions(count);
     vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
-    return std::any_of(extensions.begin(), extensions.end(), [name](const auto& extension) {
+    return std::ranges::any_of(extensions, [name](const auto& extension) {
         return std::strcmp(extension.extensionName, name) == 0;
     });
 }

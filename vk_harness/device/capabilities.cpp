@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 #include "cases/model/words.hpp"
 #include "vk_harness/device/features.hpp"
@@ -218,7 +217,7 @@ void query_support(Capabilities& c) {
     std::vector<VkQueueFamilyProperties> families(count);
     vkGetPhysicalDeviceQueueFamilyProperties(c.physical, &count, families.data());
     const VkQueueFlags needed = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
-    const auto family = std::find_if(families.begin(), families.end(), [needed](const auto& f) {
+    const auto family = std::ranges::find_if(families, [needed](const auto& f) {
         return (f.queueFlags & needed) == needed && f.queueCount > 0;
     });
     if (family == families.end()) {

@@ -11,7 +11,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "cases/model/case.hpp"
 #include "vk_harness/device/api.hpp"

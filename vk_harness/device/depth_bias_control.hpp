@@ -8,7 +8,6 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "cases/model/case.hpp"
 #include "vk_harness/device/api.hpp"

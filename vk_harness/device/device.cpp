@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstring>
 #include <utility>
 
 #include "vk_harness/device/features.hpp"
@@ -16,8 +15,8 @@ namespace vk_harness {
 namespace {
 
 std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::ranges::transform(text, text.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return text;
 }
 
@@ -26,8 +25,8 @@ bool names(const std::string& wanted, const DeviceInfo& info) {
     if (wanted.empty()) {
         return true;
     }
-    const bool number = std::all_of(wanted.begin(), wanted.end(),
-                                    [](unsigned char c) { return std::isdigit(c) != 0; });
+    const bool number =
+        std::ranges::all_of(wanted, [](unsigned char c) { return std::isdigit(c) != 0; });
     if (number && wanted.size() < 9) {
         return std::stoul(wanted) == info.index;
     }

@@ -20,7 +20,7 @@ bool has_linear_attachments(VkPhysicalDevice physical) {
     for (const cases::ColorFormatRow& row : cases::kColorFormats) {
         formats.push_back(row.vulkan);
     }
-    return std::any_of(formats.begin(), formats.end(), [physical](uint32_t format) {
+    return std::ranges::any_of(formats, [physical](uint32_t format) {
         VkFormatProperties offered{};
         vkGetPhysicalDeviceFormatProperties(physical, static_cast<VkFormat>(format), &offered);
         return (offered.linearTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT) != 0;

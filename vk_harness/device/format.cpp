@@ -24,17 +24,15 @@ constexpr VkFormat unsigned_of(uint32_t bytes) {
             return VK_FORMAT_UNDEFINED;
     }
 }
-static_assert(std::all_of(cases::kColorFormats.begin(), cases::kColorFormats.end(),
-                          [](const auto& row) {
-                              return unsigned_of(bytes_of(row.format)) != VK_FORMAT_UNDEFINED;
-                          }));
+static_assert(std::ranges::all_of(cases::kColorFormats, [](const auto& row) {
+    return unsigned_of(bytes_of(row.format)) != VK_FORMAT_UNDEFINED;
+}));
 
 }  // namespace
 
 VkFormat bits_format(VkFormat format) {
-    const auto row =
-        std::find_if(cases::kColorFormats.begin(), cases::kColorFormats.end(),
-                     [format](const auto& r) { return to_vulkan(r.format) == format; });
+    const auto row = std::ranges::find_if(
+        cases::kColorFormats, [format](const auto& r) { return to_vulkan(r.format) == format; });
     // kTwoNumbers alone is attached and need not be a format of cases.
     static_assert(cases::row_of(cases::ColorFormat::rgba16_float).vulkan == kColorHalves);
     static_assert(cases::row_of(cases::ColorFormat::rg16_float).vulkan == kTwoHalves);

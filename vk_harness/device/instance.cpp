@@ -42,9 +42,9 @@ std::optional<uint32_t> layer_version(const char* name) {
     vkEnumerateInstanceLayerProperties(&count, nullptr);
     std::vector<VkLayerProperties> layers(count);
     vkEnumerateInstanceLayerProperties(&count, layers.data());
-    const auto found = std::find_if(
-        layers.begin(), layers.end(),
-        [name](const VkLayerProperties& layer) { return std::strcmp(layer.layerName, name) == 0; });
+    const auto found = std::ranges::find_if(layers, [name](const VkLayerProperties& layer) {
+        return std::strcmp(layer.layerName, name) == 0;
+    });
     return found == layers.end() ? std::nullopt : std::optional(found->specVersion);
 }
 
@@ -53,10 +53,9 @@ bool has_extension(const char* layer, const char* name) {
     vkEnumerateInstanceExtensionProperties(layer, &count, nullptr);
     std::vector<VkExtensionProperties> extensions(count);
     vkEnumerateInstanceExtensionProperties(layer, &count, extensions.data());
-    return std::any_of(extensions.begin(), extensions.end(),
-                       [name](const VkExtensionProperties& extension) {
-                           return std::strcmp(extension.extensionName, name) == 0;
-                       });
+    return std::ranges::any_of(extensions, [name](const VkExtensionProperties& extension) {
+        return std::strcmp(extension.extensionName, name) == 0;
+    });
 }
 
 }  // namespace

@@ -258,8 +258,7 @@ void Feed::write_indices(std::span<std::byte> memory) const {
         return;
     }
     // Indices that are not asked for name the first vertex.
-    const uint32_t other =
-        indices_.empty() ? 0 : *std::min_element(indices_.begin(), indices_.end());
+    const uint32_t other = indices_.empty() ? 0 : *std::ranges::min_element(indices_);
     const auto put = [&](VkDeviceSize at, uint32_t index) {
         std::memcpy(memory.data() + at, &index, index_size());  // little-endian, as all hosts here
     };
@@ -338,7 +337,7 @@ void Feed::make_pulled(const Device& device, std::span<const std::byte> memory,
         std::memcpy(made.bytes().data() + kHead + vertices * sizeof(glm::vec4), triangles_.data(),
                     triangles);
     }
-    std::copy(bytes.begin(), bytes.end(), made.bytes().begin() + kHead);
+    std::ranges::copy(bytes, made.bytes().begin() + kHead);
     made.flush();
     pulled_ = std::move(made);
     pulled_set_ = make_sets(device, {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}, layout);
@@ -397,7 +396,7 @@ void Feed::make_buffers(const Device& device, std::span<const std::byte> memory,
             buffers_.emplace_back(door_ == Door::memory_imported
                                       ? Buffer::import(device, size, usage)
                                       : Buffer::create(device, size, usage, HostAccess::write));
-        std::copy(bytes.begin(), bytes.end(), made.bytes().begin());
+        std::ranges::copy(bytes, made.bytes().begin());
         made.flush();
     };
     for (const Array& array : arrays_) {

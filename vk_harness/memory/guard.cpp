@@ -3,7 +3,6 @@
 #include "vk_harness/memory/guard.hpp"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 
 #include "capture/capture.hpp"
@@ -23,12 +22,11 @@ VkDeviceSize round_up(VkDeviceSize offset, VkDeviceSize alignment) {
 // What is wrong with one side, `words` in the order of memory.
 std::optional<GuardDamage> compare_side(std::span<const uint32_t> words, bool is_before) {
     const auto is_changed = [](uint32_t word) { return word != kGuardWord; };
-    const auto changed =
-        static_cast<uint64_t>(std::count_if(words.begin(), words.end(), is_changed));
+    const auto changed = static_cast<uint64_t>(std::ranges::count_if(words, is_changed));
     if (changed == 0) {
         return std::nullopt;
     }
-    const auto first = std::find_if(words.begin(), words.end(), is_changed) - words.begin();
+    const auto first = std::ranges::find_if(words, is_changed) - words.begin();
     const auto last = words.rend() - std::find_if(words.rbegin(), words.rend(), is_changed) - 1;
     const auto nearest = static_cast<size_t>(is_before ? last : first);
     GuardDamage damage;
@@ -73,7 +71,7 @@ void Guard::bind(const Device& device, VkDeviceMemory memory, const GuardPlaces&
 }
 
 void GuardCheck::add(Guard* guard) {
-    if (guard != nullptr && std::find(guards_.begin(), guards_.end(), guard) == guards_.end()) {
+    if (guard != nullptr && std::ranges::find(guards_, guard) == guards_.end()) {
         guards_.push_back(guard);
     }
 }
@@ -123,8 +121,7 @@ std::vector<GuardDamage> GuardCheck::read(std::span<const std::byte> memory) con
         for (const bool is_before : {true, false}) {
             const std::span<const uint32_t> side(words, kGuardWords);
             words += kGuardWords;
-            if (std::all_of(side.begin(), side.end(),
-                            [](uint32_t word) { return word == capture::kPoison; })) {
+            if (std::ranges::all_of(side, [](uint32_t word) { return word == capture::kPoison; })) {
                 fail(Stage::readback,
                      "the memory beside an attachment was not copied from the device: it still "
                      "holds the read-back memory's fill pattern");

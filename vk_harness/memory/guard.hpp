@@ -5,7 +5,6 @@
 // error can write to: a buffer on either side, filled with a pattern and read back after drawing.
 #pragma once
 
-#include <memory>
 #include <span>
 #include <vector>
 

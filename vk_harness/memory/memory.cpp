@@ -75,8 +75,8 @@ Handle<VkImageView> create_view(const Device& device, const VkImageCreateInfo& o
 
 // Whether a column of the table of depth formats has the format.
 bool is_depth_format(VkFormat format, uint32_t cases::DepthFormatRow::*column) {
-    return std::any_of(cases::kDepthFormats.begin(), cases::kDepthFormats.end(),
-                       [&](const auto& row) { return row.*column == uint32_t{format}; });
+    return std::ranges::any_of(cases::kDepthFormats,
+                               [&](const auto& row) { return row.*column == uint32_t{format}; });
 }
 
 // Adds every use of the image that the device offers for its format, and views of other formats.

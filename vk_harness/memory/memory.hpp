@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <memory>
 #include <span>
-#include <vector>
 
 #include "vk_harness/memory/guard.hpp"
 #include "vk_harness/memory/image_way.hpp"

@@ -14,10 +14,9 @@ namespace vk_harness {
 namespace {
 
 bool is_integer_format(VkFormat format) {
-    return std::any_of(cases::kColorFormats.begin(), cases::kColorFormats.end(),
-                       [format](const cases::ColorFormatRow& row) {
-                           return row.vulkan == uint32_t{format} && cases::is_integer(row.format);
-                       });
+    return std::ranges::any_of(cases::kColorFormats, [format](const cases::ColorFormatRow& row) {
+        return row.vulkan == uint32_t{format} && cases::is_integer(row.format);
+    });
 }
 
 constexpr VkStencilOpState kReplace = {VK_STENCIL_OP_REPLACE,

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vk_harness/pipeline/object_state.hpp"
 
-#include <bit>
-
 #include "vk_harness/device/sample_locations.hpp"
 #include "vk_harness/pipeline/output_state.hpp"
 #include "vk_harness/pipeline/pipeline_state.hpp"

@@ -91,8 +91,7 @@ void switch_on_unused(PipelineKey& key) {
     key.unused_tests = true;
     const TargetLayout::Unused& device = key.layout.unused;
     const bool may_copy = device.logic && !key.instruments && !key.logic &&
-                          std::none_of(key.colors.begin(), key.colors.end(),
-                                       [](const ColorKey& color) { return color.blends; });
+                          std::ranges::none_of(key.colors, &ColorKey::blends);
     // A lone colour that can be blended is, else bits are copied.
     const bool copies = may_copy && (device.blends == 0 || key.colors.size() > 1);
     for (uint32_t k = 0; k < key.colors.size(); ++k) {

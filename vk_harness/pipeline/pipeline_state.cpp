@@ -211,7 +211,6 @@ VkPipelineColorBlendAttachmentState blend_state(const ColorKey& key) {
     return out;
 }
 
-using capture::kAttributePlane;
 using capture::kFragCoordPlane;
 using capture::kHitsPlane;
 using capture::kWritersPlane;
@@ -250,7 +249,7 @@ void instrument_states(const PipelineKey& key, ColorState& state) {
     }
     for (uint32_t k = 0; k < key.attribute_count; ++k) {
         for (uint32_t half = 0; half < key.layout.attribute_attachments(); ++half) {
-            add(key.layout.attribute_format(k), replaced(kAttributePlane + k));
+            add(key.layout.attribute_format(k), replaced(capture::kAttributePlane + k));
         }
     }
 }
@@ -277,7 +276,7 @@ ColorState::ColorState(const PipelineKey& key) {
     }
     if (key.fixed) {
         const auto constants = std::bit_cast<std::array<float, 4>>(key.fixed->blend_constants);
-        std::copy(constants.begin(), constants.end(), info.blendConstants);
+        std::ranges::copy(constants, info.blendConstants);
     }
 }
 

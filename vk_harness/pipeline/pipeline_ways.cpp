@@ -95,7 +95,7 @@ Handle<VkPipeline> make_from_library(const PipelineBase& base,
     whole.pNext = &linked;
     whole.layout = info.layout;
     auto made = base.create(whole);
-    std::move(libraries.begin(), libraries.end(), std::back_inserter(kept));
+    std::ranges::move(libraries, std::back_inserter(kept));
     return made;
 }
 

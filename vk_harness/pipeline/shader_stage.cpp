@@ -94,7 +94,7 @@ std::vector<shaders::InputChange> input_changes(const PipelineKey& key, bool has
         const bool is_change =
             change.flat || change.no_perspective || change.centroid || change.sample;
         // Several attributes may be the same built-in.
-        if (is_change && std::find(changes.begin(), changes.end(), change) == changes.end()) {
+        if (is_change && std::ranges::find(changes, change) == changes.end()) {
             changes.push_back(change);
         }
     }

@@ -13,7 +13,7 @@ namespace vk_harness {
 namespace {
 
 bool is_constant(const std::vector<glm::vec4>& values) {
-    return std::all_of(values.begin(), values.end(), [&values](const glm::vec4& value) {
+    return std::ranges::all_of(values, [&values](const glm::vec4& value) {
         return std::memcmp(&value, &values.front(), sizeof value) == 0;
     });
 }

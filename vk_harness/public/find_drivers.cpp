@@ -128,8 +128,8 @@ capture::Installed find_drivers(const capture::RendererOptions& options) {
                 files.push_back(entry.path());
             }
         }
-        std::sort(files.begin(), files.end());
-        std::transform(files.begin(), files.end(), std::back_inserter(out.drivers), read_manifest);
+        std::ranges::sort(files);
+        std::ranges::transform(files, std::back_inserter(out.drivers), read_manifest);
     }
     if (const std::string& icd = options.icd; !icd.empty()) {
         if (const capture::Driver driver = read_manifest(icd); !driver.problem.empty()) {

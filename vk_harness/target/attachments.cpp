@@ -10,7 +10,6 @@
 #include "cases/model/derive.hpp"
 #include "vk_harness/device/format.hpp"
 #include "vk_harness/target/readback.hpp"
-#include "vk_harness/target/shader_interface.hpp"
 
 namespace vk_harness {
 
@@ -61,8 +60,8 @@ void append_resolved(const cases::Target& target, std::vector<Attachment>& out) 
         out.push_back(a);
     }
     if (capture::resolves_depth(target)) {
-        const auto depth = std::find_if(out.begin(), out.end(),
-                                        [](const auto& a) { return a.role == Role::depth; });
+        const auto depth =
+            std::ranges::find_if(out, [](const auto& a) { return a.role == Role::depth; });
         Attachment a = *depth;
         a.role = Role::resolved_depth;
         a.clear.depthStencil.depth = kNeverResolved;
@@ -150,8 +149,7 @@ std::vector<Attachment> attachments_of(const cases::Case& c, const TargetLayout&
 
 uint32_t color_count(const std::vector<Attachment>& attachments) {
     return static_cast<uint32_t>(
-        std::count_if(attachments.begin(), attachments.end(),
-                      [](const auto& a) { return a.role <= Role::color; }));
+        std::ranges::count_if(attachments, [](const auto& a) { return a.role <= Role::color; }));
 }
 
 std::string attachment_name(const std::vector<Attachment>& attachments, size_t k) {

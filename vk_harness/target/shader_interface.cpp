@@ -35,7 +35,7 @@ namespace {
 // Without instruments, where only some attributes are inputs.
 uint32_t input_of(const cases::Case& c, const cases::Draw& draw, uint32_t attribute) {
     const std::vector<uint32_t> drawn = cases::drawn_attributes(c.target, draw);
-    return static_cast<uint32_t>(std::find(drawn.begin(), drawn.end(), attribute) - drawn.begin());
+    return static_cast<uint32_t>(std::ranges::find(drawn, attribute) - drawn.begin());
 }
 
 }  // namespace
@@ -63,8 +63,7 @@ uint32_t viewport_count(const cases::Case& c) {
 }
 
 bool names_layers(const cases::Case& c) {
-    return std::any_of(c.draws.begin(), c.draws.end(),
-                       [](const cases::Draw& draw) { return draw.layer > 0; });
+    return std::ranges::any_of(c.draws, [](const cases::Draw& draw) { return draw.layer > 0; });
 }
 
 }  // namespace vk_harness

@@ -20,7 +20,7 @@ VkDeviceSize attachment_bytes(const cases::Target& target,
 
 TargetCache::Shelf& TargetCache::shelf(VkFormat format, const cases::Target& target,
                                        const ImageWay& way) {
-    const auto found = std::find_if(shelves_.begin(), shelves_.end(), [&](const auto& s) {
+    const auto found = std::ranges::find_if(shelves_, [&](const auto& s) {
         return s->format == format && s->width == target.width && s->height == target.height &&
                s->samples == target.samples && s->layers == target.layers &&
                s->sample_locations == target.sample_locations && s->way == way;
@@ -80,10 +80,10 @@ void TargetCache::release(const Image* image) {
 }
 
 void TargetCache::trim(VkDeviceSize limit) {
-    std::sort(shelves_.begin(), shelves_.end(),
-              [](const auto& a, const auto& b) { return a->last_use > b->last_use; });
+    std::ranges::sort(shelves_,
+                      [](const auto& a, const auto& b) { return a->last_use > b->last_use; });
     VkDeviceSize held = 0;
-    const auto end = std::find_if(shelves_.begin(), shelves_.end(), [&](const auto& s) {
+    const auto end = std::ranges::find_if(shelves_, [&](const auto& s) {
         for (const auto& image : s->images) {
             held += image->memory_size();
         }

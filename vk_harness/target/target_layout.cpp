@@ -26,9 +26,8 @@ bool ids_fit(const cases::Case& test) {
 // Pipelines that discard for good have no samples, and those of a dynamic rendering have to have
 // those of the attachments (VUID-vkCmdDraw-multisampledRenderToSingleSampled-07285).
 bool discards_several_samples(const cases::Case& test) {
-    return test.target.samples > 1 && std::ranges::any_of(test.draws, [](const cases::Draw& draw) {
-               return draw.rasterizer_discard;
-           });
+    return test.target.samples > 1 &&
+           std::ranges::any_of(test.draws, &cases::Draw::rasterizer_discard);
 }
 
 TargetLayout::Unused unused_state(const Capabilities& c, const cases::Case& test) {
@@ -142,7 +141,7 @@ TargetLayout target_layout(const Capabilities& c, const cases::Case& test) {
     const uint32_t attributes = std::min(cases::attributes_of(test), cases::kMaxAttributes);
     bool has_wide = false;
     for (uint32_t k = 0; k < attributes; ++k) {
-        const bool is_wide = std::any_of(test.draws.begin(), test.draws.end(), [k](const auto& d) {
+        const bool is_wide = std::ranges::any_of(test.draws, [k](const auto& d) {
             return k < d.attributes.size() && !cases::has_two_numbers(d.attributes[k]);
         });
         layout.components.at(k) = is_wide ? 4 : 2;

@@ -73,7 +73,7 @@ namespace {
 
 bool has_linear_attachment(const Capabilities& capabilities, const cases::Case& c) {
     const std::vector<Attachment> attachments = attachments_of(c, target_layout(capabilities, c));
-    return std::any_of(attachments.begin(), attachments.end(), [&](const Attachment& a) {
+    return std::ranges::any_of(attachments, [&](const Attachment& a) {
         VkImageCreateInfo info = image_info(
             a.format, {c.target.width, c.target.height},
             VK_IMAGE_USAGE_TRANSFER_SRC_BIT |

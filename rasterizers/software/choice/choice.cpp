@@ -105,8 +105,7 @@ std::string set_choices(Device& device, std::string_view text) {
         const std::string_view word = text.substr(0, text.find(','));
         text.remove_prefix(std::min(text.size(), word.size() + 1));
         const std::string_view key = word.substr(0, word.find('='));
-        const auto choice = std::find_if(all_choices().begin(), all_choices().end(),
-                                         [&](const Choice& c) { return c.key == key; });
+        const auto choice = std::ranges::find(all_choices(), key, &Choice::key);
         if (choice == all_choices().end()) {
             std::vector<std::string_view> keys;
             for (const Choice& c : all_choices()) {
@@ -117,7 +116,7 @@ std::string set_choices(Device& device, std::string_view text) {
         }
         const std::string_view value =
             word.size() > key.size() ? word.substr(key.size() + 1) : std::string_view();
-        const auto at = std::find(choice->values.begin(), choice->values.end(), value);
+        const auto at = std::ranges::find(choice->values, value);
         if (at == choice->values.end()) {
             return "'" + std::string(value) + "' is no value of '" + std::string(key) +
                    "', which may be " + list_of(choice->values);

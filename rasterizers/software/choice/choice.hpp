@@ -4,7 +4,6 @@
 // The choices of the software device as words: "ties=top-right,fused=yes".
 #pragma once
 
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>

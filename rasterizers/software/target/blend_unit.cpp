@@ -129,9 +129,8 @@ Texel BlendUnit::write(const cases::ColorOutput& output, const glm::vec4& writte
                        const Texel& before) const {
     const glm::vec4 source = replaced(output, written);
     const auto& channels = layout_.channels;
-    const bool is_eight_bits = std::all_of(channels.begin(), channels.end(), [](const Channel& c) {
-        return c.number == Number::unorm && c.bits == 8;
-    });
+    const bool is_eight_bits = std::ranges::all_of(
+        channels, [](const Channel& c) { return c.number == Number::unorm && c.bits == 8; });
     std::array<uint32_t, 4> codes{};
     const bool operates = output.logic && device_.fault != "logic-ignored"_fault;
     const std::optional<cases::Blend> equation =
@@ -297,7 +296,7 @@ void ColorAttachment::write(size_t sample, uint32_t draw, uint32_t primitive,
     const glm::vec4 source = passed(case_.target, value, device_);
     if (device_.fault == "color-reloaded"_fault && draw != draw_) {
         // Each draw starts with the load operation.
-        std::fill(texels_.begin(), texels_.end(), unit_.cleared(clear_of(case_.target, device_)));
+        std::ranges::fill(texels_, unit_.cleared(clear_of(case_.target, device_)));
     }
     draw_ = draw;
     if (device_.fault == "color-per-pixel"_fault) {

@@ -19,8 +19,8 @@ bool is_fixed(cases::ColorFormat format) {
 
 template <class Is>
 bool any_other(const cases::Target& target, const Is& is) {
-    return std::any_of(target.other_colors.begin(), target.other_colors.end(),
-                       [&](const cases::ColorTarget& other) { return is(other.format); });
+    return std::ranges::any_of(target.other_colors,
+                               [&](const cases::ColorTarget& other) { return is(other.format); });
 }
 
 void take_state(cases::ColorOutput& output, const cases::ColorOutput& other) {
@@ -59,8 +59,8 @@ cases::ColorOutput output_beside(const cases::Case& c, const cases::Draw& draw,
             output.write_mask = cases::output_at(target, draw, (own + 1) % count).write_mask;
             break;
         case "targets-masked-together"_fault:
-            if (std::any_of(draw.other_colors.begin(), draw.other_colors.end(),
-                            [](const auto& other) { return other.write_mask == 0; })) {
+            if (std::ranges::any_of(draw.other_colors,
+                                    [](const auto& other) { return other.write_mask == 0; })) {
                 output.write_mask = 0;
             }
             break;

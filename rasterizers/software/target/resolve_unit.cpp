@@ -24,9 +24,9 @@ T select(std::span<const T> samples, Resolve mode, Fault fault) {
     }
     switch (mode) {
         case Resolve::min:
-            return *std::min_element(samples.begin(), samples.end());
+            return *std::ranges::min_element(samples);
         case Resolve::max:
-            return *std::max_element(samples.begin(), samples.end());
+            return *std::ranges::max_element(samples);
         default:
             return fault == "resolve-last-sample"_fault ? samples.back() : samples.front();
     }

@@ -10,8 +10,6 @@ namespace software {
 
 namespace {
 
-using cases::ColorFormat;
-
 float steps_of(uint32_t bits) {
     return static_cast<float>((1U << bits) - 1);
 }
@@ -62,7 +60,7 @@ uint32_t to_code(float v, uint32_t bits, const Device& device) {
 
 }  // namespace
 
-FormatLayout layout_of(ColorFormat format) {
+FormatLayout layout_of(cases::ColorFormat format) {
     const cases::ColorFormatRow& row = cases::row_of(format);
     const auto has_bytes = [](uint8_t bits) { return bits % 8 == 0; };
     const bool is_packed = !std::ranges::all_of(row.bits, has_bytes);

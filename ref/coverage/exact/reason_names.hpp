@@ -5,7 +5,6 @@
 #pragma once
 
 #include "ref/coverage/setup.hpp"
-#include "ref/reason/reason.hpp"
 
 namespace ref {
 

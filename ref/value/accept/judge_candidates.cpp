@@ -3,7 +3,6 @@
 #include "ref/value/accept/judge_candidates.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>

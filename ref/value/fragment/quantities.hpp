@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "cases/model/case.hpp"
-#include "cases/model/profile.hpp"
 #include "cases/model/triangle.hpp"
 #include "ref/number/plane_budget.hpp"
 #include "ref/position/limits.hpp"
