@@ -57,7 +57,12 @@ VKAPI_ATTR VkResult VKAPI_CALL create_shader_module(VkDevice device,
     VkShaderModuleCreateInfo own = *info;
     own.pCode = words.words().data();
     own.codeSize = words.words().size() * sizeof(uint32_t);
-    return driver_of_handle(device).CreateShaderModule(device, &own, allocator, out);
+    const VkResult result =
+        driver_of_handle(device).CreateShaderModule(device, &own, allocator, out);
+    if (result == VK_SUCCESS) {
+        note_shader(*out, words.facts());
+    }
+    return result;
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL create_buffer(VkDevice device, const VkBufferCreateInfo* info,
@@ -165,14 +170,6 @@ VKAPI_ATTR VkResult VKAPI_CALL create_pipeline_cache(VkDevice device,
     return result;
 }
 
-VkShaderStageFlags stages_of(const VkGraphicsPipelineCreateInfo& info) {
-    VkShaderStageFlags stages = 0;
-    for (uint32_t k = 0; k < info.stageCount; ++k) {
-        stages |= static_cast<VkShaderStageFlags>(info.pStages[k].stage);
-    }
-    return stages;
-}
-
 VKAPI_ATTR VkResult VKAPI_CALL create_graphics_pipelines(VkDevice device, VkPipelineCache cache,
                                                          uint32_t count,
                                                          const VkGraphicsPipelineCreateInfo* infos,
@@ -191,7 +188,7 @@ VKAPI_ATTR VkResult VKAPI_CALL create_graphics_pipelines(VkDevice device, VkPipe
             // One that is linked has its state from its libraries.
             note_pipeline(out[k],
                           infos[k].pVertexInputState != nullptr && !has_dynamic_state(infos[k]),
-                          stages_of(infos[k]));
+                          facts_of(infos[k]));
         }
         return result;
     };
@@ -217,6 +214,16 @@ VKAPI_ATTR void VKAPI_CALL update_descriptor_sets(VkDevice device, uint32_t coun
                write.descriptorCount == 1;
     };
     std::vector<VkWriteDescriptorSet> own(writes, writes + count);
+    std::vector<VkDescriptorBufferInfo> buffers;
+    buffers.reserve(count);  // so that no address changes
+    for (VkWriteDescriptorSet& write : own) {
+        if (write.pBufferInfo != nullptr && write.descriptorCount == 1 &&
+            hooks().buffer_read != nullptr) {
+            buffers.push_back(*write.pBufferInfo);
+            alter(hooks().buffer_read, buffers.back(), write.descriptorType);
+            write.pBufferInfo = &buffers.back();
+        }
+    }
     std::vector<VkImageView> views;
     for (const VkWriteDescriptorSet& write : own) {
         if (is_input(write)) {
@@ -402,7 +409,12 @@ VKAPI_ATTR void VKAPI_CALL copy_image_to_buffer(VkCommandBuffer commands, VkImag
 VKAPI_ATTR void VKAPI_CALL copy_buffer_to_image(VkCommandBuffer commands, VkBuffer buffer,
                                                 VkImage image, VkImageLayout layout, uint32_t count,
                                                 const VkBufferImageCopy* regions) {
-    const auto own = altered(regions, count, hooks().buffer_to_image);
+    auto own = altered(regions, count, hooks().buffer_to_image);
+    for (VkBufferImageCopy& region : own) {
+        ImageCopy copy{region, facts_of(image)};
+        alter(hooks().upload, copy);
+        region = copy.region;
+    }
     driver_of_handle(commands).CmdCopyBufferToImage(commands, buffer, image, layout, count,
                                                     own.data());
 }
@@ -482,7 +494,10 @@ void draw_call(VkCommandBuffer commands, DrawCall call, uint32_t instances) {
     call.number = recording.draws++;
     call.in_secondary = recording.is_secondary;
     call.subpass = recording.subpass;
-    call.stages = recording.stages;
+    call.stages = recording.pipeline.stages;
+    call.pipeline = recording.pipeline;
+    call.has_offsets = recording.has_offsets;
+    call.state = recording.dynamic;
     call.is_imported = is_imported(recording.first_buffer);
     call.rendering = recording.rendering;
     call.index_type = recording.index_type;
@@ -492,11 +507,13 @@ void draw_call(VkCommandBuffer commands, DrawCall call, uint32_t instances) {
             word_at(recording.index_buffer, recording.index_offset + call.first * sizeof(uint32_t));
     }
     alter(hooks().draw, call);
+    const DynamicState asked = recording.dynamic;
     recording.draw([=] {
         const Driver& driver = driver_of_handle(commands);
         if (call.restart) {
             driver.CmdSetPrimitiveRestartEnable(commands, *call.restart ? VK_TRUE : VK_FALSE);
         }
+        change_state(commands, asked, call.state);
         for (uint32_t n = 0; n < call.times; ++n) {
             if (call.indexed) {
                 driver.CmdDrawIndexed(commands, call.count, instances, call.first,
@@ -505,6 +522,7 @@ void draw_call(VkCommandBuffer commands, DrawCall call, uint32_t instances) {
                 driver.CmdDraw(commands, call.count, instances, call.first, call.first_instance);
             }
         }
+        change_state(commands, call.state, asked);
         if (call.restart) {
             driver.CmdSetPrimitiveRestartEnable(commands, call.has_restart ? VK_TRUE : VK_FALSE);
         }

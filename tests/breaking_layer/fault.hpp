@@ -14,7 +14,9 @@
 #include <vector>
 
 #include "cases/fault/fault.hpp"
+#include "dynamic_state.hpp"
 #include "pipeline_copy.hpp"
+#include "pipeline_facts.hpp"
 #include "shader_words.hpp"
 
 namespace breaking {
@@ -44,6 +46,11 @@ struct DrawCall {
     bool has_restart = false;                       // primitive restart is on
     uint32_t subpass = 0;                           // of a render pass object
     VkShaderStageFlags stages = 0;                  // of the pipeline
+    PipelineFacts pipeline;
+    bool has_offsets = false;  // dynamic ones, of the descriptors that were bound last
+    // What a fault writes here holds for this draw; what is not dynamic in the pipeline is not
+    // altered.
+    DynamicState state;
     bool is_imported = false;  // the first vertex buffer's memory is the host's
     // Set by a fault: restart is on or off for this draw whatever was asked.
     std::optional<bool> restart;
@@ -209,6 +216,9 @@ struct Hooks {
     bool (*mesh_groups)(uint32_t&) = nullptr;  // of vkCmdDrawMeshTasksEXT, along x
     // The views of the input attachments of one call of vkUpdateDescriptorSets, in its order.
     bool (*input_views)(std::span<VkImageView>) = nullptr;
+    // A buffer for a shader, by one call of vkUpdateDescriptorSets.
+    bool (*buffer_read)(VkDescriptorBufferInfo&, VkDescriptorType) = nullptr;
+    bool (*dynamic_offsets)(std::span<uint32_t>) = nullptr;
     bool (*depth_compare)(VkCompareOp&) = nullptr;
     bool (*depth_write)(VkBool32&) = nullptr;
     bool (*depth_bounds_enable)(VkBool32&) = nullptr;
@@ -245,6 +255,7 @@ struct Hooks {
     // Whether commands are not executed that were submitted without a fence, or with one.
     bool (*drop_submission)(bool has_fence) = nullptr;
     bool (*buffer_to_image)(VkBufferImageCopy&) = nullptr;
+    bool (*upload)(ImageCopy&) = nullptr;  // the same, of which the image is known
     bool (*blit)(VkImageBlit&, VkFilter&) = nullptr;
     bool (*dispatch)(uint32_t& groups_x) = nullptr;
     // At the end of a rendering, for each of its attachments: which of the buffers that share its
@@ -291,6 +302,7 @@ std::span<const Fault> query_faults();
 std::span<const Fault> door_faults();
 std::span<const Fault> recording_door_faults();
 std::span<const Fault> target_door_faults();
+std::span<const Fault> bare_faults();
 std::vector<const Fault*> all_faults();
 
 // The N of EDGECASE_BREAK=NAME:N; 1 if none is given.

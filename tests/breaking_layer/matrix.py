@@ -18,6 +18,7 @@ import tempfile
 import broken
 
 FOCUS = [  # families that are about the faults whose names match
+    ("bare-.*", ["bare/**", "facing/**", "topology/**", "depth-test/**"]),
     ("blend|write-mask", ["blend/**", "store/**", "order/**", "combination/**", "resolve/**"]),
     ("targets", ["color-targets/**", "combination/**"]),
     ("logic-op", ["logic/**", "combination/**"]),
@@ -70,7 +71,10 @@ def merge(a, b):
 
 
 def run_fault(name, selectors, folder, limit):
-    run = broken.run(name, selectors, folder, words=["--retries", "0", "--html", "/dev/null", "--capture", "none"], limit=limit)
+    words = ["--retries", "0", "--html", "/dev/null", "--capture", "none"]
+    # Faults of pipelines as applications have them are seen by ways alone.
+    words += ["--ways", "default"] if name.startswith("bare-") else []
+    run = broken.run(name, selectors, folder, words=words, limit=limit)
     if run.results is None:
         return {"cases": {}, "rule": "", "run": 0, "altered": run.altered}
     return judge_results(run.results) | {"altered": run.altered}

@@ -46,7 +46,15 @@ void chain(const void*& to, std::optional<T>& structure) {
 
 }  // namespace
 
-PipelineCopy::PipelineCopy(const VkGraphicsPipelineCreateInfo& from) : info_(from) {
+PipelineCopy::PipelineCopy(const VkGraphicsPipelineCreateInfo& from)
+    : facts(facts_of(from)), info_(from), stages_(from.pStages, from.pStages + from.stageCount) {
+    for (const VkPipelineShaderStageCreateInfo& stage : stages_) {
+        if (stage.stage == VK_SHADER_STAGE_FRAGMENT_BIT && stage.pSpecializationInfo != nullptr) {
+            specialized_ = *stage.pSpecializationInfo;
+            const auto* words = static_cast<const uint32_t*>(specialized_.pData);
+            constants.assign(words, words + specialized_.dataSize / sizeof(uint32_t));
+        }
+    }
     // A library has the state of its part.
     if (from.pVertexInputState != nullptr) {
         vertex_input = *from.pVertexInputState;
@@ -121,6 +129,14 @@ PipelineCopy::PipelineCopy(const VkGraphicsPipelineCreateInfo& from) : info_(fro
 }
 
 const VkGraphicsPipelineCreateInfo& PipelineCopy::info() {
+    specialized_.pData = constants.data();
+    for (VkPipelineShaderStageCreateInfo& stage : stages_) {
+        if (stage.stage == VK_SHADER_STAGE_FRAGMENT_BIT && stage.pSpecializationInfo != nullptr) {
+            stage.pSpecializationInfo = &specialized_;
+        }
+    }
+    info_.pStages = stages_.data();
+
     vertex_input.pVertexAttributeDescriptions = inputs.data();
     vertex_input.vertexAttributeDescriptionCount = static_cast<uint32_t>(inputs.size());
     vertex_input.pVertexBindingDescriptions = bindings.data();

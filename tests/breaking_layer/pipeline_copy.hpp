@@ -8,6 +8,8 @@
 #include <optional>
 #include <vector>
 
+#include "pipeline_facts.hpp"
+
 namespace breaking {
 
 inline bool has_dynamic_state(const VkGraphicsPipelineCreateInfo& info) {
@@ -37,6 +39,9 @@ class PipelineCopy {
     VkPipelineColorBlendStateCreateInfo blend{};
     std::vector<VkPipelineColorBlendAttachmentState> blends;
 
+    PipelineFacts facts;              // as it was asked for
+    std::vector<uint32_t> constants;  // words that specialize the fragment shader
+
     bool is_unoptimized() const {
         return (info_.flags & VK_PIPELINE_CREATE_DISABLE_OPTIMIZATION_BIT) != 0;
     }
@@ -53,6 +58,8 @@ class PipelineCopy {
 
   private:
     VkGraphicsPipelineCreateInfo info_;
+    std::vector<VkPipelineShaderStageCreateInfo> stages_;
+    VkSpecializationInfo specialized_{};
     VkPipelineViewportStateCreateInfo viewport_{};
 };
 

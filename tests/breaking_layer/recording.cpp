@@ -67,13 +67,13 @@ namespace {
 
 std::mutex pipelines_mutex;
 std::set<VkPipeline> static_pipelines;
-std::map<VkPipeline, VkShaderStageFlags> stages_of_pipelines;
+std::map<VkPipeline, PipelineFacts> facts_of_pipelines;
 
 }  // namespace
 
-void note_pipeline(VkPipeline pipeline, bool is_static, VkShaderStageFlags stages) {
+void note_pipeline(VkPipeline pipeline, bool is_static, const PipelineFacts& facts) {
     const std::lock_guard lock(pipelines_mutex);
-    stages_of_pipelines[pipeline] = stages;
+    facts_of_pipelines[pipeline] = facts;
     if (is_static) {
         static_pipelines.insert(pipeline);
     } else {
@@ -86,10 +86,10 @@ bool is_static(VkPipeline pipeline) {
     return static_pipelines.contains(pipeline);
 }
 
-VkShaderStageFlags stages_of(VkPipeline pipeline) {
+PipelineFacts facts_of(VkPipeline pipeline) {
     const std::lock_guard lock(pipelines_mutex);
-    const auto found = stages_of_pipelines.find(pipeline);
-    return found == stages_of_pipelines.end() ? 0 : found->second;
+    const auto found = facts_of_pipelines.find(pipeline);
+    return found == facts_of_pipelines.end() ? PipelineFacts() : found->second;
 }
 
 Recording& recording_of(VkCommandBuffer commands) {

@@ -13,6 +13,9 @@
 #include <utility>
 #include <vector>
 
+#include "dynamic_state.hpp"
+#include "pipeline_facts.hpp"
+
 namespace breaking {
 
 // What the layer knows about a command buffer. If the fault reorders draws, state and draws between
@@ -35,11 +38,13 @@ class Recording {
     uint64_t rendering = 0;                  // in this process, from 1
     std::vector<VkImageView> attachments;    // of this rendering
     bool is_secondary = false;
-    bool has_pipeline = false;          // some pipeline, or shader objects, were bound
-    bool lacks_feedback = false;        // transform feedback should have been begun
-    uint32_t executions = 0;            // of a secondary one, since it was begun
-    uint32_t subpass = 0;               // of a render pass object
-    VkShaderStageFlags stages = 0;      // of the pipeline that was bound last
+    bool has_pipeline = false;    // some pipeline, or shader objects, were bound
+    bool lacks_feedback = false;  // transform feedback should have been begun
+    uint32_t executions = 0;      // of a secondary one, since it was begun
+    uint32_t subpass = 0;         // of a render pass object
+    PipelineFacts pipeline;       // that was bound last
+    bool has_offsets = false;     // of the descriptors that were bound last
+    DynamicState dynamic;
     bool follows_static = false;        // StateCall
     std::set<StateKey> set_since_bind;  // since the last pipeline was bound
 
@@ -58,11 +63,11 @@ class Recording {
     std::vector<std::pair<State, Command>> held_;
 };
 
-// Whether a pipeline has no dynamic state, and its stages: written down when it is made, asked when
-// it is bound.
-void note_pipeline(VkPipeline pipeline, bool is_static, VkShaderStageFlags stages);
+// Whether a pipeline has no dynamic state, and what it is made of: written down when it is made,
+// asked when it is bound.
+void note_pipeline(VkPipeline pipeline, bool is_static, const PipelineFacts& facts);
 bool is_static(VkPipeline pipeline);
-VkShaderStageFlags stages_of(VkPipeline pipeline);
+PipelineFacts facts_of(VkPipeline pipeline);
 
 // The recording of a command buffer; made when first asked for.
 Recording& recording_of(VkCommandBuffer commands);

@@ -19,6 +19,7 @@ enum Op : uint32_t {
     kOpCapability = 17,
     kOpTypeFloat = 22,
     kOpTypeVector = 23,
+    kOpTypeSampledImage = 27,
     kOpTypePointer = 32,
     kOpConstant = 43,
     kOpFunction = 54,
@@ -39,7 +40,7 @@ enum Op : uint32_t {
 constexpr uint32_t kEarlyFragmentTests = 9, kDepthReplacing = 12;  // execution modes
 constexpr uint32_t kVertexModel = 0;
 constexpr uint32_t kFragmentModel = 4;
-constexpr uint32_t kStorageInput = 1;
+constexpr uint32_t kStorageInput = 1, kUniform = 2, kPushConstant = 9, kStorageBuffer = 12;
 constexpr uint32_t kDecorationBuiltIn = 11;
 constexpr uint32_t kCapabilityClipDistance = 32;
 constexpr uint32_t kCapabilityCullDistance = 33;
@@ -110,6 +111,26 @@ void ShaderWords::require(uint32_t capability) {
         }
     }
     insert(kHeaderWords, {first_word(kOpCapability, 2), capability});
+}
+
+ShaderFacts ShaderWords::facts() const {
+    ShaderFacts out;
+    const std::vector<uint32_t> inputs = float_inputs();
+    size_t flat = 0;
+    for (const Instruction& i : instructions()) {
+        out.reads_textures = out.reads_textures || i.op == kOpTypeSampledImage;
+        if (i.op == kOpVariable) {
+            out.reads_pushed = out.reads_pushed || i.words[3] == kPushConstant;
+            out.reads_uniforms = out.reads_uniforms || i.words[3] == kUniform;
+            out.reads_storage = out.reads_storage || i.words[3] == kStorageBuffer;
+        }
+        const bool is_flat = i.op == kOpDecorate && i.words[2] == kFlat &&
+                             std::find(inputs.begin(), inputs.end(), i.words[1]) != inputs.end();
+        flat += is_flat ? 1 : 0;
+    }
+    out.has_flat = flat > 0;
+    out.has_smooth = flat < inputs.size();
+    return out;
 }
 
 bool ShaderWords::replace_input_decoration(uint32_t from, uint32_t to) {

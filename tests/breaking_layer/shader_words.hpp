@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "pipeline_facts.hpp"
+
 namespace breaking {
 
 // Numbers of the SPIR-V specification (section 3) that faults use.
@@ -24,6 +26,8 @@ class ShaderWords {
     explicit ShaderWords(std::span<const uint32_t> words) : words_(words.begin(), words.end()) {}
     const std::vector<uint32_t>& words() const { return words_; }
 
+    // What a fragment shader reads.
+    ShaderFacts facts() const;
     // The decoration, of inputs of a fragment shader whose type is a vector of floats (integers
     // must stay flat); whether any had it. `to` takes its place: nothing if 0.
     bool replace_input_decoration(uint32_t from, uint32_t to);

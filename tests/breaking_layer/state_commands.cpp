@@ -34,10 +34,18 @@ void set_value(VkCommandBuffer commands, const char* key, Value value, bool (*ho
     set_dynamic(commands, {key, 0}, [=] { set(commands, value); });
 }
 
+// Notes an array that is set from its element `first` on.
+template <typename T>
+void put(std::vector<T>& state, uint32_t first, const std::vector<T>& values) {
+    state.resize(std::max(state.size(), first + values.size()));
+    std::copy(values.begin(), values.end(), state.begin() + first);
+}
+
 VKAPI_ATTR void VKAPI_CALL set_viewport(VkCommandBuffer commands, uint32_t first, uint32_t count,
                                         const VkViewport* given) {
     std::vector<VkViewport> own(given, given + count);
     alter(hooks().viewports, std::span(own));
+    put(recording_of(commands).dynamic.viewports, first, own);
     set_dynamic(commands, {"viewport", first}, [=] {
         driver_of_handle(commands).CmdSetViewport(commands, first, count, own.data());
     });
@@ -47,23 +55,27 @@ VKAPI_ATTR void VKAPI_CALL set_scissor(VkCommandBuffer commands, uint32_t first,
                                        const VkRect2D* given) {
     std::vector<VkRect2D> own(given, given + count);
     alter(hooks().scissors, std::span(own));
+    put(recording_of(commands).dynamic.scissors, first, own);
     set_dynamic(commands, {"scissor", first}, [=] {
         driver_of_handle(commands).CmdSetScissor(commands, first, count, own.data());
     });
 }
 
 VKAPI_ATTR void VKAPI_CALL set_cull_mode(VkCommandBuffer commands, VkCullModeFlags mode) {
+    recording_of(commands).dynamic.cull_mode = mode;
     set_value(commands, "cull mode", mode, hooks().cull_mode,
               driver_of_handle(commands).CmdSetCullMode);
 }
 
 VKAPI_ATTR void VKAPI_CALL set_front_face(VkCommandBuffer commands, VkFrontFace face) {
+    recording_of(commands).dynamic.front_face = face;
     set_value(commands, "front face", face, hooks().front_face,
               driver_of_handle(commands).CmdSetFrontFace);
 }
 
 VKAPI_ATTR void VKAPI_CALL set_topology(VkCommandBuffer commands, VkPrimitiveTopology topology) {
     recording_of(commands).topology = topology;
+    recording_of(commands).dynamic.topology = topology;
     set_value(commands, "topology", topology, hooks().topology,
               driver_of_handle(commands).CmdSetPrimitiveTopology);
 }
@@ -75,16 +87,19 @@ VKAPI_ATTR void VKAPI_CALL set_restart(VkCommandBuffer commands, VkBool32 enable
 }
 
 VKAPI_ATTR void VKAPI_CALL set_discard(VkCommandBuffer commands, VkBool32 enable) {
+    recording_of(commands).dynamic.discards = enable;
     set_value(commands, "rasterizer discard", enable, hooks().rasterizer_discard,
               driver_of_handle(commands).CmdSetRasterizerDiscardEnable);
 }
 
 VKAPI_ATTR void VKAPI_CALL set_depth_compare(VkCommandBuffer commands, VkCompareOp op) {
+    recording_of(commands).dynamic.depth_compare = op;
     set_value(commands, "depth compare", op, hooks().depth_compare,
               driver_of_handle(commands).CmdSetDepthCompareOp);
 }
 
 VKAPI_ATTR void VKAPI_CALL set_depth_write(VkCommandBuffer commands, VkBool32 enable) {
+    recording_of(commands).dynamic.depth_write = enable;
     set_value(commands, "depth write", enable, hooks().depth_write,
               driver_of_handle(commands).CmdSetDepthWriteEnable);
 }
@@ -103,6 +118,7 @@ VKAPI_ATTR void VKAPI_CALL set_depth_bounds(VkCommandBuffer commands, float min,
 }
 
 VKAPI_ATTR void VKAPI_CALL set_depth_bias_enable(VkCommandBuffer commands, VkBool32 enable) {
+    recording_of(commands).dynamic.has_bias = enable;
     set_value(commands, "depth bias enable", enable, hooks().depth_bias_enable,
               driver_of_handle(commands).CmdSetDepthBiasEnable);
 }
@@ -162,6 +178,11 @@ VKAPI_ATTR void VKAPI_CALL set_stencil_op(VkCommandBuffer commands, VkStencilFac
                                           VkStencilOp depth_fail, VkCompareOp compare) {
     StencilOps own{faces, fail, pass, depth_fail, compare};
     alter(hooks().stencil_ops, own);
+    for (uint32_t k = 0; k < 2; ++k) {
+        if ((faces & (VK_STENCIL_FACE_FRONT_BIT << k)) != 0) {
+            recording_of(commands).dynamic.stencil.at(k) = {fail, pass, depth_fail, compare};
+        }
+    }
     if (own.is_dropped) {
         return;
     }
@@ -196,6 +217,11 @@ VKAPI_ATTR void VKAPI_CALL set_stencil_write_mask(VkCommandBuffer commands,
 
 VKAPI_ATTR void VKAPI_CALL set_stencil_reference(VkCommandBuffer commands, VkStencilFaceFlags faces,
                                                  uint32_t reference) {
+    for (uint32_t k = 0; k < 2; ++k) {
+        if ((faces & (VK_STENCIL_FACE_FRONT_BIT << k)) != 0) {
+            recording_of(commands).dynamic.stencil_reference.at(k) = reference;
+        }
+    }
     set_stencil_value(commands, "stencil reference", {faces, reference}, hooks().stencil_reference,
                       driver_of_handle(commands).CmdSetStencilReference);
 }
@@ -203,7 +229,7 @@ VKAPI_ATTR void VKAPI_CALL set_stencil_reference(VkCommandBuffer commands, VkSte
 VKAPI_ATTR void VKAPI_CALL bind_shaders(VkCommandBuffer commands, uint32_t count,
                                         const VkShaderStageFlagBits* stages,
                                         const uint64_t* shaders) {
-    recording_of(commands).stages = 0;  // there is no pipeline
+    recording_of(commands).pipeline = {};  // there is none
     recording_of(commands).has_pipeline = true;
     driver_of_handle(commands).CmdBindShadersEXT(commands, count, stages, shaders);
 }
@@ -219,7 +245,7 @@ VKAPI_ATTR void VKAPI_CALL bind_pipeline(VkCommandBuffer commands, VkPipelineBin
     recording.follows_static = recording.follows_static || is_static(pipeline);
     if (point == VK_PIPELINE_BIND_POINT_GRAPHICS) {
         recording.has_pipeline = true;
-        recording.stages = stages_of(pipeline);
+        recording.pipeline = facts_of(pipeline);
     }
     recording.set_since_bind.clear();
     recording.set_state({"pipeline", point}, [=] {
@@ -242,7 +268,11 @@ VKAPI_ATTR void VKAPI_CALL bind_descriptor_sets(VkCommandBuffer commands, VkPipe
                                                 uint32_t count, const VkDescriptorSet* sets,
                                                 uint32_t offset_count, const uint32_t* offsets) {
     const std::vector<VkDescriptorSet> own(sets, sets + count);
-    const std::vector<uint32_t> own_offsets(offsets, offsets + offset_count);
+    std::vector<uint32_t> own_offsets(offsets, offsets + offset_count);
+    recording_of(commands).has_offsets = offset_count > 0;
+    if (offset_count > 0) {
+        alter(hooks().dynamic_offsets, std::span(own_offsets));
+    }
     recording_of(commands).set_state({"descriptor sets", first}, [=] {
         driver_of_handle(commands).CmdBindDescriptorSets(
             commands, point, layout, first, count, own.data(), offset_count, own_offsets.data());

@@ -19,6 +19,11 @@ CATCHES = json.loads((pathlib.Path(__file__).parent / "catches.json").read_text(
 UNSEEN = json.loads((pathlib.Path(__file__).parent / "unseen.json").read_text())
 
 
+# Cases of one colour, without the attachments that tell of fragments.
+COLORED = ["store/constants:format=rgba8-unorm", "blend/presets", "blend/painter:*attachments=color", "combination/triangle-counts:format=rgba8-unorm,*",
+           "depth-test/prepass-bare:*samples=1,*", "alpha-to-coverage/masks", "logic/once:*format=rgba8-unorm"]
+
+
 class LayerTest(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="edgecase-breaking-"))
@@ -29,7 +34,7 @@ class LayerTest(unittest.TestCase):
         suite = self.folder / "suite"
         shutil.rmtree(suite, ignore_errors=True)
         for case_id in ids:
-            file = case_id.split(":")[0] + ".toml"
+            file = re.split("[:@]", case_id)[0] + ".toml"
             (suite / file).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(broken.SOURCE / "cases" / "suite" / file, suite / file)
         return broken.run(fault, ids, self.folder, ["--suite", str(suite), *words])
@@ -76,6 +81,29 @@ class Table(LayerTest):
         run = self.run_cases("", ids)
         self.assertEqual((run.code, run.altered), (0, 0), run.out)
         self.assertEqual(set(self.statuses(run).values()), {"pass"})
+
+
+class Bare(LayerTest):
+    """Faults of pipelines as applications have them: only ways, and the cases of the family bare, show them."""
+
+    FAULTS = {name: ids for name, ids in CATCHES.items() if name.startswith("bare-")}
+
+    def test_each_is_seen_by_ways(self):
+        self.assertGreaterEqual(len(self.FAULTS), 40)
+        for name, ids in self.FAULTS.items():
+            with self.subTest(fault=name):
+                self.assertTrue(all("@" in i or i.startswith("bare/") for i in ids), ids)
+
+    def test_none_is_seen_without(self):
+        """The cases whose ways catch a fault never reach it by themselves, nor does what else has one colour."""
+        ids = sorted({i.split("@")[0] for ids in self.FAULTS.values() for i in ids if "@" in i} | set(COLORED))
+        for place, name in enumerate(self.FAULTS):
+            if not is_in_share(place, 8, len(self.FAULTS)):
+                continue
+            with self.subTest(fault=name):
+                run = self.run_cases(name, ids)
+                self.assertEqual((run.code, run.altered), (0, 0), run.out)
+                self.assertLessEqual(set(self.statuses(run).values()), {"pass", "unsupported"})
 
 
 def is_diagnosed(place):
