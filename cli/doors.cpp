@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "cases/model/door.hpp"
+#include "cases/model/way.hpp"
 #include "cli/commands.hpp"
 #include "cli/options/stop.hpp"
 #include "cli/prepare/outputs.hpp"
@@ -22,6 +23,11 @@ int carry_out(const Program&) {
                                 row.rule, row.takes,
                                 needs.empty() ? "" : fmt::format("; needs {}", needs)));
     }
+    for (const cases::WayRow& way : cases::all_ways()) {
+        say(fmt::format("{}\n", way.word));
+        say_wrapped(fmt::format("    {}\n", way.does));
+        say_wrapped(fmt::format("    group: bare; --ways; takes {}\n", way.takes));
+    }
     return report::kExitOk;
 }
 
@@ -29,7 +35,9 @@ int carry_out(const Program&) {
 
 Command doors_command() {
     return make_command(
-        {"doors", kProgram, "list the doors that a run can take: other ways of the API",
+        {"doors", kProgram,
+         "list the doors that a run can take, other ways of the API, and the ways to draw as "
+         "applications do",
          "  edgecase doors                            what each of them does, and takes\n"},
         carry_out);
 }

@@ -138,9 +138,9 @@ cases::Errors check_case(const cases::Case& c, const ref::Exercise& exercise) {
         if (!c.target.has_instruments && !diff::fails_if_empty(c, profile)) {
             errors.push_back({c.claim.where,
                               c.id + ": at profile " + std::string(cases::to_string(profile)) +
-                                  " every sample may hold the clear colour, so a device that draws "
-                                  "nothing would pass; choose another colour, or another clear "
-                                  "colour"});
+                                  " every sample may hold what it was cleared to, so a device that "
+                                  "draws nothing would pass; choose another colour, depth or clear "
+                                  "value"});
             return errors;
         }
     }

@@ -49,6 +49,9 @@ edgecase_compile_shader(clear.frag clear_fragment "${clear_variants}")
 list(JOIN clear_numbers ", " clear_numbers)
 list(JOIN clear_integers ", " clear_integers)
 
+edgecase_compile_shader(bare.frag bare
+    "bare_constant 1.1 FROM=1;bare_uniform 1.1 FROM=2;bare_offset 1.1 FROM=3;bare_storage 1.1 FROM=4;bare_texture 1.1 FROM=5")
+
 # Vertex shaders: attributes x (clip x cull distances without routing, and routing without distances).
 # Each row of a table is a variant: what it was compiled for, then its words.
 set(vertex_table "")
@@ -134,7 +137,7 @@ list(JOIN evaluation_names ", " evaluation_names)
 # p probes, l lod, b barycentrics, m mask in, s sample, r shading rate, o mask out, k discard, z depth, c colour (float), u colour (uint),
 # w two sources of colour (float), j several colours, n no instruments, t split instruments, d split with attributes in pairs (at most 8 colour attachments).
 set(plain_features "-" o c u co uo cn un con uon k kc ku kcn kun z zc zu zn zcn zun kz kzc kzu kzcn kzun wn won kwn zwn kzwn
-    j oj kj zj kzj jn ojn kjn zjn kzjn)
+    j oj kj zj kzj jn ojn kjn zjn kzjn on kn kzn)
 set(attribute_features p pl b m ms mo mso pb pm pms po bms bm r rm)
 set(fragment_table "")
 foreach(count RANGE 4)
@@ -219,6 +222,7 @@ constexpr std::span<const uint32_t> kFeedback[] = {${feedback_names}};
 constexpr std::span<const uint32_t> kClearVertex = over_target, kClearDepth = write_depth;
 constexpr std::span<const uint32_t> kClearNumbers[] = {${clear_numbers}};
 constexpr std::span<const uint32_t> kClearIntegers[] = {${clear_integers}};
+constexpr std::span<const uint32_t> kBare[] = {bare_constant, bare_uniform, bare_offset, bare_storage, bare_texture};
 constexpr std::span<const uint32_t> kCopy[] = {copy_depth, copy_1, copy_2, copy_4};
 constexpr Module<FragmentVariant> kFragment[] = {
 ${fragment_table}};

@@ -99,25 +99,31 @@ class EmptyPicture {
     EmptyPicture(const cases::Case& c, const ref::Expectation& expectation)
         : target_(c.target),
           expectation_(expectation),
-          reference_(c, expectation),
           values_(c, expectation.limits, expectation.profile) {
-        const ref::color::Unit unit{c.target.color->format, expectation.profile};
-        clear_ = unit.codes_of(unit.cleared(*c.target.color));
+        if (c.target.color) {
+            reference_.emplace(c, expectation);
+            const ref::color::Unit unit{c.target.color->format, expectation.profile};
+            clear_ = unit.codes_of(unit.cleared(*c.target.color));
+        }
     }
 
     bool is_allowed(size_t index) {
         const cases::SampleId id = cases::sample_at(target_, index);
-        return reference_.explains(index, id, clear_) &&
+        const ref::SampleExpectation& expected = expectation_.samples[index];
+        return (!reference_ || reference_->explains(index, id, clear_)) &&
                (!target_.has_depth ||
                 ref::StoredDepths(expectation_, values_)
-                    .allows(expectation_.samples[index], id,
-                            cases::nearest_depth(target_.depth_clear, target_.depth_format), true));
+                    .allows(expected, id,
+                            cases::nearest_depth(target_.depth_clear, target_.depth_format),
+                            true)) &&
+               (!target_.has_stencil ||
+                ref::stencils_at(expectation_, expected, {})[target_.stencil_clear]);
     }
 
   private:
     const cases::Target& target_;
     const ref::Expectation& expectation_;
-    ref::ColorReference reference_;
+    std::optional<ref::ColorReference> reference_;  // if there is a colour
     ref::ValueReference values_;
     std::array<uint32_t, 4> clear_{};
 };

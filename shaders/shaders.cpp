@@ -56,6 +56,10 @@ std::span<const uint32_t> capture_fragment(const FragmentVariant& variant) {
     return find(kFragment, variant);
 }
 
+std::span<const uint32_t> bare_fragment(uint32_t from) {
+    return kBare[std::min(size_t{from}, std::size(kBare)) - 1];
+}
+
 std::span<const uint32_t> feedback_vertex(uint32_t attributes) {
     return kFeedback[attributes];
 }
@@ -119,6 +123,10 @@ std::span<const uint32_t> any_module(size_t i) {
         return kFeedback[i];
     }
     i -= std::size(kFeedback);
+    if (i < std::size(kBare)) {
+        return kBare[i];
+    }
+    i -= std::size(kBare);
     if (i < 2) {
         return i == 0 ? clear_vertex() : clear_depth();
     }

@@ -122,6 +122,9 @@ std::span<const uint32_t> capture_evaluation(uint32_t attributes);
 // 2; the attributes that are flat, a bit each.
 inline constexpr uint32_t kProvokingConstant = 0, kFlatConstant = 1;
 std::span<const uint32_t> capture_fragment(const FragmentVariant& variant);
+// bare.frag: writes one colour, which it has from `from`, numbered as cases::ColorFrom (1 to 6; of
+// 5 and 6 the shader is one). Of 1 the specialization constants 0 to 3 are the colour.
+std::span<const uint32_t> bare_fragment(uint32_t from);
 
 // feedback.vert of 0..4 attributes: positions and attributes lie one behind the other in what it
 // writes.

@@ -221,6 +221,11 @@ std::vector<GuardDamage> BatchRenderer::draw_chunk(std::span<CasePlan> plans, bo
     const Buffer* readback = read_back ? &make_readback(plans, by_rows, guards) : nullptr;
     VkCommandBuffer commands = submission_.begin();
     textures_.record_transitions(commands);
+    for (const CasePlan& plan : plans) {
+        if (plan.colors) {
+            plan.colors->record(commands);
+        }
+    }
     if (readback != nullptr) {
         guards.record_fills(commands);
     }

@@ -125,6 +125,9 @@ std::optional<Rejection> Planner::plan(CasePlan& plan) const {
     if (cases::asks_queries(test)) {
         plan.queries = std::make_shared<Queries>(*device_, test);
     }
+    if (has_color_sources(test)) {
+        plan.colors = std::make_shared<ColorSources>(*device_, pipelines_->layouts(), test);
+    }
     plan.images = targets_->get(test.target, plan.attachments, image_way(test), resolved_way(test));
     if (auto closed = closed_door(plan, layout)) {
         return unsupported("{}", *closed);

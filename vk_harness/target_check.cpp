@@ -229,6 +229,9 @@ void check_color(const Capabilities& c, const cases::Case& test) {
     if (is_one && test.target.has_instruments) {
         throw invalid("alpha to one changes the attachments that tell of fragments");
     }
+    const bool renders_first = std::ranges::any_of(
+        test.draws, [](const auto& draw) { return draw.color.from == cases::ColorFrom::rendered; });
+    refuse_without(renders_first && !c.core.dynamic_rendering, "dynamicRendering");
     const bool takes_samples = std::ranges::any_of(
         test.draws, [](const auto& draw) { return draw.color.alpha_to_coverage; });
     if (takes_samples && test.target.has_instruments) {

@@ -38,7 +38,6 @@ constexpr Key table(std::string_view name, const KeyTable& keys) {
 }
 
 // --- words that no enumeration has, and values to try ---
-constexpr WordList<3> kAttachments = {"all", "color", "color+depth"};
 constexpr WordList<3> kSpaces = {"pixels", "ndc", "clip"};
 constexpr WordList<4> kMirrors = {"none", "x", "y", "xy"};
 constexpr WordList<2> kDirections = {"given", "reversed"};
@@ -88,7 +87,7 @@ constexpr auto kTarget = std::to_array<Key>({
     word("depth_resolve", kWords<Resolve>).near(kEquals).pipeline(),
     flag("stencil").pipeline(),
     whole("stencil_clear", 0, kStencilBits).tries(kStencils).plain("0"),
-    word("attachments", kAttachments).near(kEquals).pipeline(),
+    word("attachments", kWords<Attachments>).near(kEquals).pipeline(),
     table("color", kTargetColorKeys).plain("none"),
     other("judged", 0, kMaxColorTargets - 1).as("judged_color").plain("0"),
 });
@@ -200,6 +199,7 @@ constexpr auto kFragDepth = std::to_array<Key>({
 constexpr auto kColor = std::to_array<Key>({
     other("value"),
     other("attribute").any_word(),
+    word("from", kWords<ColorFrom>).near("the colour from a {}").pipeline(),
     table("blend", kBlendKeys).tries(kBlendWords).near(kEquals).plain("none").any_word().pipeline(),
     other("constants").plain("0, 0, 0, 0"),
     other("second"),

@@ -83,6 +83,11 @@ uint8_t read_write_mask(LeafContext& context, const TomlValue& value) {
     return mask;
 }
 
+// Whether it is a value from the vertices alone.
+bool is_plain(const Attribute& attribute) {
+    return attribute.source == Source::vertex && attribute.probe == Probe::value;
+}
+
 int32_t read_attribute_name(LeafContext& context, const TomlValue& value, const ColorTarget& target,
                             const std::vector<Attribute>& attributes) {
     const std::optional<std::string> name = context.text(value, "the colour's attribute");
@@ -95,7 +100,7 @@ int32_t read_attribute_name(LeafContext& context, const TomlValue& value, const 
                       fmt::format("the draw has no attribute \"{}\" for its colour", *name));
         return -1;
     }
-    if (found->source != Source::vertex || found->probe != Probe::value) {
+    if (!is_plain(*found)) {
         context.error(
             value.where,
             fmt::format("the colour cannot be the attribute \"{}\", which is not a value from "
@@ -144,6 +149,29 @@ void read_second(LeafContext& context, const TomlValue& table, const Target& tar
                       "attachments = \"color\" or \"color+depth\" in [target]");
     }
     out.blend->second = read_color(context, *second, "second", color.format).value_or(glm::vec4(0));
+}
+
+// A shader that has its colour from elsewhere than a push constant writes this colour alone.
+void check_source(LeafContext& context, const TomlValue& value, const Target& target,
+                  const ColorTarget& color, const ColorOutput& out,
+                  const std::vector<Attribute>& attributes) {
+    if (out.from == ColorFrom::push_constant) {
+        return;
+    }
+    const SourceLocation& where = value.find("from")->where;
+    if (target.has_instruments || !target.other_colors.empty() || is_integer(color.format)) {
+        context.error(where,
+                      "from is of one colour of numbers alone; write attachments = \"color\" or "
+                      "\"color+depth\" in [target], and one [target.color]");
+    } else if (value.find("attribute") != nullptr) {
+        context.error(where, "from says where a value comes from; write value, or leave out from");
+    } else if (out.blend && takes_second(*out.blend)) {
+        context.error(where, "from does not go with a second source; leave it out");
+    } else if (is_texture(out.from) && (attributes.empty() || !is_plain(attributes.front()))) {
+        context.error(where,
+                      "a texture is read at the draw's first attribute, a value from the vertices; "
+                      "write [[draw.attribute]]");
+    }
 }
 
 }  // namespace
@@ -203,6 +231,7 @@ ColorOutput read_color_output(LeafContext& context, const TomlValue& value, cons
                                          "attribute = \"its name\"");
         return out;
     }
+    check_source(context, value, target, color, out, attributes);
     if (constant != nullptr) {
         out.value = read_color(context, *constant, "value", color.format).value_or(glm::vec4(0));
     } else {
@@ -303,7 +332,7 @@ void read_color_outputs(LeafContext& context, const TomlValue& value, const Targ
     }
     check_shared(context, value, all);
     for (const Attribute& attribute : draw.attributes) {
-        if (attribute.source != Source::vertex || attribute.probe != Probe::value) {
+        if (!is_plain(attribute)) {
             context.error(value.where,
                           fmt::format("attribute \"{}\" is not a value from the vertices alone; "
                                       "several colour targets go with those only",

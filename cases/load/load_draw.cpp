@@ -245,6 +245,14 @@ class DrawLoader {
                                "early tests come before alpha takes samples away, which is not "
                                "judged here; leave out early_tests or alpha_to_coverage");
             }
+            if (draw_.color.from != ColorFrom::push_constant &&
+                (draw_.discard != Discard::none || draw_.frag_depth ||
+                 draw_.multisample.shader_mask)) {
+                context_.error(value->where,
+                               "a shader with its colour from elsewhere than a push constant does "
+                               "nothing else; leave out discard, frag_depth and shader_mask, or "
+                               "from");
+            }
         } else if (value != nullptr) {
             context_.error(value->where, "the target has no colour; write [target.color]");
         } else if (target_.color) {

@@ -91,13 +91,20 @@ void read_color_targets(LeafContext& context, const TomlValue& table, Target& ta
 }
 
 void read_attachments(LeafContext& context, const TomlValue& table, Target& target) {
-    uint32_t word = 0;
+    Attachments word = Attachments::all;
     context.read(table, kTargetKeys, "attachments", word);
-    target.has_instruments = word == 0;
-    target.has_depth = word != 1;
-    if (word != 0 && !target.color) {
+    target.has_instruments = word == Attachments::all;
+    target.has_depth = word != Attachments::color && word != Attachments::stencil;
+    const bool has_color = word == Attachments::color || word == Attachments::color_depth;
+    if (has_color && !target.color) {
         context.error(table.find("attachments")->where,
                       "attachments leaves nothing to draw to; write [target.color]");
+    } else if (!has_color && !target.has_instruments && target.color) {
+        context.error(table.find("attachments")->where,
+                      "attachments leaves no place for a colour; leave out [target.color]");
+    } else if (word == Attachments::stencil && !target.has_stencil) {
+        context.error(table.find("attachments")->where,
+                      "attachments leaves nothing to draw to; write stencil = true");
     }
 }
 

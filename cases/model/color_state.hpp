@@ -8,6 +8,7 @@
 #include <glm/vec4.hpp>
 #include <optional>
 
+#include "cases/base/fields.hpp"
 #include "cases/format/color_format.hpp"
 
 namespace cases {
@@ -87,10 +88,27 @@ enum class LogicOp : uint8_t {  // numbered as VkLogicOp
     set
 };
 
+// Where a fragment shader has a colour from that is no attribute. A texture is of one colour, and
+// is read at the draw's first attribute; `rendered` is such an image that an earlier rendering
+// cleared.
+enum class ColorFrom : uint8_t {
+    push_constant,
+    constant,  // a specialization constant
+    uniform,
+    uniform_offset,  // a dynamic one
+    storage,
+    texture,
+    rendered
+};
+constexpr bool is_texture(ColorFrom from) {
+    return from >= ColorFrom::texture;
+}
+
 // What a draw writes to the colour target (Target::color).
 struct ColorOutput {
-    glm::vec4 value{};       // what every fragment writes if attribute is -1
-    int32_t attribute = -1;  // else the index of the attribute that is written
+    glm::vec4 value{};                          // what every fragment writes if attribute is -1
+    int32_t attribute = -1;                     // else the index of the attribute that is written
+    ColorFrom from = ColorFrom::push_constant;  // of value
     std::optional<Blend> blend = {};
     uint8_t write_mask = 0xf;  // bit 0: red ... bit 3: alpha
     // With one nothing is blended. Floating-point and sRGB formats are
@@ -105,6 +123,7 @@ struct ColorOutput {
     static void fields(auto&& visit, auto&... c) {
         visit("value", c.value...);
         visit("attribute", c.attribute...);
+        visit({"from", kNotExported}, c.from...);  // the colours are those
         visit("blend", c.blend...);
         visit("write_mask", c.write_mask...);
         visit("logic", c.logic...);

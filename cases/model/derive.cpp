@@ -141,6 +141,9 @@ std::vector<uint32_t> drawn_attributes(const Target& target, const Draw& draw) {
             out.push_back(static_cast<uint32_t>(attribute));
         }
     }
+    if (is_texture(draw.color.from)) {
+        out.push_back(0);
+    }
     const auto discards = static_cast<int32_t>(draw.discard_attribute);
     if (discards_by_value(draw) && std::ranges::find(out, discards) == out.end()) {
         out.push_back(draw.discard_attribute);

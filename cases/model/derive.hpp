@@ -47,7 +47,7 @@ const ColorOutput& output_at(const Target& target, const Draw& draw, uint32_t lo
 // The blend constants, which a device has once for all targets: those of an output that blends.
 glm::vec4 blend_constants(const Draw& draw);
 // The attributes that are drawn without instruments, each once: those that are colours, in the
-// order of the locations, then the one whose sign discards.
+// order of the locations, or at which a texture is read, then the one whose sign discards.
 std::vector<uint32_t> drawn_attributes(const Target& target, const Draw& draw);
 
 // The word of a relation in a case file.

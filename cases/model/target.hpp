@@ -22,6 +22,10 @@ inline constexpr uint32_t kMaxLayers = 256;  // every device with layered render
 // How the samples of a pixel become one value at the end of rendering (VkResolveModeFlagBits).
 enum class Resolve : uint8_t { none, sample_zero, average, min, max };
 
+// What is attached: all with what counts hits, or these alone (beside a stencil that the target
+// has).
+enum class Attachments : uint8_t { all, color, color_depth, depth, stencil };
+
 struct Target {
     uint32_t width = 0, height = 0;  // pixels
     uint32_t samples = 1;
@@ -34,8 +38,7 @@ struct Target {
     // Those drawn beside it, in the order of their locations, and its own among them.
     std::vector<ColorTarget> other_colors = {};
     uint32_t judged_color = 0;
-    // False: only the colour target (and depth if has_depth) is attached, nothing that counts hits.
-    // Drivers take other paths then.
+    // False: nothing that counts hits is attached. Drivers take other paths then.
     bool has_instruments = true;
     bool has_depth = true;
     float depth_clear = kDepthClear;  // what the depth attachment is cleared to, 0..1
@@ -43,6 +46,11 @@ struct Target {
     Resolve color_resolve = Resolve::none, depth_resolve = Resolve::none;
     bool has_stencil = false;    // 8 bits, in one image with the depth if there is one
     uint32_t stencil_clear = 0;  // what the stencil is cleared to, 0..255
+    Attachments attachments() const {
+        return has_instruments ? Attachments::all
+               : color         ? (has_depth ? Attachments::color_depth : Attachments::color)
+                               : (has_depth ? Attachments::depth : Attachments::stencil);
+    }
     // Rows of pixels of all layers, stacked: row y of layer k is row k * height + y of every plane.
     uint32_t rows() const { return height * layers; }
     // Colour targets, and the one of a location (below color_count()).

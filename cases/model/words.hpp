@@ -108,6 +108,12 @@ template <>
 inline constexpr WordList<5> kWords<BlendOp> = {"add", "subtract", "reverse-subtract", "min",
                                                 "max"};
 template <>
+inline constexpr WordList<7> kWords<ColorFrom> = {
+    "push-constant", "constant", "uniform", "uniform-offset", "storage", "texture", "rendered"};
+template <>
+inline constexpr WordList<5> kWords<Attachments> = {"all", "color", "color+depth", "depth",
+                                                    "stencil"};
+template <>
 inline constexpr WordList<16> kWords<LogicOp> = {
     "clear",         "and",         "and-reverse", "copy",       "and-inverted", "no-op",
     "xor",           "or",          "nor",         "equivalent", "invert",       "or-reverse",

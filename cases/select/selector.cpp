@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "cases/model/rule.hpp"
+#include "cases/model/way.hpp"
 
 namespace cases {
 
@@ -212,6 +213,14 @@ std::string trimmed(const std::string& line) {
 }  // namespace
 
 bool glob_matches(std::string_view pattern, std::string_view id) {
+    const auto [base, way] = split_way(id);
+    const auto [of_base, of_way] = split_way(pattern);
+    if (way.empty() != of_way.empty()) {
+        return false;  // a case does not stand for what is drawn of it by ways
+    }
+    if (!way.empty()) {
+        return match(of_way, way) && glob_matches(of_base, base);
+    }
     return pattern == id || match(pattern, id) || match(pattern, id.substr(0, id.find(':')));
 }
 

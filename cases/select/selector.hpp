@@ -15,7 +15,8 @@
 
 namespace cases {
 
-// True if the glob matches the whole id, or the id's part before ':' (all leaves).
+// True if the glob matches the whole id, or the id's part before ':' (all leaves). Behind '@' a
+// glob of ways (cases/model/way.hpp) stands in both or in neither.
 bool glob_matches(std::string_view pattern, std::string_view id);
 
 // Indices into `all` that the selectors choose, in suite order; no selector chooses all.

@@ -82,7 +82,7 @@ TableTree target_tree(const Target& t) {
         table.add("sample_locations", tree::list(std::move(locations)));
     }
     if (!t.has_instruments) {
-        table.add("attachments", tree::text(t.has_depth ? "color+depth" : "color"));
+        table.add("attachments", tree::text(word_of(t.attachments())));
     }
     if (!t.other_colors.empty()) {
         std::vector<TomlValue> colors;

@@ -56,6 +56,7 @@ struct RunOptions {
     bool quick = false, fail_fast = false, require_support = false, diagnosis = true;
     Shard shard;
     std::string doors;  // cli/prepare/doors.hpp; empty: as doors_of() chooses
+    std::string ways;   // cli/prepare/ways.hpp; empty: as ways_of() chooses
     bool shuffle = false;
     uint64_t seed = 1;
     uint32_t repeat = 1;

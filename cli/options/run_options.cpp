@@ -48,6 +48,12 @@ void declare_run(CLI::App& app, RunOptions& o) {
               "by commas; doors that an expectation file knows to be broken are left out of sets "
               "[default for the whole suite of this program, none for a selection]",
               "NAMES", "Selection");
+    add_value(
+        run, "--ways", o.ways,
+        "draw each case as applications do, too, without what tells of fragments: all, "
+        "default (some with each case file), none, or names of 'edgecase doors', separated by "
+        "commas, with '*' [as --doors]",
+        "NAMES", "Selection");
     run->add_flag("--shuffle", o.shuffle, "in an order that depends on the seed")
         ->group("Selection");
     add_value(run, "--seed", o.seed, "seed of --shuffle [1]", "N", "Selection")

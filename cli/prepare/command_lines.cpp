@@ -112,6 +112,7 @@ std::string settings_of(const RunOptions& options) {
         .flag("--validation", options.device.validation)
         .fail_at(options)
         .text("--doors", options.doors)
+        .text("--ways", options.ways)
         .number("--repeat", options.repeat, usual.repeat)
         .number("--retries", options.retries, usual.retries)
         .line();

@@ -179,16 +179,16 @@ LeftOutDoors choose_doors(const std::string& words, std::span<cases::Case* const
     return left_out;
 }
 
-std::string doors_of(const RunOptions& options) {
-    if (!options.doors.empty()) {
-        return options.doors;
-    }
+bool takes_default(const RunOptions& options) {
     const SuiteOptions& suite = options.suite;
     const char* other = std::getenv("EDGECASE_SUITE");
     const bool is_own = suite.suite.empty() && (other == nullptr || *other == '\0');
-    const bool is_whole = is_own && suite.selectors.empty() && !options.quick &&
-                          options.failed_in.empty() && renderer_of(options.device).needs != nullptr;
-    return is_whole ? "default" : "none";
+    return is_own && suite.selectors.empty() && !options.quick && options.failed_in.empty() &&
+           renderer_of(options.device).needs != nullptr;
+}
+
+std::string doors_of(const RunOptions& options) {
+    return options.doors.empty() ? takes_default(options) ? "default" : "none" : options.doors;
 }
 
 bool asks_for_set(const std::string& words) {

@@ -25,8 +25,11 @@ using LeftOutDoors = std::map<std::string, std::vector<std::string>>;
 // a name that no case can take (4).
 LeftOutDoors choose_doors(const std::string& words, std::span<cases::Case* const> selected);
 
-// The words that are given, or what a run takes without them: "default" if it draws the whole suite
-// that comes with the program on a driver, else "none".
+// Whether a run draws the whole suite that comes with the program on a driver, so that it takes
+// "default" where nothing is said, else "none".
+bool takes_default(const RunOptions& options);
+
+// The words that are given, or what a run takes without them.
 std::string doors_of(const RunOptions& options);
 
 // Whether `words` ask for a set of doors, of which an expectation file may leave some out.

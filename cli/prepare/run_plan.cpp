@@ -17,7 +17,9 @@
 #include "cases/base/checksum.hpp"
 #include "cases/base/counted.hpp"
 #include "cases/model/device.hpp"
+#include "cases/model/way.hpp"
 #include "cli/prepare/command_lines.hpp"
+#include "cli/prepare/ways.hpp"
 #include "cli/renderers/renderers.hpp"
 #include "report/journal/journal.hpp"
 #include "run/order.hpp"
@@ -40,7 +42,8 @@ std::set<std::string> failed_ids(const RunOptions& options, const LoadedSuite& s
     for (const report::CaseRecord& record : earlier.cases) {
         if (!report::is_expected(record.status)) {
             failed.insert(record.id);
-            if (!selected.contains(record.id) && record.id != cases::kLimitsCase) {
+            if (!selected.contains(std::string(cases::split_way(record.id).base)) &&
+                record.id != cases::kLimitsCase) {
                 left_out.push_back(&record);
             }
         }
@@ -93,7 +96,9 @@ Selection select_cases(const Program& program, const RunOptions& options) {
     selection.known_ids = suite.ids();
     selection.suite_ids = suite.suite_ids();
     for (size_t k = suite.outside; k < suite.cases.size(); ++k) {
-        selection.own_files.insert(suite.cases[k].claim.where.file);
+        if (!suite.is_suites(k)) {
+            selection.own_files.insert(suite.cases[k].claim.where.file);
+        }
     }
     if (!options.doors.empty() && options.doors != "none" &&
         renderer_of(options.device).needs == nullptr) {
@@ -115,16 +120,36 @@ Selection select_cases(const Program& program, const RunOptions& options) {
             continue;
         }
         ids.push_back(c.id);
-        if (k >= suite.outside) {
+        if (!suite.is_suites(k)) {
             own.insert(c.claim.where.file);
         }
         chosen.push_back(&c);
     }
     selection.left_out_doors = choose_doors(doors_of(options), chosen);
+    std::vector<cases::Case> by_ways = choose_ways(ways_of(options), chosen);
+    for (const size_t k : suite.selected) {
+        for (auto at = failed.lower_bound(suite.cases[k].id + "@");
+             at != failed.end() && at->starts_with(suite.cases[k].id + "@"); ++at) {
+            if (auto made = case_by_id(*at, suite.cases[k])) {
+                by_ways.push_back(std::move(*made));
+            }
+        }
+    }
+    const auto is_here = [&](const cases::Case& c) {
+        return run::shard_of(c.id, options.shard.count) == options.shard.index;
+    };
     for (cases::Case* c : chosen) {
-        if (run::shard_of(c->id, options.shard.count) == options.shard.index) {
+        if (is_here(*c)) {
             --left_out[c->claim.where.file];
             selection.cases.push_back(std::move(*c));
+        }
+    }
+    for (cases::Case& c : by_ways) {
+        ids.push_back(c.id);
+        selection.known_ids.push_back(c.id);
+        selection.suite_ids.push_back(c.id);
+        if (is_here(c)) {
+            selection.cases.push_back(std::move(c));
         }
     }
     selection.part_files = suite.parts;

@@ -16,6 +16,7 @@
 #include "cases/base/counted.hpp"
 #include "cases/base/input_file.hpp"
 #include "cases/load/loader.hpp"
+#include "cases/model/way.hpp"
 #include "cases/select/selector.hpp"
 #include "cli/prepare/loop_config.hpp"
 #include "ref/position/limits.hpp"
@@ -171,11 +172,12 @@ LoadedSuite load_contents(LoadedSuite suite) {
 
 // Loads the case files outside the suite that selectors name, themselves or by their folder, and
 // returns the other selectors. Below a folder ids are paths, as in a suite.
-std::vector<std::string> load_outside_files(const SuiteOptions& options, LoadedSuite& suite) {
+std::vector<std::string> load_outside_files(const std::vector<std::string>& wanted,
+                                            LoadedSuite& suite) {
     std::vector<std::string> selectors;
     FileIds files(suite);
     std::set<std::string> named;
-    for (const std::string& selector : options.selectors) {
+    for (const std::string& selector : wanted) {
         std::vector<cases::Case> loaded;
         const auto [file, leaf] = leaf_of_file(selector);
         if (is_outside_file(file, suite.root)) {
@@ -259,24 +261,85 @@ void load_carried(const std::string& folder, LoadedSuite& suite) {
     }
 }
 
-LoadedSuite select_of(LoadedSuite suite, const SuiteOptions& options) {
-    suite.outside = suite.cases.size();
-    const std::vector<std::string> selectors = load_outside_files(options, suite);
-    std::vector<size_t> named(suite.cases.size() - suite.outside);
-    std::iota(named.begin(), named.end(), suite.outside);
-    load_carried(options.carried, suite);
+std::vector<size_t> selected_of(const LoadedSuite& suite, const std::vector<std::string>& selectors,
+                                const std::vector<size_t>& named = {}) {
     auto selected = cases::select(suite.cases, selectors, std::cin, named);
     if (!selected) {
         throw stop_with(report::kExitNothingSelected, cases::to_string(selected.error()));
     }
-    suite.selected = std::move(*selected);
+    return std::move(*selected);
+}
+
+// Adds what ways make of cases: "ties/**@bare-*", "mine.toml:k=1@prepass". They stand behind the
+// suite's cases, as those of other files do.
+void select_ways(const std::string& selector, LoadedSuite& suite) {
+    const auto [base, glob] = cases::split_way(selector);
+    LoadedSuite of_base{suite.root, suite.cases, {}, suite.outside, {}};
+    const std::vector<std::string> left = load_outside_files({std::string(base)}, of_base);
+    std::vector<size_t> chosen(of_base.cases.size() - suite.cases.size());
+    std::iota(chosen.begin(), chosen.end(), suite.cases.size());
+    if (!left.empty()) {
+        chosen = selected_of(suite, left);
+    }
+    size_t made = 0;
+    for (const size_t k : chosen) {
+        for (const cases::WayRow& way : cases::all_ways()) {
+            if (!cases::glob_matches(glob, way.word)) {
+                continue;
+            }
+            if (auto c = cases::by_way(way, of_base.cases[k])) {
+                suite.selected.push_back(suite.cases.size());
+                suite.cases.push_back(std::move(*c));
+                ++made;
+            }
+        }
+    }
+    if (made == 0) {
+        std::vector<std::string> words;
+        for (const cases::WayRow& way : cases::all_ways()) {
+            words.emplace_back(way.word);
+        }
+        throw stop_with(report::kExitNothingSelected,
+                        fmt::format("'{}' is drawn by no way '{}'{}", base, glob,
+                                    cases::did_you_mean(glob, words,
+                                                        "; 'edgecase doors' lists them, and what "
+                                                        "they take")));
+    }
+}
+
+LoadedSuite select_of(LoadedSuite suite, const SuiteOptions& options) {
+    suite.outside = suite.cases.size();
+    std::vector<std::string> selectors, of_ways;
+    for (const std::string& selector : options.selectors) {
+        const bool has_way = !cases::split_way(selector).way.empty();
+        (has_way ? of_ways : selectors).push_back(selector);
+    }
+    selectors = load_outside_files(selectors, suite);
+    std::vector<size_t> named(suite.cases.size() - suite.outside);
+    std::iota(named.begin(), named.end(), suite.outside);
+    load_carried(options.carried, suite);
+    if (!selectors.empty() || of_ways.empty()) {
+        suite.selected = selected_of(suite, selectors, named);
+    }
+    for (const std::string& selector : of_ways) {
+        select_ways(selector, suite);
+    }
     return suite;
 }
 
 }  // namespace
 
-bool is_outside(const std::string& selector, const fs::path& root) {
+bool is_outside(const std::string& words, const fs::path& root) {
+    const std::string selector(cases::split_way(words).base);
     return is_outside_file(leaf_of_file(selector).file, root) || is_outside_folder(selector, root);
+}
+
+bool LoadedSuite::is_suites(size_t k) const {
+    const auto [base, way] = cases::split_way(cases[k].id);
+    return k < outside ||
+           (!way.empty() &&
+            std::any_of(cases.begin(), cases.begin() + static_cast<std::ptrdiff_t>(outside),
+                        [&base = base](const cases::Case& c) { return c.id == base; }));
 }
 
 std::vector<std::string> LoadedSuite::ids() const {
@@ -288,8 +351,12 @@ std::vector<std::string> LoadedSuite::ids() const {
 }
 
 std::vector<std::string> LoadedSuite::suite_ids() const {
-    std::vector<std::string> all = ids();
-    all.resize(outside);
+    std::vector<std::string> all;
+    for (size_t k = 0; k < cases.size(); ++k) {
+        if (is_suites(k)) {
+            all.push_back(cases[k].id);
+        }
+    }
     return all;
 }
 

@@ -22,7 +22,8 @@ namespace cli {
 // was built from.
 std::filesystem::path find_suite_root(const Program& program, const std::string& option);
 
-// Whether a selector names case files outside the suite: a file, a leaf of one, or a folder.
+// Whether a selector, with or without a way, names case files outside the suite: a file, a leaf of
+// one, or a folder.
 bool is_outside(const std::string& selector, const std::filesystem::path& root);
 
 // A hash of the paths and bytes of all case files below the folder: whether two runs had the same
@@ -44,6 +45,7 @@ struct LoadedSuite {
     std::vector<size_t> selected;    // indices into cases, in suite order
     size_t outside = 0;              // the index of the first case that is not the suite's
     std::set<std::string> parts;     // files of which a selector names single leaves
+    bool is_suites(size_t k) const;  // whether a case is, or is drawn of one by a way
     std::vector<std::string> ids() const;        // of all cases
     std::vector<std::string> suite_ids() const;  // of the suite's alone
 };

@@ -84,6 +84,7 @@ std::string_view missing_of(const cases::Draw& d) {
         {d.frag_depth.has_value(), "a depth that the shader writes"},
         {d.query != cases::Query::none, "a query"},
         {d.depth.bounds.has_value(), "a depth bounds test"},
+        {d.color.from != cases::ColorFrom::push_constant, "a colour that is no push constant"},
         {d.color.logic.has_value(), "a logical operation"},
         {d.color.alpha_to_one, "alpha to one"},
         {d.color.alpha_to_coverage, "alpha to coverage"},
@@ -173,6 +174,7 @@ std::string_view undrawable_part(const cases::Case& c) {
         {claims_doors, "doors"},
         {!t.sample_locations.empty(), "sample locations of its own"},
         {t.has_stencil, "a stencil"},
+        {!t.has_instruments && !t.color, "depth alone"},
         // What a shader reads of them is no code by itself (vk_harness/depth_codes.hpp).
         {t.has_depth && t.depth_format == cases::DepthFormat::d24_unorm && t.samples > 1,
          "several samples of D24"},

@@ -172,7 +172,8 @@ Words add_color(Document& document, Dice& dice) {
         }
     }
     if (dice.one_in(3)) {
-        set_any(*target, cases::kTargetKeys, "attachments", dice);
+        constexpr std::string_view kColored[] = {"all", "color", "color+depth"};
+        set(*target, "attachments", text(std::string(any_of(kColored, dice))));
     }
     return fmt::format("a colour target of {}", format);
 }

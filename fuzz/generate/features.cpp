@@ -30,7 +30,8 @@ const std::vector<Feature>& features() {
         {"size", {"16", "odd", "wide", "high", "64", "tiny", "large"}},
         {"layers", {"1", "2", "3"}},
         {"depth", {"d32-float", "d16-unorm", "d24-unorm"}},
-        {"attachments", words(cases::kTargetKeys, "attachments")},
+        // Depth or a stencil alone is drawn by ways (cases/model/way.hpp).
+        {"attachments", {"all", "color", "color+depth"}},
         {"color", words(cases::kTargetColorKeys, "format", "none")},
         {"blend",
          {"none", "additive", "alpha", "premultiplied", "multiply", "reverse-subtract", "min",

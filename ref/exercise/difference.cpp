@@ -102,7 +102,8 @@ Difference::Difference(Original& original, cases::Case other, Differ differ, std
     for (const cases::Draw& draw : c.draws) {
         asked_.push_back(asked(draw));
     }
-    if (c.target.has_instruments && (differ == Differ::values || differ == Differ::depths)) {
+    if ((c.target.has_instruments || !c.target.color) &&
+        (differ == Differ::values || differ == Differ::depths)) {
         other_values_ = std::make_unique<ValueReference>(other_, expected.limits, expected.profile);
     }
 }

@@ -130,7 +130,7 @@ void look_at_samples(const cases::Case& c, const Limits& limits, std::vector<Cla
                      Exercise& out) {
     std::optional<Expectation> expected;  // at direct3d
     std::optional<Original> original;
-    const bool is_shown_by_colors = !c.target.has_instruments;
+    const bool is_shown_by_colors = !c.target.has_instruments && c.target.color;
     if (is_shown_by_colors) {
         expected = expect(c, limits, Profile::direct3d);
         original.emplace(c, *expected);

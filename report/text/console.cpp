@@ -365,7 +365,7 @@ std::string console_summary(const Run& run, const std::string& report_path,
     if (const std::string shortened = shortened_text(run); !shortened.empty()) {
         text += shortened + '\n';
     }
-    text += doors_text(run, style.verbose);
+    text += doors_text(run, style.verbose) + ways_text(run);
     if (style.verbose) {
         text += free_text(run);
     }

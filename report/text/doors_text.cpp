@@ -5,10 +5,13 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <set>
+#include <string_view>
 
 #include "cases/base/counted.hpp"
 #include "cases/base/printable.hpp"
 #include "cases/model/door.hpp"
+#include "cases/model/way.hpp"
 
 namespace report {
 
@@ -85,6 +88,22 @@ std::string doors_text(const Run& run, bool verbose) {
         text += '\n';
     }
     return text;
+}
+
+std::string ways_text(const Run& run) {
+    size_t pictures = 0;
+    std::set<std::string_view> ways;
+    for (const CaseRecord& c : run.cases) {
+        const std::string_view way = cases::split_way(c.id).way;
+        if (!way.empty() && c.status != Status::unsupported && c.status != Status::skip &&
+            c.status != Status::not_run) {
+            ++pictures;
+            ways.insert(way);
+        }
+    }
+    return ways.empty() ? std::string()
+                        : fmt::format("ways: {} by {}\n", cases::counted(pictures, "picture"),
+                                      cases::counted(ways.size(), "way"));
 }
 
 }  // namespace report

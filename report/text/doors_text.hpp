@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a run drew through doors (cases/model/door.hpp).
+// What a run drew through doors (cases/model/door.hpp) and by ways (cases/model/way.hpp).
 #pragma once
 
 #include <cstddef>
@@ -27,5 +27,8 @@ std::vector<DoorCount> door_counts(const Run& run);
 // "doors: ..." with the sum, and a line for each door that drew nothing; all of them with
 // `verbose`. Empty if no door was asked for.
 std::string doors_text(const Run& run, bool verbose);
+
+// "ways: 2197 pictures by 14 ways"; empty if no case was drawn by any.
+std::string ways_text(const Run& run);
 
 }  // namespace report

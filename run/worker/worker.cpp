@@ -74,11 +74,16 @@ capture::PlaneSpans planes_of(Rendered& rendered) {
 }
 
 // Another colour in the middle of a target that counts no hits, or `skipped` samples after it: the
-// second highest bit of red.
+// second highest bit of red; without colours another depth, or another stencil.
 void flip_color(const capture::PlaneSpans& planes, uint32_t skipped) {
     if (const std::span codes = planes.color; !codes.empty()) {
         codes[(codes.size() / 2 + skipped) % codes.size()][0] ^=
             1U << (cases::component_of(planes.target.color->format, 0).bits - 2);
+    } else if (const std::span depths = planes.depth; !depths.empty()) {
+        float& depth = depths[(depths.size() / 2 + skipped) % depths.size()];
+        depth = depth > 0.5F ? 0.125F : 0.875F;
+    } else if (const std::span stencils = planes.stencil; !stencils.empty()) {
+        stencils[(stencils.size() / 2 + skipped) % stencils.size()] ^= 64U;
     }
 }
 

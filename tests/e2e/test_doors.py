@@ -118,10 +118,14 @@ class Doors(ProgramTest):
                          [("index-16", 3, 0), ("restart-extra", 1, 2)], done.stdout)
 
     def test_the_list_has_every_door(self):
-        words = [line for line in self.edgecase("doors", check=0).stdout.splitlines() if not line.startswith(" ")]
+        listed = self.edgecase("doors", check=0).stdout.splitlines()
+        words = {line for line in listed if not line.startswith(" ")}
+        # Behind them stand ways, each with its sentence and its group.
+        words -= {listed[k] for k in range(len(listed)) if any("group: bare;" in line for line in listed[k + 1:k + 4] if line.startswith(" "))
+                  and not listed[k].startswith(" ")}
         _, results = self.run_doors("--doors", "all", "--retries", "0", check=1)
         told = {d["door"] for d in results["doors"]}
-        self.assertEqual(set(words), told)
+        self.assertEqual(words, told)
 
 
 if __name__ == "__main__":

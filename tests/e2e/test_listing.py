@@ -239,7 +239,7 @@ class Listing(ProgramTest):
                 '[target.color]\nformat = "rgba8-unorm"\nclear = [1, 1, 1, 1]\n[[draw]]\n'
                 'vertices = [[0,0], [8,0], [0,8]]\ncolor = { value = [%d, 1, 1, 1] }\n')
         self.write_case("fam/c3", case % 1)
-        told = "every sample may hold the clear colour"
+        told = "every sample may hold what it was cleared to"
         self.assertIn(told, self.edgecase("lint", "fam/c3", check=3).stderr)
         self.assertIn(told, self.edgecase("run", "fam/c3", "-o", "out", check=7).stdout)
         self.write_case("fam/c3", case % 0)

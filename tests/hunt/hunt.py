@@ -74,6 +74,10 @@ def table(record, reasons):
         cells = [title, ", ".join(record[kind]), record["cases"][kind], s["faults"], s["reachable"], s["first"],
                  f"{s['found']} ({share} %)", f"{s['median']:.0f} cases"]
         lines.append(f"| {' | '.join(map(str, cells))} |")
+    later = [name for kind in KINDS for name in record.get("later", {}).get(kind, [])]
+    if later:
+        told = "Faults that came after this measurement and have not been hunted: " + ", ".join(f"`{n}`" for n in later) + "."
+        lines += ["", *textwrap.wrap(told, 120, break_long_words=False, break_on_hyphens=False)]
     never = [(kind, name) for kind in KINDS if kind in record for name in summary(record, reasons, kind)["never"]]
     lines += ["", "Never found:", ""] if never else []
     for kind, name in never:
@@ -105,6 +109,7 @@ def main():
         for kind in arguments.kind or KINDS:
             record.setdefault("cases", {})[kind] = arguments.cases
             record[kind] = {}
+            record.get("later", {}).pop(kind, None)
             names = all_faults(kind)
             for seed in arguments.seeds.split(","):
                 record[kind][seed] = hunt(kind, names, seed, arguments.cases, arguments.jobs, logs / f"{kind}-{seed}.tsv")

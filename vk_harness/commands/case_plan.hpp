@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "vk_harness/commands/blit.hpp"
+#include "vk_harness/commands/color_source.hpp"
 #include "vk_harness/commands/query.hpp"
 #include "vk_harness/door/feed.hpp"
 #include "vk_harness/pipeline/output_state.hpp"
@@ -63,6 +64,7 @@ struct CasePlan {
     std::vector<DrawPlan> draws;
     std::shared_ptr<BlitImages> blit;          // instead of images and draws
     std::shared_ptr<Queries> queries;          // if draws ask for them
+    std::shared_ptr<ColorSources> colors;      // has_color_sources()
     std::vector<VkCommandBuffer> secondaries;  // secondaries_of() many; empty: none
     std::vector<ClearDraw> clears;             // of the door clear_draw
     std::vector<InputRead> inputs;             // of the door input_attachment

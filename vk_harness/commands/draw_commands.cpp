@@ -166,6 +166,9 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
                                        pipelines.layouts().draw.get(), 0, 1, &plan.texture, 0,
                                        nullptr);
         }
+        if (of.colors) {
+            of.colors->bind(commands, draw_index);
+        }
         if (plan.feed) {
             plan.feed->bind_pulled(device, commands, pipelines.layouts().pulled.get());
         }

@@ -46,9 +46,8 @@ void DescriptorWrites::add(VkDescriptorSet set, uint32_t binding, VkDescriptorTy
 }
 
 void DescriptorWrites::add(VkDescriptorSet set, uint32_t binding,
-                           const VkDescriptorBufferInfo& buffer) {
-    add(set, binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER).pBufferInfo =
-        &buffers_.emplace_back(buffer);
+                           const VkDescriptorBufferInfo& buffer, VkDescriptorType type) {
+    add(set, binding, type).pBufferInfo = &buffers_.emplace_back(buffer);
 }
 
 void DescriptorWrites::write(const Device& device) const {

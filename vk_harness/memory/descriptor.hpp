@@ -26,8 +26,9 @@ class DescriptorWrites {
   public:
     void add(VkDescriptorSet set, uint32_t binding, VkDescriptorType type,
              const VkDescriptorImageInfo& image);
-    // A storage buffer, or a part of it.
-    void add(VkDescriptorSet set, uint32_t binding, const VkDescriptorBufferInfo& buffer);
+    // A buffer, or a part of it.
+    void add(VkDescriptorSet set, uint32_t binding, const VkDescriptorBufferInfo& buffer,
+             VkDescriptorType type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
     void write(const Device& device) const;
 
   private:

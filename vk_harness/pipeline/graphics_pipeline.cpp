@@ -20,13 +20,12 @@ struct Stages {
     Stages(PipelineBase& base, const PipelineKey& key) {
         // What discards for good has no fragment shader
         // (VUID-VkGraphicsPipelineCreateInfo-pStages-06894).
-        if (!key.fixed || key.fixed->discard != VK_TRUE) {
+        if (needs_fragments(key) && (!key.fixed || key.fixed->discard != VK_TRUE)) {
             const bool has_id = base.device().capabilities().info.has_primitive_id;
             specialize(key, of_fragment);
             stages.push_back(
                 stage_info(VK_SHADER_STAGE_FRAGMENT_BIT,
-                           base.shader_module(shaders::capture_fragment(fragment_variant(key)),
-                                              fragment_changes(key, has_id))));
+                           base.shader_module(fragment_code(key), fragment_changes(key, has_id))));
             stages.back().pSpecializationInfo = &of_fragment.info;
         }
         stages.push_back(
@@ -131,8 +130,10 @@ Handle<VkPipeline> make_graphics(PipelineBase& base, const PipelineKey& key, VkR
     info.subpass = key.subpass;
     // Nothing is bound to the second set where no shader has it.
     const PipelineLayouts& layouts = base.layouts();
-    info.layout =
-        key.way.pulled || key.unused_interface ? layouts.pulled.get() : layouts.draw.get();
+    info.layout = key.color_from > cases::ColorFrom::constant
+                      ? layouts.colored(key.color_from).layout.get()
+                  : key.way.pulled || key.unused_interface ? layouts.pulled.get()
+                                                           : layouts.draw.get();
     switch (key.made) {
         case PipelineWay::usual:
             break;

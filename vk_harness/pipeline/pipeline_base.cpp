@@ -58,6 +58,15 @@ PipelineLayouts::PipelineLayouts(const Device& device) {
         {{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, readers, nullptr}}};
     pulled_set = make_set_layout(device, inputs);
     pulled = draw_layout({texture_set.get(), pulled_set.get()});
+    constexpr std::array kSources = {
+        VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC,
+        VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
+    for (size_t k = 0; k < kSources.size(); ++k) {
+        const std::array<VkDescriptorSetLayoutBinding, 1> source = {
+            {{0, kSources.at(k), 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr}}};
+        all_colored.at(k).set = make_set_layout(device, source);
+        all_colored.at(k).layout = draw_layout({all_colored.at(k).set.get()});
+    }
     const auto read_layout = [&](VkDescriptorType from, VkShaderStageFlags stage,
                                  uint32_t constants, auto& set_layout, auto& layout) {
         const std::array<VkDescriptorSetLayoutBinding, 2> reads = {

@@ -4,6 +4,8 @@
 // What pipelines are made of: layouts, shader modules, the driver's cache.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <map>
 #include <span>
 #include <tuple>
@@ -22,6 +24,16 @@ struct PipelineLayouts {
     // `draw` stays in force.
     Handle<VkDescriptorSetLayout> pulled_set;
     Handle<VkPipelineLayout> pulled;
+    // Of a fragment shader that reads its colour from set 0, binding 0 (ColorFrom::uniform and
+    // those behind it).
+    struct Colored {
+        Handle<VkDescriptorSetLayout> set;
+        Handle<VkPipelineLayout> layout;
+    };
+    std::array<Colored, 4> all_colored;
+    const Colored& colored(cases::ColorFrom from) const {
+        return all_colored.at(std::min(static_cast<size_t>(from), size_t{5}) - 2);
+    }
     // Of what reads an attachment (binding 0) and writes it to a buffer (binding 1): an input
     // attachment in a fragment shader, single samples in a compute shader.
     Handle<VkDescriptorSetLayout> input_set;

@@ -186,6 +186,11 @@ PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw,
                 color_key(c.target.color_at(k), cases::output_at(c.target, draw, k)));
             key.colors.back().attribute = input_of_color(c, draw, k);
         }
+        key.color_from = draw.color.from;
+        for (int k = 0; key.color_from == cases::ColorFrom::constant && k < 4; ++k) {
+            key.constant_bits.at(static_cast<size_t>(k)) =
+                std::bit_cast<uint32_t>(draw.color.value[k]);
+        }
         key.logic = draw.color.logic;
         key.alpha_to_one = draw.color.alpha_to_one;
         key.alpha_to_coverage = draw.color.alpha_to_coverage;
@@ -247,6 +252,17 @@ std::vector<uint32_t> execution_modes(const PipelineKey& key) {
             break;
     }
     return modes;
+}
+
+bool needs_fragments(const PipelineKey& key) {
+    return key.instruments || !key.colors.empty() || key.discards || key.writes_depth ||
+           key.writes_mask;
+}
+
+std::span<const uint32_t> fragment_code(const PipelineKey& key) {
+    return key.color_from == cases::ColorFrom::push_constant
+               ? shaders::capture_fragment(fragment_variant(key))
+               : shaders::bare_fragment(static_cast<uint32_t>(key.color_from));
 }
 
 shaders::FragmentVariant fragment_variant(const PipelineKey& key) {

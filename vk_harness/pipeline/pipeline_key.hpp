@@ -9,6 +9,7 @@
 #include <compare>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "cases/model/case.hpp"
@@ -78,6 +79,8 @@ struct PipelineKey {
     bool has_stencil = false;
     // Colour output.
     shaders::ColorKind color = shaders::ColorKind::none;
+    cases::ColorFrom color_from = cases::ColorFrom::push_constant;
+    std::array<uint32_t, 4> constant_bits{};  // the colour, if it is a constant
     bool instruments = true;
     TargetLayout layout;
     // Of cases::Variation.
@@ -112,6 +115,10 @@ shaders::VertexVariant vertex_variant(const PipelineKey& key);
 // The same of the geometry shader, if there is one.
 shaders::VertexVariant geometry_variant(const PipelineKey& key);
 shaders::FragmentVariant fragment_variant(const PipelineKey& key);
+// The fragment shader; empty if none was built, or needed (needs_fragments).
+std::span<const uint32_t> fragment_code(const PipelineKey& key);
+// Whether a fragment shader does anything. A pipeline of depth or stencil alone is without one.
+bool needs_fragments(const PipelineKey& key);
 // The outputs that its fragment shader keeps of several colours'.
 shaders::OutputChange output_change(const PipelineKey& key);
 // The execution modes that its fragment shader has besides those it was compiled with.

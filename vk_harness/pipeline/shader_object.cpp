@@ -37,8 +37,8 @@ Handle<ShaderObject> make_object(const PipelineBase& base, VkShaderStageFlagBits
 
 std::array<Handle<ShaderObject>, 2> make_objects(const PipelineBase& base, const PipelineKey& key) {
     const bool has_id = base.device().capabilities().info.has_primitive_id;
-    const std::vector<uint32_t> code = changed_code(
-        shaders::capture_fragment(fragment_variant(key)), fragment_changes(key, has_id));
+    const std::vector<uint32_t> code =
+        changed_code(fragment_code(key), fragment_changes(key, has_id));
     Specialization specialization;
     specialize(key, specialization);
     auto vertex = make_object(base, VK_SHADER_STAGE_VERTEX_BIT,

@@ -74,7 +74,9 @@ std::vector<shaders::InputChange> input_changes(const PipelineKey& key, bool has
         change.becomes_primitive_id = true;
         changes.push_back(change);
     }
-    for (uint32_t k = 0; k < key.attribute_count; ++k) {
+    const bool is_bare = key.color_from != cases::ColorFrom::push_constant;
+    const uint32_t inputs = !is_bare ? key.attribute_count : is_texture(key.color_from) ? 1 : 0;
+    for (uint32_t k = 0; k < inputs; ++k) {
         const AttributeKey& attribute = key.attributes[k];
         shaders::InputChange change;
         change.number = 1 + k;
@@ -148,6 +150,13 @@ std::vector<uint32_t> changed_code(std::span<const uint32_t> code, const ShaderC
 }
 
 void specialize(const PipelineKey& key, Specialization& out) {
+    if (key.color_from != cases::ColorFrom::push_constant) {
+        for (uint32_t k = 0; k < key.constant_bits.size(); ++k) {
+            out.add(k, key.constant_bits[k]);
+        }
+        out.tie();
+        return;
+    }
     for (uint32_t k = 0; k < key.attribute_count; ++k) {
         out.add(k, static_cast<uint32_t>(choice_of(key.attributes[k])));
     }

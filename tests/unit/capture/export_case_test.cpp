@@ -188,7 +188,7 @@ std::vector<Change> distance_changes() {
 }
 
 std::vector<Change> color_changes() {
-    [[maybe_unused]] const auto& [value, index, blend, write_mask, logic, alpha_to_one,
+    [[maybe_unused]] const auto& [value, index, from, blend, write_mask, logic, alpha_to_one,
                                   alpha_to_coverage] = cases::ColorOutput{};
     [[maybe_unused]] const auto& [color, alpha, constants, second] = cases::Blend{};
     [[maybe_unused]] const auto& [source, destination, op] = cases::BlendEquation{};

@@ -1,0 +1,321 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cases/model/way.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "cases/model/sample.hpp"
+
+namespace cases {
+
+namespace {
+
+// Codes of 8 bits from 8 to 247, other ones for other numbers; 31, 67, 101 and 149 have no factor
+// in common with 240.
+glm::vec4 color_of(size_t number) {
+    glm::vec4 color{};
+    constexpr std::array<size_t, 4> kSteps = {31, 67, 101, 149};
+    for (size_t k = 0; k < kSteps.size(); ++k) {
+        const size_t code = 8 + (number * kSteps.at(k) + 60 * k) % 240;
+        color[static_cast<int>(k)] = static_cast<float>(code) / 255.0F;
+    }
+    return color;
+}
+
+// No draw's: its codes are below all of theirs.
+constexpr glm::vec4 kClear(0, 0, 0, 0);
+
+// What all ways have in common. Queries and relations look at the case as it stands.
+Case plain(const Case& c) {
+    Case out = c;
+    out.claim.expected_hits.reset();
+    out.relations.clear();
+    out.doors.clear();
+    out.target.has_instruments = false;
+    out.target.color_resolve = out.target.depth_resolve = Resolve::none;
+    for (Draw& draw : out.draws) {
+        draw.query = Query::none;
+    }
+    return out;
+}
+
+// Whether the ways of a colour of their own take a case: one that has no colour.
+bool is_colorless(const Case& c) {
+    return !c.blit && c.target.has_instruments && !c.target.color;
+}
+
+// The attachment of depth goes, and all that looks at it; what clips or clamps by it stays.
+void drop_depth(Case& c) {
+    c.target.has_depth = c.target.names_depth = false;
+    c.target.depth_format = DepthFormat::d32_float;
+    c.target.depth_clear = kDepthClear;
+    for (Draw& draw : c.draws) {
+        draw.depth.compare = CompareOp::always;
+        draw.depth.write = true;
+        draw.depth.bounds.reset();
+        draw.depth.bias.reset();
+        draw.frag_depth.reset();
+    }
+}
+
+void drop_stencil(Case& c) {
+    c.target.has_stencil = false;
+    c.target.stencil_clear = 0;
+    for (Draw& draw : c.draws) {
+        draw.stencil = {};
+    }
+}
+
+void drop_color(Case& c) {
+    c.target.color.reset();
+    c.target.other_colors.clear();
+    c.target.judged_color = 0;
+    for (Draw& draw : c.draws) {
+        draw.color = {};
+        draw.other_colors.clear();
+    }
+}
+
+bool tests_depth(const Case& c) {
+    return c.target.has_depth && std::ranges::any_of(c.draws, [](const Draw& draw) {
+               return draw.depth.compare != CompareOp::always || draw.depth.bounds;
+           });
+}
+
+// The triangles to one rgba8-unorm colour and nothing else.
+Case bare_color(const Case& c) {
+    Case out = plain(c);
+    drop_depth(out);
+    drop_stencil(out);
+    out.target.color = ColorTarget{ColorFormat::rgba8_unorm, kClear};
+    for (size_t k = 0; k < out.draws.size(); ++k) {
+        out.draws[k].color.value = color_of(k);
+        out.draws[k].early_tests = false;
+    }
+    return out;
+}
+
+template <ColorFrom kFrom>
+std::optional<Case> from(const Case& c) {
+    if (!is_colorless(c)) {
+        return std::nullopt;
+    }
+    Case out = bare_color(c);
+    if constexpr (kFrom != ColorFrom::push_constant) {
+        for (Draw& draw : out.draws) {
+            // Their shader does nothing else.
+            if (draw.discard != Discard::none || draw.multisample.shader_mask) {
+                return std::nullopt;
+            }
+            draw.color.from = kFrom;
+            draw.attributes.clear();
+            if (is_texture(kFrom)) {
+                Attribute at;
+                at.name = "at";
+                at.components = 2;
+                for (size_t v = 0; v < draw.positions.size(); ++v) {
+                    at.values.emplace_back(v % 2, v / 2 % 2, 0, 0);
+                }
+                draw.attributes.push_back(std::move(at));
+            }
+        }
+    }
+    return out;
+}
+
+bool has_tested_value(const Draw& draw) {
+    return discards_by_value(draw);
+}
+
+// The colour is an input, another one at each vertex.
+std::optional<Case> from_input(const Case& c, bool is_flat) {
+    // Each sample has a colour of its own to judge.
+    constexpr uint64_t kMostSamples = uint64_t{1} << 17U;
+    if (!is_colorless(c) ||
+        uint64_t{c.target.width} * c.target.rows() * c.target.samples > kMostSamples ||
+        std::ranges::any_of(c.draws, has_tested_value)) {
+        return std::nullopt;
+    }
+    Case out = bare_color(c);
+    for (size_t k = 0; k < out.draws.size(); ++k) {
+        Draw& draw = out.draws[k];
+        Attribute at;
+        at.name = "color";
+        at.components = 4;
+        at.interpolation = is_flat ? Interpolation::flat : Interpolation::smooth;
+        for (size_t v = 0; v < draw.positions.size(); ++v) {
+            at.values.push_back(color_of(16 * k + v));
+        }
+        draw.attributes = {std::move(at)};
+        draw.color.attribute = 0;
+    }
+    return out;
+}
+
+std::optional<Case> smooth(const Case& c) {
+    return from_input(c, false);
+}
+std::optional<Case> flat(const Case& c) {
+    return from_input(c, true);
+}
+
+// As sprites and user interfaces are drawn.
+std::optional<Case> blended(const Case& c) {
+    std::optional<Case> out = from<ColorFrom::push_constant>(c);
+    if (!out) {
+        return std::nullopt;
+    }
+    for (Draw& draw : out->draws) {
+        using F = BlendFactor;
+        draw.color.blend = Blend{{F::src_alpha, F::one_minus_src_alpha, BlendOp::add},
+                                 {F::one, F::one_minus_src_alpha, BlendOp::add}};
+    }
+    return out;
+}
+
+// With the depth and the stencil that the case tests.
+std::optional<Case> beside(const Case& c) {
+    if (!is_colorless(c) || (!tests_depth(c) && !c.target.has_stencil)) {
+        return std::nullopt;
+    }
+    Case out = plain(c);
+    out.target.color = ColorTarget{ColorFormat::rgba8_unorm, kClear};
+    for (size_t k = 0; k < out.draws.size(); ++k) {
+        out.draws[k].color.value = color_of(k);
+    }
+    return out;
+}
+
+// A shadow map.
+std::optional<Case> depth_alone(const Case& c) {
+    const auto writes = [](const Draw& draw) { return draw.depth.write; };
+    if (c.blit || !c.target.has_depth || !std::ranges::any_of(c.draws, writes)) {
+        return std::nullopt;
+    }
+    Case out = plain(c);
+    drop_stencil(out);
+    drop_color(out);
+    return out;
+}
+
+// Each fragment adds 1 to the stencil, or takes 1 away, as shadow volumes do, unless the case has a
+// stencil of its own.
+std::optional<Case> stencil_alone(const Case& c) {
+    if (c.blit || tests_depth(c)) {
+        return std::nullopt;
+    }
+    Case out = plain(c);
+    drop_depth(out);
+    drop_color(out);
+    out.target.has_stencil = true;
+    return out;
+}
+
+// All depths first, then the colours of what is nearest.
+std::optional<Case> prepass(const Case& c) {
+    const auto is_simple = [](const Draw& draw) {
+        return draw.depth.write && draw.discard == Discard::none && !draw.frag_depth;
+    };
+    // At profile vulkan each second drawing may pass or fail, so that the paths of many triangles
+    // at one sample are too many to follow.
+    constexpr size_t kMostTriangles = 16;
+    size_t triangles = 0;
+    for (const Draw& draw : c.draws) {
+        const size_t corners = draw.indices ? draw.indices->size() : draw.positions.size();
+        triangles += draw.topology == Topology::triangle_list ? corners / 3 : corners;
+    }
+    if (!is_colorless(c) || !c.target.has_depth || c.target.has_stencil || tests_depth(c) ||
+        triangles > kMostTriangles || !std::ranges::all_of(c.draws, is_simple)) {
+        return std::nullopt;
+    }
+    Case out = plain(c);
+    out.target.depth_clear = 1;
+    out.target.color = ColorTarget{ColorFormat::rgba8_unorm, kClear};
+    for (size_t k = 0; k < out.draws.size(); ++k) {
+        out.draws[k].color.value = color_of(k);
+        out.draws[k].depth.compare = CompareOp::less_or_equal;
+    }
+    std::vector<Draw> first = out.draws;
+    for (Draw& draw : first) {
+        draw.color.write_mask = 0;
+    }
+    for (Draw& draw : out.draws) {
+        draw.depth.compare = CompareOp::equal;
+        draw.depth.write = false;
+    }
+    out.draws.insert(out.draws.begin(), first.begin(), first.end());
+    return out;
+}
+
+constexpr std::string_view kColorless = "cases without a colour target";
+constexpr std::string_view kPlain = "cases without a colour target, discards and shader masks";
+constexpr std::array kWays = {
+    WayRow{"bare-color-push",
+           "The triangles are drawn to one rgba8-unorm colour and nothing else, each draw in a "
+           "colour that is pushed.",
+           kColorless, from<ColorFrom::push_constant>},
+    WayRow{"bare-color-constant", "The same; the colour is a specialization constant.", kPlain,
+           from<ColorFrom::constant>},
+    WayRow{"bare-color-uniform", "The same; the colour lies in a uniform buffer.", kPlain,
+           from<ColorFrom::uniform>},
+    WayRow{"bare-color-offset",
+           "The same; the colour lies in a uniform buffer, at a dynamic offset.", kPlain,
+           from<ColorFrom::uniform_offset>},
+    WayRow{"bare-color-storage", "The same; the colour lies in a storage buffer.", kPlain,
+           from<ColorFrom::storage>},
+    WayRow{"bare-color-texture",
+           "The same; the colour is read from a texture that was uploaded, at coordinates that are "
+           "interpolated.",
+           kPlain, from<ColorFrom::texture>},
+    WayRow{"bare-color-rendered",
+           "The same; the colour is read from an image that was rendered to before.", kPlain,
+           from<ColorFrom::rendered>},
+    WayRow{"bare-color-smooth", "The same; each vertex has a colour, which is interpolated.",
+           "cases of up to 131072 samples without a colour target and discards by value", smooth},
+    WayRow{"bare-color-flat", "The same; the colour is that of the provoking vertex.",
+           "cases of up to 131072 samples without a colour target and discards by value", flat},
+    WayRow{"bare-color-blended", "The same, blended by its alpha.", kColorless, blended},
+    WayRow{"bare-beside",
+           "The triangles are drawn to one rgba8-unorm colour beside the depth and the stencil of "
+           "the case.",
+           "cases without a colour target that test depths or have a stencil", beside},
+    WayRow{"bare-depth",
+           "Depth alone is attached, as for a shadow map; without discards and written depths "
+           "there is no fragment shader.",
+           "cases that write depths", depth_alone},
+    WayRow{"bare-stencil",
+           "A stencil alone is attached, which counts the fragments of front and back faces.",
+           "cases that test no depths", stencil_alone},
+    WayRow{"prepass",
+           "All draws write their depths with LESS_OR_EQUAL and no colour, then all draw colours "
+           "with EQUAL.",
+           "cases of up to 16 triangles without colour target, stencil, depth test, discards and "
+           "written depths",
+           prepass},
+};
+
+}  // namespace
+
+std::span<const WayRow> all_ways() {
+    return kWays;
+}
+
+std::optional<Case> by_way(const WayRow& way, const Case& c) {
+    if (c.draws.empty() || c.id.find('@') != std::string::npos) {
+        return std::nullopt;
+    }
+    std::optional<Case> out = way.make(c);
+    if (out) {
+        out->id = c.id + "@" + std::string(way.word);
+    }
+    return out;
+}
+
+WayId split_way(std::string_view id) {
+    const size_t at = id.find('@', 1);
+    return at == std::string_view::npos ? WayId{id, {}}
+                                        : WayId{id.substr(0, at), id.substr(at + 1)};
+}
+
+}  // namespace cases

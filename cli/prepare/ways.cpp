@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/prepare/ways.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+#include "cases/base/checksum.hpp"
+#include "cases/model/way.hpp"
+#include "cases/select/selector.hpp"
+#include "cli/prepare/doors.hpp"
+#include "report/record/run.hpp"
+
+namespace cli {
+
+namespace {
+
+using Way = const cases::WayRow*;
+
+// The id of a case's file.
+std::string file_part(const std::string& id) {
+    return id.substr(0, id.find(':'));
+}
+
+std::vector<Way> ways_like(const std::string& glob) {
+    std::vector<Way> found;
+    std::vector<std::string> words;
+    for (const cases::WayRow& way : cases::all_ways()) {
+        words.emplace_back(way.word);
+        if (cases::glob_matches(glob, way.word)) {
+            found.push_back(&way);
+        }
+    }
+    if (found.empty()) {
+        words.insert(words.end(), {"all", "default", "none"});
+        throw stop_with(
+            report::kExitUsage,
+            fmt::format("--ways: there is no way '{}'{}", glob,
+                        cases::did_you_mean(glob, words, "; 'edgecase doors' lists them")));
+    }
+    return found;
+}
+
+// Some ways of one file's cases.
+void cover(const std::vector<cases::Case*>& leaves, std::vector<cases::Case>& out) {
+    const std::span<const cases::WayRow> ways = cases::all_ways();
+    const uint64_t hash = cases::stable_hash(file_part(leaves.front()->id), 0);
+    size_t made = 0;
+    for (size_t k = 0; k < ways.size() && made < kWaysOfFile; ++k) {
+        // 5 has no factor in common with the number of ways: all come in another order.
+        const cases::WayRow& way = ways[(hash + 5 * k) % ways.size()];
+        for (size_t n = 0; n < leaves.size(); ++n) {
+            const size_t leaf =
+                (hash / ways.size() + made * (leaves.size() / kWaysOfFile + 1) + n) % leaves.size();
+            if (std::optional<cases::Case> c = cases::by_way(way, *leaves[leaf])) {
+                out.push_back(std::move(*c));
+                ++made;
+                break;
+            }
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<cases::Case> choose_ways(const std::string& words,
+                                     std::span<cases::Case* const> selected) {
+    std::vector<cases::Case> out;
+    if (words == "none") {
+        return out;
+    }
+    if (words == "default") {
+        std::map<std::string, std::vector<cases::Case*>> files;
+        for (cases::Case* c : selected) {
+            files[file_part(c->id)].push_back(c);
+        }
+        for (const auto& [file, leaves] : files) {
+            cover(leaves, out);
+        }
+        return out;
+    }
+    std::vector<Way> ways;
+    std::istringstream in(words == "all" ? "*" : words);
+    for (std::string glob; std::getline(in, glob, ',');) {
+        for (const Way way : ways_like(glob)) {
+            if (std::ranges::find(ways, way) == ways.end()) {
+                ways.push_back(way);
+            }
+        }
+    }
+    for (const cases::Case* c : selected) {
+        for (const Way way : ways) {
+            if (std::optional<cases::Case> made = cases::by_way(*way, *c)) {
+                out.push_back(std::move(*made));
+            }
+        }
+    }
+    if (out.empty() && words != "all") {
+        throw stop_with(report::kExitNothingSelected,
+                        fmt::format("no selected case is drawn by '{}', which takes {}; select "
+                                    "others, or leave it out",
+                                    words, ways.front()->takes));
+    }
+    return out;
+}
+
+std::string ways_of(const RunOptions& options) {
+    return options.ways.empty() ? takes_default(options) ? "default" : "none" : options.ways;
+}
+
+std::optional<cases::Case> case_by_id(const std::string& id, const cases::Case& base) {
+    for (const cases::WayRow& way : cases::all_ways()) {
+        if (id == base.id + "@" + std::string(way.word)) {
+            return cases::by_way(way, base);
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace cli

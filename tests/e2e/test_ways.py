@@ -1,0 +1,142 @@
+# SPDX-FileCopyrightText: The Edgecase authors
+# SPDX-License-Identifier: Apache-2.0
+"""Ways on lavapipe: which are drawn, what they are called, and what commands and expectation files make of them."""
+import json
+import unittest
+
+from support import ProgramTest
+
+CASE = """format = 1
+description = "Two triangles."
+rules = ["cover.inside"]
+[target]
+size = [8, 8]
+[[draw]]
+vertices = [[0,0], [4,0], [0,8],  [8,8], [4,8], [8,0]]
+"""
+COLOUR = CASE.replace("size = [8, 8]", 'size = [8, 8]\n[target.color]\nformat = "rgba8-unorm"').replace(
+    "[[draw]]", "[[draw]]\ncolor = { value = [1, 0, 1, 1] }")
+
+
+class Ways(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        for name, text in (("a/one", CASE), ("a/colour", COLOUR), ("b/two", CASE)):
+            (self.folder / "own" / name).parent.mkdir(parents=True, exist_ok=True)
+            (self.folder / "own" / (name + ".toml")).write_text(text)
+
+    def run_ways(self, *words, check=0, fault=""):
+        done = self.edgecase("run", "--suite", "own", "--device", "llvmpipe", "-o", "out", *words, check=check, fault=fault)
+        results = self.folder / "out" / "results.json"
+        return done, {c["id"]: c["status"] for c in json.loads(results.read_text())["cases"]} if results.exists() else None
+
+    def test_a_way_makes_a_case(self):
+        _, cases = self.run_ways("--ways", "bare-color-texture,prepass")
+        self.assertEqual(cases, {name: "pass" for name in (
+            "a/colour", "a/one", "b/two", "a/one@bare-color-texture", "a/one@prepass", "b/two@bare-color-texture", "b/two@prepass")})
+        _, cases = self.run_ways()
+        self.assertEqual(sorted(cases), ["a/colour", "a/one", "b/two"])
+
+    def test_all_ways_are_right(self):
+        listed = self.edgecase("doors", check=0).stdout
+        bare = listed.count("group: bare")
+        self.assertGreater(bare, 10)
+        _, cases = self.run_ways("--ways", "all", "b/**")
+        # Nothing tests a depth, so one way has nothing to show beside the colour.
+        self.assertEqual(len(cases), 1 + bare - 1)
+        self.assertEqual(set(cases.values()), {"pass"})
+
+    def test_default_is_some_with_each_file(self):
+        _, cases = self.run_ways("--ways", "default")
+        for name in ("a/one", "b/two"):
+            self.assertEqual(sum(c.startswith(name + "@") for c in cases), 3, cases)
+        self.assertEqual(set(cases.values()), {"pass"})
+
+    def test_selectors_name_ways(self):
+        _, cases = self.run_ways("a/one@bare-*s*", "b/two")
+        self.assertEqual(sorted(cases), sorted(["a/one@bare-color-constant", "a/one@bare-color-offset", "a/one@bare-color-push", "a/one@bare-color-smooth", "a/one@bare-color-storage", "a/one@bare-stencil", "b/two"]))
+        done = self.edgecase("explain", "--suite", "own", "a/one@bare-depth", "--pixel", "0,0", check=0).stdout
+        self.assertIn("a/one@bare-depth\n", done)
+        self.assertIn("must be covered", done)
+        mine = self.folder / "mine.toml"
+        mine.write_text(CASE)
+        _, cases = self.run_ways(f"{mine}@bare-color-push")
+        self.assertEqual(cases, {"mine@bare-color-push": "pass"})
+
+    def test_wrong_words(self):
+        done, _ = self.run_ways("--ways", "bare-color-psh", check=2)
+        self.assertIn("--ways: there is no way 'bare-color-psh'; did you mean 'bare-color-push'?", done.stderr)
+        done, _ = self.run_ways("--ways", "bare-beside", check=4)
+        self.assertIn("no selected case is drawn by 'bare-beside', which takes cases", done.stderr)
+        done, _ = self.run_ways("a/one@bare-color-psh", check=4)
+        self.assertIn("'a/one' is drawn by no way 'bare-color-psh'; did you mean 'bare-color-push'?", done.stderr)
+        done, _ = self.run_ways("a/on@bare-color-push", check=4)
+        self.assertIn("did you mean a/one?", done.stderr)
+
+    def test_expectations_speak_of_cases_or_of_ways(self):
+        words = ("--ways", "bare-color-push,bare-color-flat", "b/**")
+        expected = self.folder / "e.txt"
+        head = "# edgecase-expectations 2\n# device: llvmpipe*\n"
+        wrong = "b#1  value:store.unorm@vulkan<=1 value:blend.equation@vulkan<=1 missing:cover.inside@vulkan<=1 extra:cover.outside@vulkan<=1  # Known.\n"
+        expected.write_text(head + "b/two@bare-color-p* fail " + wrong)
+        _, cases = self.run_ways(*words, "--expect", expected, check=0, fault="flip-pixel@b/two@bare-color-push")
+        self.assertEqual(cases, {"b/two": "pass", "b/two@bare-color-flat": "pass", "b/two@bare-color-push": "xfail"})
+        expected.write_text(head + "b/two fail " + wrong)
+        _, cases = self.run_ways(*words, "--expect", expected, check=1, fault="flip-pixel@b/two@bare-color-push")
+        self.assertEqual(cases, {"b/two": "xpass", "b/two@bare-color-flat": "pass", "b/two@bare-color-push": "fail"})
+        # A line of a way that this run does not draw is no mistake, one of no way at all is.
+        expected.write_text(head + "b/two@prepass skip b#1 # Known.\n")
+        self.run_ways("--ways", "bare-color-push", "--expect", expected, check=0)
+        expected.write_text(head + "b/two@prepas skip b#1 # Known.\n")
+        done, _ = self.run_ways("--ways", "bare-color-push", "--expect", expected, check=3)
+        self.assertIn("matches no case", done.stderr)
+
+    def test_a_known_case_is_drawn_by_no_way_by_default(self):
+        expected = self.folder / "e.txt"
+        expected.write_text("# edgecase-expectations 2\n# device: llvmpipe*\nb/two skip b#1 # Known.\n")
+        _, cases = self.run_ways("--ways", "default", "--expect", expected)
+        self.assertEqual([c for c in cases if c.startswith("b/")], ["b/two"])
+        self.assertEqual(sum(c.startswith("a/one@") for c in cases), 3)
+
+    def test_a_run_goes_on_and_is_run_again(self):
+        _, cases = self.run_ways("--ways", "bare-color-push", check=1, fault="flip-pixel@b/two@bare-color-push")
+        self.assertEqual(cases["b/two@bare-color-push"], "fail")
+        failed = self.edgecase("run", "--suite", "own", "--device", "llvmpipe", "--failed-in", "out", "-o", "again", check=0)
+        self.assertIn("1 case  1 pass", failed.stdout)
+        journal = self.folder / "out" / "journal.jsonl"
+        lines = journal.read_text().splitlines(keepends=True)
+        kept = [line for line in lines[1:] if '"b/two@bare-color-push"' not in line]
+        self.assertLess(len(kept), len(lines) - 1)
+        journal.write_text(lines[0] + "".join(kept))
+        self.edgecase("run", "--resume", "out", check=0)
+        results = json.loads((self.folder / "out" / "results.json").read_text())
+        self.assertEqual(len(results["cases"]), 5)
+
+    def test_a_case_that_shows_nothing_so_is_unsupported(self):
+        far = CASE.replace("[[draw]]", "[[draw]]\ndepth = { compare = \"equal\" }\nvertices = [[0,0,0.375], [8,0,0.375], [0,8,0.375]]\n[[draw]]")
+        (self.folder / "own/b/two.toml").write_text(far.replace("vertices = [[0,0], [4,0], [0,8],  [8,8], [4,8], [8,0]]\n", "vertices = [[0,0,0.375], [4,0,0.375], [0,8,0.375]]\n"))
+        _, cases = self.run_ways("--ways", "bare-depth", "b/**")
+        self.assertEqual(cases, {"b/two": "pass", "b/two@bare-depth": "unsupported"})
+
+
+class Files(ProgramTest):
+    def lint(self, text, check):
+        (self.folder / "case.toml").write_text(text)
+        return self.edgecase("lint", "case.toml", check=check).stderr
+
+    def test_wrong_sources_and_attachments(self):
+        bare = COLOUR.replace("size = [8, 8]", 'size = [8, 8]\nattachments = "color"')
+        self.lint(bare.replace("value = [1, 0, 1, 1]", 'value = [1, 0, 1, 1], from = "uniform"'), 0)
+        for words, told in (
+                (COLOUR.replace("value = [1, 0, 1, 1]", 'value = [1, 0, 1, 1], from = "uniform"'), "from is of one colour of numbers alone"),
+                (bare.replace("value = [1, 0, 1, 1]", 'value = [1, 0, 1, 1], from = "texture"'), "a texture is read at the draw's first attribute"),
+                (bare.replace("value = [1, 0, 1, 1]", 'value = [1, 0, 1, 1], from = "unform"'), 'did you mean "uniform"?'),
+                (bare.replace("value = [1, 0, 1, 1]", 'value = [1, 0, 1, 1], from = "storage"').replace("[[draw]]", '[[draw]]\ndiscard = "checker"'),
+                 "does nothing else; leave out discard"),
+                (CASE.replace("size = [8, 8]", 'size = [8, 8]\nattachments = "stencil"'), "write stencil = true"),
+                (COLOUR.replace("size = [8, 8]", 'size = [8, 8]\nattachments = "depth"'), "leaves no place for a colour")):
+            self.assertIn(told, self.lint(words, 3), words)
+
+
+if __name__ == "__main__":
+    unittest.main()
