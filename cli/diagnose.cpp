@@ -12,11 +12,13 @@
 
 #include "cases/base/checksum.hpp"
 #include "cases/base/printable.hpp"
+#include "cases/model/way.hpp"
 #include "cli/commands.hpp"
 #include "cli/options/run_options.hpp"
 #include "cli/options/shared_options.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
+#include "cli/prepare/ways.hpp"
 #include "diagnosis/diagnose.hpp"
 #include "report/text/diagnosis_text.hpp"
 
@@ -64,11 +66,18 @@ LoadedSuite cases_of(const Program& program, const report::Run& run, const std::
     suite.suite = root.empty() ? run.suite_root : root;
     try {
         suite.selectors = parse_run_arguments(run.arguments).suite.selectors;
-        std::erase_if(suite.selectors, [](const auto& s) { return !s.ends_with(".toml"); });
+        std::erase_if(suite.selectors, [](std::string& s) {
+            s = cases::split_way(s).base;  // add_drawn() adds what ways drew
+            return !s.ends_with(".toml");
+        });
+        std::ranges::sort(suite.selectors);
+        suite.selectors.erase(std::ranges::unique(suite.selectors).begin(), suite.selectors.end());
     } catch (const Stop&) {
         // of another version: its own files are not known
     }
-    return load_and_select(program, suite);
+    LoadedSuite loaded = load_and_select(program, suite);
+    add_drawn(loaded, run);
+    return loaded;
 }
 
 }  // namespace

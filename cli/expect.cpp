@@ -14,9 +14,11 @@
 #include "cases/base/input_file.hpp"
 #include "cases/base/printable.hpp"
 #include "cases/model/device.hpp"
+#include "cases/model/way.hpp"
 #include "cli/commands.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
+#include "cli/prepare/ways.hpp"
 #include "report/journal/journal.hpp"
 #include "run/expected/date.hpp"
 #include "run/expected/expectation_update.hpp"
@@ -147,7 +149,8 @@ run::Update make_update(const Program& program, const ExpectOptions& options,
     if (suite.suite.empty()) {
         suite.suite = run.suite_root;
     }
-    const LoadedSuite loaded = load_and_select(program, suite);
+    LoadedSuite loaded = load_and_select(program, suite);
+    add_drawn(loaded, run);
     std::vector<std::string> ids = known_ids(loaded);
     const std::string left_out = settle_own_cases(run, ids, is_beside(options.file, loaded.root));
     run::Update update = run::update_expectations(text, file, run, ids, words);
@@ -178,7 +181,7 @@ void show_pictures(const Program& program, const ExpectOptions& options) {
     const auto file = must(run::load_pictures(options.file));
     const Ids ids = ids_of_suite(program, options.suite);
     for (const auto& [id, bits] : file.bits) {
-        if (!ids.contains(id)) {
+        if (!ids.contains(std::string(cases::split_way(id).base))) {
             throw stop_with(report::kExitInvalidFile,
                             options.file + ": error: '" + id + "' is no case; remove its line");
         }

@@ -26,7 +26,7 @@ glm::vec4 color_of(size_t number) {
 // No draw's: its codes are below all of theirs.
 constexpr glm::vec4 kClear(0, 0, 0, 0);
 
-// What all ways have in common. Queries and relations look at the case as it stands.
+// The case without instruments, queries and relations, which look at the case as it stands.
 Case plain(const Case& c) {
     Case out = c;
     out.claim.expected_hits.reset();
@@ -252,30 +252,40 @@ constexpr std::string_view kColorless = "cases without a colour target";
 constexpr std::string_view kPlain = "cases without a colour target, discards and shader masks";
 constexpr std::array kWays = {
     WayRow{"bare-color-push",
-           "The triangles are drawn to one rgba8-unorm colour and nothing else, each draw in a "
-           "colour that is pushed.",
-           kColorless, from<ColorFrom::push_constant>},
-    WayRow{"bare-color-constant", "The same; the colour is a specialization constant.", kPlain,
+           "One rgba8-unorm colour alone is drawn to; each draw pushes its colour.", kColorless,
+           from<ColorFrom::push_constant>},
+    WayRow{"bare-color-constant",
+           "One rgba8-unorm colour alone is drawn to; it is a specialization constant.", kPlain,
            from<ColorFrom::constant>},
-    WayRow{"bare-color-uniform", "The same; the colour lies in a uniform buffer.", kPlain,
+    WayRow{"bare-color-uniform",
+           "One rgba8-unorm colour alone is drawn to; it lies in a uniform buffer.", kPlain,
            from<ColorFrom::uniform>},
     WayRow{"bare-color-offset",
-           "The same; the colour lies in a uniform buffer, at a dynamic offset.", kPlain,
-           from<ColorFrom::uniform_offset>},
-    WayRow{"bare-color-storage", "The same; the colour lies in a storage buffer.", kPlain,
+           "One rgba8-unorm colour alone is drawn to; it lies in a uniform buffer, at a dynamic "
+           "offset.",
+           kPlain, from<ColorFrom::uniform_offset>},
+    WayRow{"bare-color-storage",
+           "One rgba8-unorm colour alone is drawn to; it lies in a storage buffer.", kPlain,
            from<ColorFrom::storage>},
     WayRow{"bare-color-texture",
-           "The same; the colour is read from a texture that was uploaded, at coordinates that are "
-           "interpolated.",
+           "One rgba8-unorm colour alone is drawn to; it is read from a texture that was uploaded, "
+           "at interpolated coordinates.",
            kPlain, from<ColorFrom::texture>},
     WayRow{"bare-color-rendered",
-           "The same; the colour is read from an image that was rendered to before.", kPlain,
-           from<ColorFrom::rendered>},
-    WayRow{"bare-color-smooth", "The same; each vertex has a colour, which is interpolated.",
+           "One rgba8-unorm colour alone is drawn to; it is read from an image that was rendered "
+           "to before.",
+           kPlain, from<ColorFrom::rendered>},
+    WayRow{"bare-color-smooth",
+           "One rgba8-unorm colour alone is drawn to; each vertex has a colour, which is "
+           "interpolated.",
            "cases of up to 131072 samples without a colour target and discards by value", smooth},
-    WayRow{"bare-color-flat", "The same; the colour is that of the provoking vertex.",
+    WayRow{"bare-color-flat",
+           "One rgba8-unorm colour alone is drawn to; it is the provoking vertex's.",
            "cases of up to 131072 samples without a colour target and discards by value", flat},
-    WayRow{"bare-color-blended", "The same, blended by its alpha.", kColorless, blended},
+    WayRow{"bare-color-blended",
+           "One rgba8-unorm colour alone is drawn to; each draw pushes its colour, which is "
+           "blended by alpha.",
+           kColorless, blended},
     WayRow{"bare-beside",
            "The triangles are drawn to one rgba8-unorm colour beside the depth and the stencil of "
            "the case.",
@@ -302,7 +312,7 @@ std::span<const WayRow> all_ways() {
 }
 
 std::optional<Case> by_way(const WayRow& way, const Case& c) {
-    if (c.draws.empty() || c.id.find('@') != std::string::npos) {
+    if (c.draws.empty() || !split_way(c.id).way.empty()) {
         return std::nullopt;
     }
     std::optional<Case> out = way.make(c);
@@ -313,9 +323,15 @@ std::optional<Case> by_way(const WayRow& way, const Case& c) {
 }
 
 WayId split_way(std::string_view id) {
-    const size_t at = id.find('@', 1);
-    return at == std::string_view::npos ? WayId{id, {}}
-                                        : WayId{id.substr(0, at), id.substr(at + 1)};
+    const size_t at = id.rfind('@');
+    if (at == std::string_view::npos || at == 0) {
+        return {id, {}};
+    }
+    const std::string_view way = id.substr(at + 1);
+    const bool is_word = std::ranges::all_of(way, [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '*';
+    });
+    return is_word ? WayId{id.substr(0, at), way} : WayId{id, {}};
 }
 
 }  // namespace cases

@@ -28,8 +28,9 @@ std::span<const WayRow> all_ways();
 // The case as it is drawn by a way; nothing if the way does not take it.
 std::optional<Case> by_way(const WayRow& way, const Case& c);
 
-// "ties/apex@bare-color-push": the id of the case and the way's word, which is empty where there is
-// none.
+// "ties/apex@bare-depth": the id of the case and the way's word, which is empty where there is
+// none. Of a selector the base may be a path, and the way a glob; there is no way in "@rule:x",
+// "my@home/a.toml" and "a@2x.toml".
 struct WayId {
     std::string_view base, way;
 };

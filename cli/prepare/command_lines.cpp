@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "cases/model/way.hpp"
 #include "cli/prepare/doors.hpp"
 #include "cli/reproducer/reproducer.hpp"
 #include "report/text/sentences.hpp"
@@ -119,14 +120,18 @@ std::string settings_of(const RunOptions& options) {
 }
 
 std::string selector_of(const RunOptions& options, const std::string& id) {
-    const size_t end = std::min(id.find(':'), id.size());
+    const size_t of_file = cases::split_way(id).base.size();
+    const size_t end = std::min(id.find(':'), of_file);
     const std::string base = id.substr(0, end);
-    const std::string leaf = id.substr(end);
+    const std::string leaf = id.substr(end);  // and the way
     std::vector<std::string> selectors = options.suite.selectors;
     if (!options.suite.carried.empty()) {
         selectors.push_back(options.suite.carried);
     }
-    for (const std::string& selector : selectors) {
+    for (const std::string& words : selectors) {
+        std::error_code ignored;
+        const std::string selector(fs::exists(words, ignored) ? words
+                                                              : cases::split_way(words).base);
         const fs::path own = selector.substr(0, selector.find(".toml:") + 5);
         if (selector.find(".toml:") != std::string::npos && own.stem() == base) {
             return own.string() + leaf;
@@ -137,7 +142,6 @@ std::string selector_of(const RunOptions& options, const std::string& id) {
         // A folder of one's own: its file; the suite's folders are not below the working directory
         // by their ids.
         const fs::path file = fs::path(selector) / (base + ".toml");
-        std::error_code ignored;
         if (fs::is_regular_file(file, ignored)) {
             return file.string() + leaf;
         }

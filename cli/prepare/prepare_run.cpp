@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <deque>
 #include <map>
 #include <set>
 
@@ -245,6 +244,7 @@ Prepared prepare_resume(const Program& program, const RunOptions& now) {
         return !is_outside(s, earlier.suite_root);  // the journal has the ids
     });
     LoadedSuite loaded = load_and_select(program, suite);
+    add_drawn(loaded, earlier);
     p.header = earlier;
     p.selection.root = loaded.root;
     p.selection.known_ids = loaded.ids();
@@ -253,22 +253,10 @@ Prepared prepare_resume(const Program& program, const RunOptions& now) {
     for (const cases::Case& c : loaded.cases) {
         by_id.emplace(c.id, &c);
     }
-    std::deque<cases::Case> by_ways;  // stable addresses
-    for (const CaseRecord& record : earlier.cases) {
-        const auto base = by_id.find(std::string(cases::split_way(record.id).base));
-        if (base == by_id.end() || by_id.contains(record.id)) {
-            continue;
-        }
-        if (auto made = case_by_id(record.id, *base->second)) {
-            by_id.emplace(record.id, &by_ways.emplace_back(std::move(*made)));
-            p.selection.known_ids.push_back(record.id);
-            p.selection.suite_ids.push_back(record.id);
-        }
-    }
     const auto is_of_device = [](const CaseRecord& r) { return r.id == cases::kLimitsCase; };
     p.selection.whole_suite =
         earlier.cases.size() ==
-        by_id.size() + (std::ranges::any_of(earlier.cases, is_of_device) ? 1U : 0U);
+        loaded.cases.size() + (std::ranges::any_of(earlier.cases, is_of_device) ? 1U : 0U);
     const std::set<std::string> cut_off(in_flight.begin(), in_flight.end());
     for (const CaseRecord& record : earlier.cases) {
         const auto found = by_id.find(record.id);

@@ -30,20 +30,27 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// What ended unexpectedly in the run of --failed-in. Where no selector chooses, all of it is meant:
-// a case of one's own that nobody names must not look as if it passed.
-std::set<std::string> failed_ids(const RunOptions& options, const LoadedSuite& suite) {
+// What ended unexpectedly in the run of --failed-in; what ways drew of selected cases is selected.
+// Where no selector chooses, all of it is meant: a case of one's own that nobody names must not
+// look as if it passed.
+std::set<std::string> failed_ids(const RunOptions& options, LoadedSuite& suite) {
     const report::Run earlier = must_read(report::load_journal(options.failed_in), "--failed-in: ");
     std::set<std::string> failed, selected;
     for (const size_t k : suite.selected) {
         selected.insert(suite.cases[k].id);
     }
+    add_drawn(suite, earlier);
+    for (const auto& [id, drawn] : suite.by_ways) {
+        if (selected.contains(std::string(cases::split_way(id).base)) &&
+            selected.insert(id).second) {
+            suite.selected.push_back(drawn.index);
+        }
+    }
     std::vector<const report::CaseRecord*> left_out;
     for (const report::CaseRecord& record : earlier.cases) {
         if (!report::is_expected(record.status)) {
             failed.insert(record.id);
-            if (!selected.contains(std::string(cases::split_way(record.id).base)) &&
-                record.id != cases::kLimitsCase) {
+            if (!selected.contains(record.id) && record.id != cases::kLimitsCase) {
                 left_out.push_back(&record);
             }
         }
@@ -127,14 +134,6 @@ Selection select_cases(const Program& program, const RunOptions& options) {
     }
     selection.left_out_doors = choose_doors(doors_of(options), chosen);
     std::vector<cases::Case> by_ways = choose_ways(ways_of(options), chosen);
-    for (const size_t k : suite.selected) {
-        for (auto at = failed.lower_bound(suite.cases[k].id + "@");
-             at != failed.end() && at->starts_with(suite.cases[k].id + "@"); ++at) {
-            if (auto made = case_by_id(*at, suite.cases[k])) {
-                by_ways.push_back(std::move(*made));
-            }
-        }
-    }
     const auto is_here = [&](const cases::Case& c) {
         return run::shard_of(c.id, options.shard.count) == options.shard.index;
     };
@@ -144,10 +143,17 @@ Selection select_cases(const Program& program, const RunOptions& options) {
             selection.cases.push_back(std::move(*c));
         }
     }
+    const std::set<std::string> of_suite(selection.suite_ids.begin(), selection.suite_ids.end());
+    std::set<std::string> known(selection.known_ids.begin(), selection.known_ids.end());
     for (cases::Case& c : by_ways) {
+        if (!known.insert(c.id).second) {
+            continue;  // a selector names it, too
+        }
         ids.push_back(c.id);
         selection.known_ids.push_back(c.id);
-        selection.suite_ids.push_back(c.id);
+        if (of_suite.contains(std::string(cases::split_way(c.id).base))) {
+            selection.suite_ids.push_back(c.id);
+        }
         if (is_here(c)) {
             selection.cases.push_back(std::move(c));
         }

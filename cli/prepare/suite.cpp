@@ -34,6 +34,11 @@ bool is_folder(const fs::path& path) {
     return fs::is_directory(path, ignored);
 }
 
+bool is_path(const fs::path& path) {
+    std::error_code ignored;
+    return fs::exists(path, ignored);
+}
+
 bool is_below(const fs::path& file, const fs::path& root) {
     std::error_code ignored;
     const fs::path relative = fs::relative(file, root, ignored);
@@ -271,26 +276,35 @@ std::vector<size_t> selected_of(const LoadedSuite& suite, const std::vector<std:
 }
 
 // Adds what ways make of cases: "ties/**@bare-*", "mine.toml:k=1@prepass". They stand behind the
-// suite's cases, as those of other files do.
+// suite's cases, as those of other files do, whose cases themselves are not selected.
 void select_ways(const std::string& selector, LoadedSuite& suite) {
     const auto [base, glob] = cases::split_way(selector);
-    LoadedSuite of_base{suite.root, suite.cases, {}, suite.outside, {}};
-    const std::vector<std::string> left = load_outside_files({std::string(base)}, of_base);
-    std::vector<size_t> chosen(of_base.cases.size() - suite.cases.size());
-    std::iota(chosen.begin(), chosen.end(), suite.cases.size());
+    LoadedSuite own{suite.root, {}, {}, 0, {}};
+    const std::vector<std::string> left = load_outside_files({std::string(base)}, own);
+    std::vector<size_t> chosen;
     if (!left.empty()) {
         chosen = selected_of(suite, left);
     }
+    for (cases::Case& c : own.cases) {
+        const auto known = std::ranges::find(suite.cases, c.id, &cases::Case::id);
+        chosen.push_back(static_cast<size_t>(known - suite.cases.begin()));
+        if (known == suite.cases.end()) {
+            suite.cases.push_back(std::move(c));
+        }
+    }
+    suite.parts.merge(own.parts);
     size_t made = 0;
     for (const size_t k : chosen) {
         for (const cases::WayRow& way : cases::all_ways()) {
-            if (!cases::glob_matches(glob, way.word)) {
+            std::optional<cases::Case> c = cases::glob_matches(glob, way.word)
+                                               ? cases::by_way(way, suite.cases[k])
+                                               : std::nullopt;
+            if (!c) {
                 continue;
             }
-            if (auto c = cases::by_way(way, of_base.cases[k])) {
-                suite.selected.push_back(suite.cases.size());
-                suite.cases.push_back(std::move(*c));
-                ++made;
+            ++made;
+            if (const size_t end = suite.cases.size(); suite.add(std::move(*c), k) == end) {
+                suite.selected.push_back(end);
             }
         }
     }
@@ -311,7 +325,7 @@ LoadedSuite select_of(LoadedSuite suite, const SuiteOptions& options) {
     suite.outside = suite.cases.size();
     std::vector<std::string> selectors, of_ways;
     for (const std::string& selector : options.selectors) {
-        const bool has_way = !cases::split_way(selector).way.empty();
+        const bool has_way = !cases::split_way(selector).way.empty() && !is_path(selector);
         (has_way ? of_ways : selectors).push_back(selector);
     }
     selectors = load_outside_files(selectors, suite);
@@ -330,16 +344,21 @@ LoadedSuite select_of(LoadedSuite suite, const SuiteOptions& options) {
 }  // namespace
 
 bool is_outside(const std::string& words, const fs::path& root) {
-    const std::string selector(cases::split_way(words).base);
+    const std::string selector(is_path(words) ? words : cases::split_way(words).base);
     return is_outside_file(leaf_of_file(selector).file, root) || is_outside_folder(selector, root);
 }
 
 bool LoadedSuite::is_suites(size_t k) const {
-    const auto [base, way] = cases::split_way(cases[k].id);
-    return k < outside ||
-           (!way.empty() &&
-            std::any_of(cases.begin(), cases.begin() + static_cast<std::ptrdiff_t>(outside),
-                        [&base = base](const cases::Case& c) { return c.id == base; }));
+    const auto drawn = k < outside ? by_ways.end() : by_ways.find(cases[k].id);
+    return k < outside || (drawn != by_ways.end() && drawn->second.is_suites);
+}
+
+size_t LoadedSuite::add(cases::Case made, size_t k) {
+    const auto [at, is_new] = by_ways.try_emplace(made.id, Drawn{cases.size(), is_suites(k)});
+    if (is_new) {
+        cases.push_back(std::move(made));
+    }
+    return at->second.index;
 }
 
 std::vector<std::string> LoadedSuite::ids() const {

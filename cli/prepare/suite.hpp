@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -45,7 +46,15 @@ struct LoadedSuite {
     std::vector<size_t> selected;    // indices into cases, in suite order
     size_t outside = 0;              // the index of the first case that is not the suite's
     std::set<std::string> parts;     // files of which a selector names single leaves
-    bool is_suites(size_t k) const;  // whether a case is, or is drawn of one by a way
+    struct Drawn {
+        size_t index = 0;  // into cases
+        bool is_suites = false;
+    };
+    std::map<std::string, Drawn> by_ways = {};  // cases that ways make, by id
+    // Whether a case is the suite's, or is drawn of one by a way.
+    bool is_suites(size_t k) const;
+    // The index of what a way makes of case k, added behind all cases unless it is there.
+    size_t add(cases::Case made, size_t k);
     std::vector<std::string> ids() const;        // of all cases
     std::vector<std::string> suite_ids() const;  // of the suite's alone
 };

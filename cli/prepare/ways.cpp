@@ -113,13 +113,22 @@ std::string ways_of(const RunOptions& options) {
     return options.ways.empty() ? takes_default(options) ? "default" : "none" : options.ways;
 }
 
-std::optional<cases::Case> case_by_id(const std::string& id, const cases::Case& base) {
-    for (const cases::WayRow& way : cases::all_ways()) {
-        if (id == base.id + "@" + std::string(way.word)) {
-            return cases::by_way(way, base);
+void add_drawn(LoadedSuite& suite, const report::Run& run) {
+    std::map<std::string, size_t> by_id;
+    for (size_t k = 0; k < suite.cases.size(); ++k) {
+        by_id.emplace(suite.cases[k].id, k);
+    }
+    for (const report::CaseRecord& record : run.cases) {
+        const auto [base, word] = cases::split_way(record.id);
+        const auto at = word.empty() ? by_id.end() : by_id.find(std::string(base));
+        const auto way = std::ranges::find(cases::all_ways(), word, &cases::WayRow::word);
+        if (at == by_id.end() || way == cases::all_ways().end()) {
+            continue;
+        }
+        if (auto made = cases::by_way(*way, suite.cases[at->second])) {
+            suite.add(std::move(*made), at->second);
         }
     }
-    return std::nullopt;
 }
 
 }  // namespace cli

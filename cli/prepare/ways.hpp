@@ -4,7 +4,6 @@
 // Which ways (cases/model/way.hpp) the cases of a run are drawn by, too.
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "cases/model/case.hpp"
 #include "cli/options/options.hpp"
 #include "cli/options/stop.hpp"
+#include "cli/prepare/suite.hpp"
 
 namespace cli {
 
@@ -28,7 +28,7 @@ std::vector<cases::Case> choose_ways(const std::string& words,
 // The words that are given, or what a run takes without them: as doors_of().
 std::string ways_of(const RunOptions& options);
 
-// The case of an id that names a way; nothing if the base case is not its, or not taken.
-std::optional<cases::Case> case_by_id(const std::string& id, const cases::Case& base);
+// Adds the cases that a run drew by ways.
+void add_drawn(LoadedSuite& suite, const report::Run& run);
 
 }  // namespace cli

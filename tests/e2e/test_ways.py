@@ -91,6 +91,45 @@ class Ways(ProgramTest):
         done, _ = self.run_ways("--ways", "bare-color-push", "--expect", expected, check=3)
         self.assertIn("matches no case", done.stderr)
 
+    def test_expectations_beside_a_suite_never_speak_of_ones_own_cases(self):
+        (self.folder / "expectations").mkdir()
+        (self.folder / "expectations/x.txt").write_text(
+            "# edgecase-expectations 2\n# device: llvmpipe*\n**@bare-depth skip b#1 # Known.\n")
+        (self.folder / "mine.toml").write_text(CASE)
+        for words in (("--ways", "bare-depth", "b/two", "mine.toml"), ("b/two@bare-depth", "mine.toml@bare-depth")):
+            _, cases = self.run_ways(*words)
+            self.assertEqual((cases["b/two@bare-depth"], cases["mine@bare-depth"]), ("skip", "pass"), words)
+
+    def test_a_case_is_drawn_once(self):
+        done, cases = self.run_ways("a/one@bare-depth", "a/one@bare-d*", "a/one", "--ways", "bare-depth")
+        self.assertEqual(sorted(cases), ["a/one", "a/one@bare-depth"])
+        self.assertIn("2 cases  2 pass", done.stdout)
+
+    def test_paths_may_have_the_sign(self):
+        for name in ("my@home/x.toml", "x@2x.toml", "dir@home/y.toml"):
+            (self.folder / name).parent.mkdir(exist_ok=True)
+        (self.folder / "my@home/x.toml").write_text(CASE)
+        (self.folder / "dir@home/y.toml").write_text(CASE)
+        self.assertEqual(self.run_ways("my@home/x.toml")[1], {"x": "pass"})
+        self.assertEqual(self.run_ways("dir@home")[1], {"y": "pass"})
+        self.assertEqual(self.run_ways("my@home/x.toml@bare-depth")[1], {"x@bare-depth": "pass"})
+
+    def test_lines_to_repeat(self):
+        (self.folder / "mine.toml").write_text(CASE)
+        for words in (("mine.toml", "--ways", "bare-depth"), ("mine.toml@bare-depth",)):
+            _, cases = self.run_ways(*words, check=1, fault="flip-pixel@mine@bare-depth")
+            self.assertEqual(cases["mine@bare-depth"], "fail")
+            record = next(c for c in json.loads((self.folder / "out/results.json").read_text())["cases"] if c["id"] == "mine@bare-depth")
+            for line in (record["rerun"], record["explain"]):
+                self.assertIn(" mine.toml@bare-depth", line)
+
+    def test_an_expectation_file_learns_of_ways(self):
+        self.run_ways("--ways", "bare-depth", check=1, fault="flip-pixel@b/two@bare-depth")
+        self.edgecase("expect", "--suite", "own", "new.txt", "--update", "out", "--bug", "b#2", check=0)
+        self.assertRegex((self.folder / "new.txt").read_text(), r"(?m)^b/two@bare-depth +fail +b#2 +\w+:")
+        _, cases = self.run_ways("--ways", "bare-depth", "--expect", "new.txt", fault="flip-pixel@b/two@bare-depth")
+        self.assertEqual(cases["b/two@bare-depth"], "xfail")
+
     def test_a_known_case_is_drawn_by_no_way_by_default(self):
         expected = self.folder / "e.txt"
         expected.write_text("# edgecase-expectations 2\n# device: llvmpipe*\nb/two skip b#1 # Known.\n")
