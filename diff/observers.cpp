@@ -131,15 +131,24 @@ ref::path::Observed Observers::observe(cases::Profile profile, size_t index, cas
         out.may_be_unhit = is_derived && has_clear_values(index);
     }
     if (seen.depth) {
-        const bool is_clear = capture::is_clear_depth(case_.target, capture_.depth[index]);
-        ref::StoredDepths(e, values_of(profile))
-            .observe(expected, id, capture_.depth[index], is_clear, out);
+        observe_depth(profile, index, id, out);
     }
     if (seen.stencil) {
         out.stencil = capture_.stencil[index];
     }
     is_asking_ = false;
     return out;
+}
+
+void Observers::observe_depth(cases::Profile profile, size_t index, cases::SampleId id,
+                              ref::path::Observed& out, const std::vector<bool>* of) {
+    const ref::Expectation& e = at(profile, index);
+    const float depth = capture_.depth[index];
+    const bool is_clear = capture::is_clear_depth(case_.target, depth);
+    is_asking_ = true;
+    ref::StoredDepths(e, values_of(profile))
+        .observe(e.samples[index], id, depth, is_clear, out, of);
+    is_asking_ = false;
 }
 
 ref::ColorWitness Observers::witness(cases::Profile profile, size_t index, cases::SampleId id,
@@ -163,9 +172,26 @@ bool Observers::has_path(cases::Profile profile, size_t index, cases::SampleId i
                          const SeenPlanes& seen) {
     const ref::Expectation& e = at(profile, index);
     const ref::SampleExpectation& expected = e.samples[index];
-    return !expected.is_open || expected.is_free ||
-           ref::path::has_path(question_of(e, case_, expected),
-                               observe(profile, index, id, seen)) != ref::path::Answer::no;
+    if (!expected.is_open || expected.is_free) {
+        return true;
+    }
+    const ref::path::Question question = question_of(e, case_, expected);
+    SeenPlanes others = seen;
+    others.depth = false;
+    ref::path::Observed observed = observe(profile, index, id, others);
+    if (seen.depth && !observed.last.empty()) {
+        // Mostly the last fragment that shows has stored its depth. Where a path has it so, nobody
+        // needs the depths of the others, which cost most of all values.
+        ref::path::Observed narrow = observed;
+        observe_depth(profile, index, id, narrow, &observed.last);
+        if (ref::path::has_path(question, narrow) == ref::path::Answer::yes) {
+            return true;
+        }
+    }
+    if (seen.depth) {
+        observe_depth(profile, index, id, observed);
+    }
+    return ref::path::has_path(question, observed) != ref::path::Answer::no;
 }
 
 std::optional<Finding> Observers::judge(size_t index, cases::SampleId id, SeenPlanes& seen) {

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "capture/capture.hpp"
 #include "cases/model/case.hpp"
@@ -53,6 +54,9 @@ class Observers {
     // The same of one question of the sample's paths.
     ref::path::Observed observe(cases::Profile profile, size_t index, cases::SampleId id,
                                 const SeenPlanes& seen);
+    // The depth's part of it; `of`: only these fragments may have stored it (null: all may).
+    void observe_depth(cases::Profile profile, size_t index, cases::SampleId id,
+                       ref::path::Observed& out, const std::vector<bool>* of = nullptr);
     // The finding at a sample whose planes are right one by one, but satisfy no path together.
     // What contradicts the planes before it is no longer `seen`.
     std::optional<Finding> judge(size_t index, cases::SampleId id, SeenPlanes& seen);

@@ -19,11 +19,12 @@ bool StoredDepths::allows(const SampleExpectation& s, cases::SampleId id, float 
 }
 
 void StoredDepths::observe(const SampleExpectation& s, cases::SampleId id, float depth,
-                           bool is_clear, path::Observed& out) {
+                           bool is_clear, path::Observed& out, const std::vector<bool>* of) {
     const std::span<const uint32_t> writers = writers_of(s);
     out.may_be_clear = is_clear;
     for (const path::Fragment& f : expectation_.fragments_of(s)) {
-        out.stored.push_back(std::ranges::find(writers, f.triangle) != writers.end() &&
+        out.stored.push_back((of == nullptr || (*of)[out.stored.size()]) &&
+                             std::ranges::find(writers, f.triangle) != writers.end() &&
                              is_of(f.triangle, id, depth));
     }
 }

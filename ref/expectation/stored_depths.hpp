@@ -5,6 +5,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "cases/model/sample.hpp"
 #include "ref/expectation/expectation.hpp"
@@ -30,9 +31,10 @@ class StoredDepths {
     bool is_of(uint32_t triangle, cases::SampleId id, float depth);
     // Whether a sample may hold a depth; `is_clear`: it is the clear value.
     bool allows(const SampleExpectation& s, cases::SampleId id, float depth, bool is_clear);
-    // Of a sample of which something is open: which of its fragments may have stored the depth.
+    // Of a sample of which something is open: which of its fragments (`of`: of these alone; null:
+    // of all) may have stored the depth.
     void observe(const SampleExpectation& s, cases::SampleId id, float depth, bool is_clear,
-                 path::Observed& out);
+                 path::Observed& out, const std::vector<bool>* of = nullptr);
 
   private:
     // Else the last fragment that shows has stored its depth.

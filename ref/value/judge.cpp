@@ -8,7 +8,9 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <utility>
+#include <vector>
 
 #include "cases/base/float_bits.hpp"
 #include "cases/base/number_text.hpp"
@@ -142,8 +144,7 @@ class FragmentJudge {
     }
 
     void judge_planes() {
-        const bool is_decided = !exact_only_ && f_.part == FragmentPart::all &&
-                                is_plain_depth(f_.primitive()) && filter();
+        const bool is_decided = !exact_only_ && is_plain_depth(f_.primitive()) && filter();
         if (profile_ == Profile::vulkan && !settings_.tells_ratios && !exact_only_) {
             if (!is_decided) {
                 const std::vector<size_t> failing = f_.failing_alone();
@@ -158,7 +159,7 @@ class FragmentJudge {
         }
     }
 
-    // Whether one of the two nominal bases is proven to explain all numbers of the fragment.
+    // Whether one of the two nominal bases is proven to explain all numbers of the fragment's part.
     bool filter() {
         const Filters& filters = set_ups_.filters(f_.t);
         const cases::Target& target = set_ups_.target();
@@ -173,11 +174,17 @@ class FragmentJudge {
                       sample,
                       {nominal.centroid[0].x.v, nominal.centroid[0].y.v}};
         }
-        const std::span<const Quantity> all(settings_.selected.at(set_ups_.draw_of(f_.t)));
+        std::span<const Quantity> judged(settings_.selected.at(set_ups_.draw_of(f_.t)));
+        std::vector<Quantity> of_part;
+        if (f_.part != FragmentPart::all) {
+            std::ranges::copy_if(judged, std::back_inserter(of_part),
+                                 [&](const Quantity& q) { return f_.has(q); });
+            judged = of_part;
+        }
         const ProbePlace place = set_ups_.probe_place(f_.t, f_.id, profile_);
         const auto accepts = [&](const Filter& filter, WorstError& worst) {
-            return filter_accepts(filter, all, places, f_.device, kBudgetFactor, worst) &&
-                   filter_accepts_probes(filter, all, place, f_.device, kBudgetFactor, worst);
+            return filter_accepts(filter, judged, places, f_.device, kBudgetFactor, worst) &&
+                   filter_accepts_probes(filter, judged, place, f_.device, kBudgetFactor, worst);
         };
         WorstError worst;
         bool is_decided = accepts(filters.unsnapped, worst);

@@ -70,6 +70,12 @@ TEST(ExhaustiveValueOracle, FilterAgreesAroundTheThreshold) {
                         const auto slow = reference.judge_exact(0, id, device);
                         ASSERT_TRUE(same(fast, slow))
                             << n << " " << to_text(e.quantity) << " " << scale;
+                        // Each part by itself, too: the filter judges it without the other.
+                        const auto part = fragments % 2 == 0 ? ref::FragmentPart::depth
+                                                             : ref::FragmentPart::all_but_depth;
+                        ASSERT_TRUE(same(reference.judge(0, id, device, part),
+                                         reference.judge_exact(0, id, device, part)))
+                            << n << " " << to_text(e.quantity) << " " << scale;
                         values += all.size() - 3;  // two centres and a flat value are not filtered
                         ++fragments;
                         ++(fast.ok ? accepted : rejected);
