@@ -51,7 +51,7 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
      "indices up to 65535, no draw with restart", can_use<kLargest16>},
     {Door::restart_extra, "restart-extra", kVertices, kRight, rule::door_restart,
      "Strips and fans are drawn with restart: twice before their first index and once behind their "
-     "last one.",
+     "last one. Indices have 32 bits, and the largest in use is 65535, a vertex like any other.",
      "a strip or a fan", when::has_strip_or_fan},
     {Door::first_vertex, "first-vertex", kVertices, kSame, rule::door_first,
      "Draws begin at firstVertex 5, behind vertices that must not be read.", "no draw with indices",

@@ -17,6 +17,7 @@ using cases::Door;
 namespace {
 
 constexpr uint32_t kSkippedIndices = 7;  // before the first, if a draw does not begin with it
+constexpr uint32_t kRestart16 = 65535;  // a vertex like any other among indices of 32 bits
 constexpr uint32_t kNegativeOffset = 9;  // what is taken off again by vertexOffset
 constexpr uint32_t kInstance = 2;        // the element that is read once an instance
 constexpr uint32_t kInstances = shaders::kShownInstance + 1;  // that there are inputs of
@@ -147,6 +148,8 @@ void Feed::make_indices() {
         added = largest_of(index_type_) - cases::largest_index(*draw_);
     } else if (door_ == Door::vertex_offset_negative) {
         added = kNegativeOffset;
+    } else if (has_more && cases::largest_index(*draw_) <= kRestart16) {
+        added = kRestart16 - cases::largest_index(*draw_);
     }
     vertex_offset_ = static_cast<int32_t>(shift) - static_cast<int32_t>(added);
     for (uint32_t& index : indices_) {
