@@ -159,13 +159,24 @@ void Narrowing::add_tests(path::Question& question, const FixedPoint& p,
     question.depth = [tested](int stored, uint32_t m) { return tested(stored, m).depth; };
 }
 
+// Neighbours that the same triangles touch ask the same, unless depths are compared.
+path::Resolution Narrowing::resolution_of(const path::Question& question) {
+    if (question.depth) {
+        return predicates_.resolve_paths(question);
+    }
+    if (!last_ || last_->fragments != question.fragments || last_->sets != question.sets) {
+        last_ = {question.fragments, question.sets, predicates_.resolve_paths(question)};
+    }
+    return last_->resolution;
+}
+
 SampleExpectation Narrowing::judge_by_paths(const FixedPoint& p, std::span<const Hit> hits,
                                             const std::vector<FixedHits>& sets, Lists& lists,
                                             JudgeReasons* reasons) {
     SampleExpectation out;
     path::Question asked = question(p, hits, sets);
     add_tests(asked, p, hits);
-    path::Resolution resolution = predicates_.resolve_paths(asked);
+    path::Resolution resolution = resolution_of(asked);
     out.is_free = resolution.is_free;
     if (resolution.is_free) {
         out.hits = any_of(asked.fragments);

@@ -55,6 +55,7 @@ class Narrowing {
     path::Question question(const FixedPoint& p, std::span<const Hit> hits,
                             const std::vector<FixedHits>& sets);
     void add_tests(path::Question& question, const FixedPoint& p, std::span<const Hit> hits);
+    path::Resolution resolution_of(const path::Question& question);
     SampleExpectation judge_by_paths(const FixedPoint& p, std::span<const Hit> hits,
                                      const std::vector<FixedHits>& sets, Lists& lists,
                                      JudgeReasons* reasons);
@@ -75,6 +76,13 @@ class Narrowing {
     std::vector<ReasonKind> depth_reasons_;                  // of the hits at hand
     std::vector<path::Fate> fates_;                          // of the hits at hand
     FixedSets fixed_sets_;
+    // The last question without depth tests, and its answer.
+    struct Resolved {
+        std::vector<path::Fragment> fragments;
+        std::vector<path::FragmentSet> sets;
+        path::Resolution resolution;
+    };
+    std::optional<Resolved> last_;
 };
 
 }  // namespace ref

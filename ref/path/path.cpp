@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <numeric>
 #include <string>
 #include <tuple>
 
@@ -60,13 +61,16 @@ std::pair<uint32_t, uint32_t> faces_of(uint64_t hits) {
     return {static_cast<uint32_t>(hits / kFront), static_cast<uint32_t>(hits % kFront)};
 }
 
-// What is in either of two ascending lists.
+// Adds to an ascending list what another one has; mostly it has all of it.
 template <class List>
-List together(const List& a, const List& b) {
+void add_all(List& a, const List& b) {
+    if (std::ranges::includes(a, b)) {
+        return;
+    }
     List out;
     out.reserve(a.size() + b.size());
     std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(out));
-    return out;
+    a = std::move(out);
 }
 
 // Follows the paths side by side. Without anything observed all of them are projected: of paths
@@ -219,19 +223,24 @@ class Search {
   private:
     // Makes one of the next paths that stand alike; false if there are too many.
     bool join() {
-        std::ranges::stable_sort(next_, {}, &Entry::state);
+        std::vector<uint32_t> order(next_.size());  // entries are large, their numbers are not
+        std::iota(order.begin(), order.end(), 0U);
+        std::ranges::stable_sort(order, {},
+                                 [this](uint32_t k) -> const State& { return next_[k].state; });
         std::vector<Entry> now;
+        now.reserve(next_.size());
         size_t count = 0;
-        for (Entry& entry : next_) {
+        for (const uint32_t k : order) {
+            Entry& entry = next_[k];
             if (now.empty() || now.back().state != entry.state) {
                 count += std::max(entry.past.hits.size(), size_t{1});
                 now.push_back(std::move(entry));
             } else if (observed_ == nullptr) {
                 Past& known = now.back().past;
                 count -= known.hits.size();
-                known.hits = together(known.hits, entry.past.hits);
-                known.lasts = together(known.lasts, entry.past.lasts);
-                known.stored = together(known.stored, entry.past.stored);
+                add_all(known.hits, entry.past.hits);
+                add_all(known.lasts, entry.past.lasts);
+                add_all(known.stored, entry.past.stored);
                 count += known.hits.size();
             }
             if (now.size() > (is_traced_ ? kMostLists : kMostStates) || count > kMostPasts) {

@@ -17,7 +17,7 @@ using cases::Door;
 namespace {
 
 constexpr uint32_t kSkippedIndices = 7;  // before the first, if a draw does not begin with it
-constexpr uint32_t kRestart16 = 65535;  // a vertex like any other among indices of 32 bits
+constexpr uint32_t kRestart16 = 65535;   // a vertex like any other among indices of 32 bits
 constexpr uint32_t kNegativeOffset = 9;  // what is taken off again by vertexOffset
 constexpr uint32_t kInstance = 2;        // the element that is read once an instance
 constexpr uint32_t kInstances = shaders::kShownInstance + 1;  // that there are inputs of
