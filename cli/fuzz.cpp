@@ -353,7 +353,7 @@ void declare(CLI::App& app, FuzzOptions& o) {
               "Selection")
         ->check(in_range<uint64_t>(0, uint64_t{1} << 24));
     add_shard(&app, o.run.shard,
-              "every N-th pose (or group of changed cases) from the I-th on; 1 <= I <= N");
+              "an N-th of the poses (or groups of changed cases), in turn; 1 <= I <= N");
     add_device(&app, o.run.device);
     add_validation(&app, o.run.device);
     add_profile(&app, o.run.profile);

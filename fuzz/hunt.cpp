@@ -149,7 +149,9 @@ Hunt::Chunk Hunt::make_chunk() {
         const uint64_t group = next_case_ / size;
         const uint64_t begin = next_case_;
         next_case_ = begin + size;
-        if (group % options_.shards != options_.shard - 1 || next_case_ <= options_.first_case) {
+        // Each shard gets bare poses and others, whatever the number of shards is.
+        if ((group / 3 + group % 3) % options_.shards != options_.shard - 1 ||
+            next_case_ <= options_.first_case) {
             continue;
         }
         source_->enter(group);
