@@ -179,7 +179,7 @@ Hunt::Chunk Hunt::make_chunk() {
 
 run::Session::Results Hunt::draw(std::vector<cases::Case> cases) {
     run::Session::Results results = draw_(std::move(cases), [this](size_t) {
-        on_progress_(counts_, entries_.size());
+        tell_progress();
         return !is_over();
     });
     is_interrupted_ = is_interrupted_ || results.interrupted;
@@ -217,7 +217,7 @@ Hunt::State Hunt::step() {
         const Clock::time_point begin = Clock::now();
         reduce_open();
         counts_.reducing_seconds += seconds_since(begin);
-        on_progress_(counts_, entries_.size());
+        tell_progress();
     }
     if (is_interrupted_ || !failure_.empty()) {
         return is_interrupted_ ? State::interrupted : State::failed;
@@ -252,6 +252,7 @@ void Hunt::leave_out_broken_doors(Chunk& chunk) {
 
 void Hunt::draw_chunk(Chunk chunk) {
     const Clock::time_point begin = Clock::now();
+    doing_ = "drawing";
     leave_out_broken_doors(chunk);
     std::vector<size_t> triangles;
     for (const cases::Case& c : chunk.cases) {
@@ -346,8 +347,14 @@ void Hunt::reduce_open() {
     size_t all = 0;
     for (Open& open : open_) {
         explain(open);
-        if (open.waiting.symptoms.empty() || is_over() || is_interrupted_ || !failure_.empty() ||
-            all >= kReductionsOfChunk ||
+        while (!open.waiting.symptoms.empty() && has_known_left() && !is_at_end(is_over()) &&
+               all < kReductionsOfChunk) {
+            ++all;
+            meet_known();
+            explain(open);
+        }
+        if (open.waiting.symptoms.empty() || has_known_left() || is_over() || is_interrupted_ ||
+            !failure_.empty() || all >= kReductionsOfChunk ||
             reduced[open.waiting.symptoms.front()] >= kReductionsOfSymptom) {
             continue;
         }
@@ -366,29 +373,57 @@ void Hunt::reduce_open() {
     });
 }
 
+bool Hunt::is_at_end(bool is_cut) {
+    is_interrupted_ = is_interrupted_ || options_.is_interrupted();
+    return is_cut || is_interrupted_ || !failure_.empty();
+}
+
+run::Session::Results Hunt::draw_candidates(std::vector<cases::Case> cases, bool& is_cut) {
+    is_cut = is_cut || is_over();
+    if (is_at_end(is_cut)) {
+        return {std::vector<CaseRecord>(cases.size()), false, ""};
+    }
+    counts_.reduction_cases += cases.size();
+    run::Session::Results results = draw(std::move(cases));
+    is_cut = std::ranges::any_of(results.records, is_left);
+    return results;
+}
+
+bool Hunt::has_known_left() const {
+    return options_.known_failures != nullptr && !options_.known_failures->is_empty();
+}
+
+void Hunt::meet_known() {
+    ++counts_.reductions;
+    bool is_cut = false;
+    std::optional<Entry> known = options_.known_failures->next(
+        entries_,
+        [&](std::vector<cases::Case> cases, const auto&) {
+            return draw_candidates(std::move(cases), is_cut);
+        },
+        [&] { return is_at_end(is_cut); },
+        [this](const std::string& what) {
+            doing_ = what;
+            tell_progress();
+        });
+    if (known) {
+        entries_.push_back(std::move(*known));
+    }
+}
+
 // Makes an entry of an open case's gravest symptom, or finds that it is that of another one.
 void Hunt::reduce_one(Open& open) {
     const Symptom symptom = open.waiting.symptoms.front();
     ++counts_.reductions;
+    doing_ = "reducing case " + std::to_string(open.waiting.number);
     bool is_cut = false;  // by the end of the time: it waits for another hunt
-    const auto is_at_end = [&] {
-        is_interrupted_ = is_interrupted_ || options_.is_interrupted();
-        return is_cut || is_interrupted_ || !failure_.empty();
-    };
     std::optional<Entry> fresh = reduce_case(
         open.text, symptom,
         [&](std::vector<cases::Case> cases, const auto&) {
-            is_cut = is_cut || is_over();
-            if (is_at_end()) {
-                return run::Session::Results{std::vector<CaseRecord>(cases.size()), false, ""};
-            }
-            counts_.reduction_cases += cases.size();
-            run::Session::Results results = draw(std::move(cases));
-            is_cut = std::ranges::any_of(results.records, is_left);
-            return results;
+            return draw_candidates(std::move(cases), is_cut);
         },
-        options_.most_rounds, is_at_end);
-    if (is_at_end()) {
+        options_.most_rounds, [&] { return is_at_end(is_cut); });
+    if (is_at_end(is_cut)) {
         return;
     }
     open.waiting.symptoms.erase(open.waiting.symptoms.begin());

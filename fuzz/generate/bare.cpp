@@ -68,7 +68,8 @@ void color_vertices(cases::Draw& draw, Dice& dice) {
     if (draw.color.attribute < 0) {
         return;
     }
-    std::vector<glm::vec4>& values = draw.attributes.at(static_cast<size_t>(draw.color.attribute)).values;
+    std::vector<glm::vec4>& values =
+        draw.attributes.at(static_cast<size_t>(draw.color.attribute)).values;
     const uint64_t kind = dice.below(3);
     const auto eighths = [&](int64_t low, int64_t high) {
         glm::vec4 out{};

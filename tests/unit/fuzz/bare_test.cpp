@@ -46,8 +46,8 @@ void for_each_bare(uint64_t seed, uint64_t poses, Visit&& visit) {
 
 // What is drawn on, and where, is no feature beside the geometry.
 size_t features_beside(const Pose& pose) {
-    static const std::set<std::string_view> kNone = {"way", "bare-format", "stencil", "draws",
-                                                     "size", "z", "w"};
+    static const std::set<std::string_view> kNone = {"way",  "bare-format", "stencil", "draws",
+                                                     "size", "z",           "w"};
     size_t count = 0;
     for (const auto& [feature, value] : pose.active()) {
         count += kNone.contains(features()[feature].name) ? 0U : 1U;
@@ -94,9 +94,8 @@ TEST(BarePoses, TheirCasesLoadAndAreWrittenAndLoadAgain) {
                 const std::string_view format = cases::name_of(c->target.color->format);
                 EXPECT_EQ(format.substr(1, 5), format.front() == 'b' ? "gra8-" : "gba8-");
                 const cases::ColorOutput& color = c->draws.back().color;
-                sources.insert(color.attribute >= 0
-                                   ? "input"
-                                   : std::to_string(static_cast<int>(color.from)));
+                sources.insert(color.attribute >= 0 ? "input"
+                                                    : std::to_string(static_cast<int>(color.from)));
             }
             ++made;
         }
@@ -185,14 +184,15 @@ void see_place(double begin, double end, double side, const auto& see) {
 
 TEST(BarePoses, ViewportsLieBesideAndFarAroundTheTarget) {
     const auto places = [&](std::string_view word) {
-        return counted(pose_with("viewport-place", word), [](const cases::Case& c, const auto& see) {
-            const cases::Viewport& v = c.draws.back().viewport;
-            const auto x = static_cast<double>(v.x), width = static_cast<double>(v.width);
-            const double y = static_cast<double>(std::min(v.y, v.y + v.height));
-            see_place(x, x + width, 16, see);
-            see_place(y, y + std::abs(static_cast<double>(v.height)), 16, see);
-            see(v.height < 0, "flipped");
-        });
+        return counted(
+            pose_with("viewport-place", word), [](const cases::Case& c, const auto& see) {
+                const cases::Viewport& v = c.draws.back().viewport;
+                const auto x = static_cast<double>(v.x), width = static_cast<double>(v.width);
+                const double y = static_cast<double>(std::min(v.y, v.y + v.height));
+                see_place(x, x + width, 16, see);
+                see_place(y, y + std::abs(static_cast<double>(v.height)), 16, see);
+                see(v.height < 0, "flipped");
+            });
     };
     std::map<std::string, size_t> beside = places("beside"), far = places("far");
     EXPECT_GT(beside["beside"], 150U);
@@ -229,8 +229,7 @@ TEST(BarePoses, TrianglesAreFewRectanglesFullScreensAndNearlyDegenerate) {
     size_t rectangles = 0, screens = 0, thin = 0, none = 0, triangles = 0;
     constexpr size_t kShapes = 1000;
     for (size_t k = 0; k < kShapes; ++k) {
-        const Shape shape =
-            make_bare_shape(dice, Connection::list, false, 16, 16, {0, 0, 16, 16});
+        const Shape shape = make_bare_shape(dice, Connection::list, false, 16, 16, {0, 0, 16, 16});
         ASSERT_EQ(shape.vertices.size() % 3, 0U);
         triangles += shape.vertices.size() / 3;
         for (size_t t = 0; t < shape.vertices.size(); t += 3) {
