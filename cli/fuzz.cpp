@@ -87,6 +87,7 @@ class FuzzCommand {
                     ? ""
                     : fmt::format(", from case {} on", ledger_.counts.next_case),
                 is_endless ? "; end it with ctrl-c" : ""));
+            std::fflush(stdout);
         }
         run::Session session(config, std::move(first.client), first.device, signals);
         // From here on the hunt can go on, whatever ends it.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fuzz/hunt.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -178,7 +180,12 @@ Hunt::Chunk Hunt::make_chunk() {
 }
 
 run::Session::Results Hunt::draw(std::vector<cases::Case> cases) {
-    run::Session::Results results = draw_(std::move(cases), [this](size_t) {
+    const size_t all = cases.size();
+    const bool is_of_chunk = doing_.empty();
+    run::Session::Results results = draw_(std::move(cases), [&](size_t done) {
+        if (is_of_chunk) {
+            doing_ = fmt::format("drawing, {} of {}", done, all);
+        }
         tell_progress();
         return !is_over();
     });
@@ -252,12 +259,12 @@ void Hunt::leave_out_broken_doors(Chunk& chunk) {
 
 void Hunt::draw_chunk(Chunk chunk) {
     const Clock::time_point begin = Clock::now();
-    doing_ = "drawing";
     leave_out_broken_doors(chunk);
     std::vector<size_t> triangles;
     for (const cases::Case& c : chunk.cases) {
         triangles.push_back(cases::assemble(c).size());
     }
+    doing_.clear();  // which draw() fills in
     const run::Session::Results results = draw(std::move(chunk.cases));
     counts_.drawing_seconds += seconds_since(begin);
     if (!failure_.empty()) {
@@ -415,7 +422,7 @@ void Hunt::meet_known() {
 void Hunt::reduce_one(Open& open) {
     const Symptom symptom = open.waiting.symptoms.front();
     ++counts_.reductions;
-    doing_ = "reducing case " + std::to_string(open.waiting.number);
+    doing_ = fmt::format("reducing case {}", open.waiting.number);
     bool is_cut = false;  // by the end of the time: it waits for another hunt
     std::optional<Entry> fresh = reduce_case(
         open.text, symptom,

@@ -102,7 +102,7 @@ std::string text_of_case(Source& source, uint64_t number);
 
 class Hunt {
   public:
-    // Called at least five times a second. `doing`: "drawing", "reducing case 77".
+    // Called at least five times a second. `doing`: "drawing, 5 of 960", "reducing case 77".
     using OnProgress = std::function<void(const HuntCounts&, const std::vector<Entry>& entries,
                                           const std::string& doing)>;
     // `known`: entries of earlier hunts, and of this one if it goes on, as is what waits.
