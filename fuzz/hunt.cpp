@@ -360,7 +360,7 @@ void Hunt::reduce_open() {
             meet_known();
             explain(open);
         }
-        if (open.waiting.symptoms.empty() || has_known_left() || is_over() || is_interrupted_ ||
+        if (open.waiting.symptoms.empty() || is_over() || is_interrupted_ ||
             !failure_.empty() || all >= kReductionsOfChunk ||
             reduced[open.waiting.symptoms.front()] >= kReductionsOfSymptom) {
             continue;
