@@ -360,8 +360,8 @@ void Hunt::reduce_open() {
             meet_known();
             explain(open);
         }
-        if (open.waiting.symptoms.empty() || is_over() || is_interrupted_ ||
-            !failure_.empty() || all >= kReductionsOfChunk ||
+        if (open.waiting.symptoms.empty() || is_over() || is_interrupted_ || !failure_.empty() ||
+            all >= kReductionsOfChunk ||
             reduced[open.waiting.symptoms.front()] >= kReductionsOfSymptom) {
             continue;
         }
