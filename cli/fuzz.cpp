@@ -87,16 +87,14 @@ class FuzzCommand {
                     ? ""
                     : fmt::format(", from case {} on", ledger_.counts.next_case),
                 is_endless ? "; end it with ctrl-c" : ""));
+            std::fflush(stdout);
         }
         run::Session session(config, std::move(first.client), first.device, signals);
         // From here on the hunt can go on, whatever ends it.
         run::SignalFd::set_last_words(cases::printable(
             "interrupted; go on with 'edgecase fuzz --resume " + folder_.string() + "'"));
         files.keep_earlier();
-        if (const std::optional<int> ended = know(expected, session, files)) {
-            return *ended;
-        }
-        return hunt(session, std::move(expected.broken_doors), files);
+        return hunt(session, std::move(expected), files);
     }
 
   private:
@@ -187,70 +185,52 @@ class FuzzCommand {
         }
     }
 
-    // Reduces one case for each cause that expectation files explain, unless an earlier hunt has.
-    // The exit code, if that is the end.
-    std::optional<int> know(const ExpectedFailures& expected, run::Session& session,
-                            HuntFolder& files) {
+    // Whether causes of expectation files are known already, by this hunt or an earlier one.
+    bool are_known(const ExpectedFailures& expected) {
         if (known_device_ == ledger_.device + ledger_.driver &&
             known_expectations_ == expected.checksum) {
             ledger_.expectations = expected.checksum;  // --known has brought the causes
         }
-        if (expected.cases.empty() || expected.checksum == ledger_.expectations) {
-            return std::nullopt;
-        }
-        if (!options_.run.quiet) {
-            // It takes minutes where many cases are expected to fail, and --time counts from its
-            // end.
-            say(fmt::format(
-                "first, {} known to fail by {} {} reduced to causes, once for this "
-                "hunt{}; --no-expect leaves it out\n",
-                counted(expected.cases.size(), "case"), counted(expected.files, "expectation file"),
-                expected.cases.size() == 1 ? "is" : "are",
-                options_.seconds > 0 ? ", and --time counts from then on" : ""));
-            std::fflush(stdout);
-        }
-        const double begin = status_.seconds();
-        const KnownCauses known = reduce_known(
-            expected, ledger_.entries, session,
-            [this] { status_.show_words("reducing what expectation files explain"); },
-            [&](const Entry& entry) { files.keep_known(entry); });
+        return expected.cases.empty() || expected.checksum == ledger_.expectations;
+    }
+
+    // Once all that expectation files explain is reduced.
+    void tell_known(const KnownCauses& known) {
+        ledger_.expectations = known.expected().checksum;
         status_.clear();
-        if (!known.failure.empty()) {
-            throw stop_with(report::kExitInternal, known.failure);
-        }
-        if (known.is_interrupted) {
-            say("interrupted while known causes were reduced; go on with 'edgecase fuzz --resume " +
-                folder_.string() + "'\n");
-            return report::kExitInterrupted;
-        }
-        ledger_.expectations = expected.checksum;
-        files.write_ledger();
-        const auto causes =
-            static_cast<size_t>(std::ranges::count_if(ledger_.entries, [](const Entry& entry) {
-                return entry.file.starts_with(fuzz::kKnown);
-            }));
         if (!options_.run.quiet) {
-            say(fmt::format("known by {}: {} that {} as expected, by {}{}, reduced in {:.0f} s\n",
-                            counted(expected.files, "expectation file"),
-                            counted(known.failing, "case"), known.failing == 1 ? "fails" : "fail",
-                            counted(causes, "cause"),
-                            options_.known.empty() ? "" : " that no --known explains",
-                            status_.seconds() - begin));
+            say(fmt::format(
+                "known by {}: {} that {} as expected, by {}{}, reduced in {:.0f} s\n",
+                counted(known.expected().files, "expectation file"),
+                counted(known.failing(), "case"), known.failing() == 1 ? "fails" : "fail",
+                counted(known.causes(), "cause"),
+                options_.known.empty() ? "" : " that no --known explains", known.seconds()));
             std::fflush(stdout);
         }
-        status_.restart();  // the hunt's own time begins now
-        if (known.left > 0) {
+        if (known.left() > 0) {
             complain(
                 fmt::format("{} of expected failures not reduced, so what they come of will "
                             "be told as new; take more causes for known by --known",
-                            counted(known.left, "finding")));
+                            counted(known.left(), "finding")));
         }
-        return std::nullopt;
     }
 
-    int hunt(run::Session& session, std::set<cases::Door> broken_doors, HuntFolder& files) {
+    int hunt(run::Session& session, ExpectedFailures expected, HuntFolder& files) {
         fuzz::HuntOptions hunt;
-        hunt.broken_doors = std::move(broken_doors);
+        hunt.broken_doors = std::move(expected.broken_doors);
+        const bool is_known = are_known(expected);
+        KnownCauses known(std::move(expected));
+        if (!is_known) {
+            hunt.known_failures = &known;
+            if (!options_.run.quiet) {
+                say(fmt::format(
+                    "{} known to fail by {}; as soon as a case fails, they are reduced to causes, "
+                    "once for this hunt; --no-expect leaves it out\n",
+                    counted(known.expected().cases.size(), "case"),
+                    counted(known.expected().files, "expectation file")));
+                std::fflush(stdout);
+            }
+        }
         hunt.source = source_;
         hunt.first_case = ledger_.counts.next_case;
         hunt.most_cases = options_.cases == 0 ? 0 : options_.cases;
@@ -268,20 +248,24 @@ class FuzzCommand {
             return session.draw(std::move(cases), on_progress);
         };
         Hunt hunter(hunt, draw, std::move(ledger_.entries), ledger_.waiting,
-                    [this](const fuzz::HuntCounts& counts, size_t causes) {
-                        status_.show(counts, causes);
-                    });
+                    [this](const auto&... progress) { status_.show(progress...); });
         Hunt::State state = Hunt::State::goes_on;
         for (bool is_first = true; state == Hunt::State::goes_on; is_first = false) {
             if (!is_first) {
                 state = hunter.step();
             }
+            if (hunt.known_failures != nullptr && known.is_empty() &&
+                ledger_.expectations != known.expected().checksum) {
+                tell_known(known);
+            }
             ledger_.counts = sum_of(before, hunter.counts());
             ledger_.seconds = seconds_before_ + status_.seconds();
             ledger_.is_finished = state == Hunt::State::done;
             files.keep(hunter, [this](const Entry& entry) {
-                status_.clear();
-                tell_cause(entry, folder_);
+                if (!entry.is_known) {
+                    status_.clear();
+                    tell_cause(entry, folder_);
+                }
             });
         }
         status_.clear();
@@ -346,14 +330,14 @@ void declare(CLI::App& app, FuzzOptions& o) {
            [&o](const CLI::results_t& results) {
                return parse_duration(results.back(), o.seconds);
            },
-           "end after this time, from when expected failures are reduced: 90s, 10m, 2h [no end]")
+           "end after this time: 90s, 10m, 2h [no end]")
         ->type_name("TIME")
         ->group("Selection");
     add_value(&app, "--print", o.printed, "print the case with this number, draw nothing", "N",
               "Selection")
         ->check(in_range<uint64_t>(0, uint64_t{1} << 24));
     add_shard(&app, o.run.shard,
-              "every N-th pose (or group of changed cases) from the I-th on; 1 <= I <= N");
+              "an N-th of the poses (or groups of changed cases), in turn; 1 <= I <= N");
     add_device(&app, o.run.device);
     add_validation(&app, o.run.device);
     add_profile(&app, o.run.profile);

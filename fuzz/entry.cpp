@@ -9,6 +9,7 @@
 #include <iterator>
 #include <utility>
 
+#include "cases/base/parallel.hpp"
 #include "cases/model/rule.hpp"
 #include "diff/color.hpp"
 #include "fuzz/document/document.hpp"
@@ -256,19 +257,23 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
     bool has_died = false;              // the last of what was drawn, in place of the symptom
     const auto is_at_end = [&] { return is_over && is_over(); };
     const Shows shown = [&](const std::vector<Candidate>& candidates) {
-        std::vector<bool> out(candidates.size(), false);
         const std::vector<CaseRecord> records = drawn(candidates, draw);
-        for (size_t k = 0; k < out.size() && !is_at_end(); ++k) {
+        std::vector<char> is_shown(candidates.size(), 0);  // threads write it
+        for (size_t k = 0; k < records.size() && !is_at_end(); ++k) {
             if (records[k].status == Status::unsupported) {
                 unsupported.insert(candidates[k].text);
             }
             has_died = symptom.status == Status::fail && (records[k].status == Status::crash ||
                                                           records[k].status == Status::timeout ||
                                                           records[k].status == Status::device_lost);
-            out[k] = shows(records[k], symptom) &&
-                     (!sound_at || is_sound(candidates[k].data, *sound_at));
+            is_shown[k] = shows(records[k], symptom) ? 1 : 0;
         }
-        return out;
+        cases::for_each_index(is_at_end() ? 0 : is_shown.size(), [&](size_t k) {
+            if (is_shown[k] != 0 && sound_at) {
+                is_shown[k] = is_sound(candidates[k].data, *sound_at) ? 1 : 0;
+            }
+        });
+        return std::vector<bool>(is_shown.begin(), is_shown.end());
     };
     // A worker may die for another reason, and a death says nothing of a wrong picture.
     constexpr int kMostDeaths = 3;

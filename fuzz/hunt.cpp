@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fuzz/hunt.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -149,7 +151,9 @@ Hunt::Chunk Hunt::make_chunk() {
         const uint64_t group = next_case_ / size;
         const uint64_t begin = next_case_;
         next_case_ = begin + size;
-        if (group % options_.shards != options_.shard - 1 || next_case_ <= options_.first_case) {
+        // Each shard gets bare poses and others, whatever the number of shards is.
+        if ((group / 3 + group % 3) % options_.shards != options_.shard - 1 ||
+            next_case_ <= options_.first_case) {
             continue;
         }
         source_->enter(group);
@@ -176,8 +180,13 @@ Hunt::Chunk Hunt::make_chunk() {
 }
 
 run::Session::Results Hunt::draw(std::vector<cases::Case> cases) {
-    run::Session::Results results = draw_(std::move(cases), [this](size_t) {
-        on_progress_(counts_, entries_.size());
+    const size_t all = cases.size();
+    const bool is_of_chunk = doing_.empty();
+    run::Session::Results results = draw_(std::move(cases), [&](size_t done) {
+        if (is_of_chunk) {
+            doing_ = fmt::format("drawing, {} of {}", done, all);
+        }
+        tell_progress();
         return !is_over();
     });
     is_interrupted_ = is_interrupted_ || results.interrupted;
@@ -215,7 +224,7 @@ Hunt::State Hunt::step() {
         const Clock::time_point begin = Clock::now();
         reduce_open();
         counts_.reducing_seconds += seconds_since(begin);
-        on_progress_(counts_, entries_.size());
+        tell_progress();
     }
     if (is_interrupted_ || !failure_.empty()) {
         return is_interrupted_ ? State::interrupted : State::failed;
@@ -255,6 +264,7 @@ void Hunt::draw_chunk(Chunk chunk) {
     for (const cases::Case& c : chunk.cases) {
         triangles.push_back(cases::assemble(c).size());
     }
+    doing_.clear();  // which draw() fills in
     const run::Session::Results results = draw(std::move(chunk.cases));
     counts_.drawing_seconds += seconds_since(begin);
     if (!failure_.empty()) {
@@ -344,6 +354,12 @@ void Hunt::reduce_open() {
     size_t all = 0;
     for (Open& open : open_) {
         explain(open);
+        while (!open.waiting.symptoms.empty() && has_known_left() && !is_at_end(is_over()) &&
+               all < kReductionsOfChunk) {
+            ++all;
+            meet_known();
+            explain(open);
+        }
         if (open.waiting.symptoms.empty() || is_over() || is_interrupted_ || !failure_.empty() ||
             all >= kReductionsOfChunk ||
             reduced[open.waiting.symptoms.front()] >= kReductionsOfSymptom) {
@@ -364,29 +380,57 @@ void Hunt::reduce_open() {
     });
 }
 
+bool Hunt::is_at_end(bool is_cut) {
+    is_interrupted_ = is_interrupted_ || options_.is_interrupted();
+    return is_cut || is_interrupted_ || !failure_.empty();
+}
+
+run::Session::Results Hunt::draw_candidates(std::vector<cases::Case> cases, bool& is_cut) {
+    is_cut = is_cut || is_over();
+    if (is_at_end(is_cut)) {
+        return {std::vector<CaseRecord>(cases.size()), false, ""};
+    }
+    counts_.reduction_cases += cases.size();
+    run::Session::Results results = draw(std::move(cases));
+    is_cut = std::ranges::any_of(results.records, is_left);
+    return results;
+}
+
+bool Hunt::has_known_left() const {
+    return options_.known_failures != nullptr && !options_.known_failures->is_empty();
+}
+
+void Hunt::meet_known() {
+    ++counts_.reductions;
+    bool is_cut = false;
+    std::optional<Entry> known = options_.known_failures->next(
+        entries_,
+        [&](std::vector<cases::Case> cases, const auto&) {
+            return draw_candidates(std::move(cases), is_cut);
+        },
+        [&] { return is_at_end(is_cut); },
+        [this](const std::string& what) {
+            doing_ = what;
+            tell_progress();
+        });
+    if (known) {
+        entries_.push_back(std::move(*known));
+    }
+}
+
 // Makes an entry of an open case's gravest symptom, or finds that it is that of another one.
 void Hunt::reduce_one(Open& open) {
     const Symptom symptom = open.waiting.symptoms.front();
     ++counts_.reductions;
+    doing_ = fmt::format("reducing case {}", open.waiting.number);
     bool is_cut = false;  // by the end of the time: it waits for another hunt
-    const auto is_at_end = [&] {
-        is_interrupted_ = is_interrupted_ || options_.is_interrupted();
-        return is_cut || is_interrupted_ || !failure_.empty();
-    };
     std::optional<Entry> fresh = reduce_case(
         open.text, symptom,
         [&](std::vector<cases::Case> cases, const auto&) {
-            is_cut = is_cut || is_over();
-            if (is_at_end()) {
-                return run::Session::Results{std::vector<CaseRecord>(cases.size()), false, ""};
-            }
-            counts_.reduction_cases += cases.size();
-            run::Session::Results results = draw(std::move(cases));
-            is_cut = std::ranges::any_of(results.records, is_left);
-            return results;
+            return draw_candidates(std::move(cases), is_cut);
         },
-        options_.most_rounds, is_at_end);
-    if (is_at_end()) {
+        options_.most_rounds, [&] { return is_at_end(is_cut); });
+    if (is_at_end(is_cut)) {
         return;
     }
     open.waiting.symptoms.erase(open.waiting.symptoms.begin());

@@ -23,6 +23,22 @@
 
 namespace fuzz {
 
+// Failures that are known, and whose causes are not reduced yet.
+class KnownFailures {
+  public:
+    using Tell = std::function<void(const std::string& what)>;  // what is done now
+    KnownFailures() = default;
+    KnownFailures(const KnownFailures&) = delete;
+    KnownFailures& operator=(const KnownFailures&) = delete;
+    virtual ~KnownFailures() = default;
+    // The next cause that none of the entries explains. Nothing if there is none, or if `is_over`
+    // has come true.
+    virtual std::optional<Entry> next(const std::vector<Entry>& entries,
+                                      const run::DrawAndJudge& draw,
+                                      const std::function<bool()>& is_over, const Tell& tell) = 0;
+    virtual bool is_empty() const = 0;  // all are reduced or explained
+};
+
 struct HuntOptions {
     using Clock = std::chrono::steady_clock;
     MakeSource source;           // of the cases
@@ -35,6 +51,8 @@ struct HuntOptions {
     uint32_t shard = 1, shards = 1;      // groups of numbers are dealt out in turn
     size_t most_rounds = 400;            // of one reduction: batches of candidates
     std::set<cases::Door> broken_doors;  // cases through them are counted, not drawn
+    // Reduced when a case fails that no entry explains, and before any case of the hunt.
+    KnownFailures* known_failures = nullptr;
 };
 
 // A failing case of a hunt that waits for its reduction, and what no entry explains of it, the
@@ -84,8 +102,9 @@ std::string text_of_case(Source& source, uint64_t number);
 
 class Hunt {
   public:
-    // Called at least five times a second.
-    using OnProgress = std::function<void(const HuntCounts&, size_t entries)>;
+    // Called at least five times a second. `doing`: "drawing, 5 of 960", "reducing case 77".
+    using OnProgress = std::function<void(const HuntCounts&, const std::vector<Entry>& entries,
+                                          const std::string& doing)>;
     // `known`: entries of earlier hunts, and of this one if it goes on, as is what waits.
     Hunt(HuntOptions options, run::DrawAndJudge draw, std::vector<Entry> known,
          const std::vector<Waiting>& waiting, OnProgress on_progress);
@@ -145,7 +164,13 @@ class Hunt {
     void count(const Open& open);
     void reduce_open();
     void reduce_one(Open& open);
+    bool has_known_left() const;
+    void meet_known();
+    void tell_progress() const { on_progress_(counts_, entries_, doing_); }
     run::Session::Results draw(std::vector<cases::Case> cases);
+    // Of a reduction, which the end of the time cuts.
+    run::Session::Results draw_candidates(std::vector<cases::Case> cases, bool& is_cut);
+    bool is_at_end(bool is_cut);
 
     HuntOptions options_;
     run::DrawAndJudge draw_;
@@ -159,6 +184,7 @@ class Hunt {
     std::vector<Open> open_;
     bool is_behind_ = false;  // what is open is reduced before another case is drawn
     HuntCounts counts_;
+    std::string doing_;
     std::string failure_;
     bool is_interrupted_ = false;
     std::vector<std::pair<std::string, std::string>> unjudged_;

@@ -148,6 +148,7 @@ std::optional<Case> from_input(const Case& c, bool is_flat) {
             at.values.push_back(color_of(16 * k + v));
         }
         draw.attributes = {std::move(at)};
+        draw.color = {};
         draw.color.attribute = 0;
     }
     return out;

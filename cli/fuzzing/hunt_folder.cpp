@@ -73,13 +73,6 @@ void HuntFolder::keep_earlier() {
     write_ledger();
 }
 
-void HuntFolder::keep_known(Entry entry) {
-    name_file(entry, fuzz::kKnown);
-    write(entry.file, found_text(entry, ledger_));
-    ledger_.entries.push_back(std::move(entry));
-    write_ledger();
-}
-
 void HuntFolder::take_out_not_reduced() {
     std::erase_if(ledger_.entries, [&](const Entry& entry) {
         if (!entry.is_reduced) {
@@ -95,7 +88,7 @@ void HuntFolder::keep(fuzz::Hunt& hunter, const std::function<void(const Entry&)
         if (!entry.file.empty()) {
             continue;
         }
-        name_file(entry, fuzz::kFound);
+        name_file(entry, entry.is_known ? fuzz::kKnown : fuzz::kFound);
         write(entry.file, found_text(entry, ledger_));
         tell(entry);
         if (!entry.stale_file.empty()) {

@@ -24,9 +24,6 @@ class HuntFolder {
 
     // Copies what earlier hunts found, so that this one can go on without their folders.
     void keep_earlier();
-    // A cause that expectation files explain, as soon as it is reduced: a hunt that is ended before
-    // all are goes on with it.
-    void keep_known(fuzz::Entry entry);
     // Takes what is not reduced out of the ledger, since the hunt draws it anew.
     void take_out_not_reduced();
     // Writes new causes, each of which is told, and the ledger: a hunt that is killed has lost

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <string>
+#include <vector>
 
 #include "cli/options/options.hpp"
 #include "cli/prepare/outputs.hpp"
@@ -16,11 +17,10 @@ namespace cli {
 class HuntStatus {
   public:
     explicit HuntStatus(const RunOptions& options);
-    void show(const fuzz::HuntCounts& counts, size_t causes);
-    void show_words(const std::string& words) { progress_.show_words(words); }
+    void show(const fuzz::HuntCounts& counts, const std::vector<fuzz::Entry>& entries,
+              const std::string& doing);
     void clear() { progress_.clear(); }
-    void restart() { begin_ = std::chrono::steady_clock::now(); }
-    double seconds() const;  // since it was made, or restarted
+    double seconds() const;  // since it was made
 
   private:
     Progress progress_;

@@ -3,6 +3,7 @@
 #include "cli/fuzzing/known_causes.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <map>
 #include <optional>
 #include <set>
@@ -28,83 +29,9 @@ constexpr size_t kMostCauses = 96;   // more are no list that anybody keeps
 constexpr size_t kMostRounds = 200;  // of one reduction
 constexpr size_t kMostDeaths = 1;    // cases of one line that are drawn to see a crash or a hang
 
-// A case that fails as an expectation file says, and what no entry explains of it.
-struct Open {
-    std::string text, bug;
-    fuzz::Facts facts;
-    std::vector<Symptom> symptoms;
-};
-
-bool is_explained(const std::vector<Entry>& entries, const Symptom& symptom, const Open& open) {
-    return std::ranges::any_of(
-        entries, [&](const Entry& e) { return fuzz::explains(e, symptom, open.facts); });
-}
-
 bool is_known_failure(Status status) {
     return status == Status::fail || status == Status::crash || status == Status::timeout ||
            status == Status::device_lost;
-}
-
-class Reducer {
-  public:
-    Reducer(run::Session& session, KnownCauses& out, const std::function<void()>& on_progress)
-        : session_(session), out_(out), on_progress_(on_progress) {}
-
-    run::Session::Results draw(std::vector<cases::Case> cases) {
-        if (is_over()) {
-            return {std::vector<CaseRecord>(cases.size()), false, ""};
-        }
-        run::Session::Results results = session_.draw(std::move(cases), [this](size_t) {
-            on_progress_();
-            return true;
-        });
-        out_.is_interrupted = out_.is_interrupted || results.interrupted;
-        if (out_.failure.empty()) {
-            out_.failure = results.failure;
-        }
-        return results;
-    }
-    bool is_over() const {
-        out_.is_interrupted = out_.is_interrupted || run::SignalFd::has_come();
-        return out_.is_interrupted || !out_.failure.empty();
-    }
-
-    std::optional<Entry> reduce(const Open& open, const Symptom& symptom) {
-        return fuzz::reduce_case(
-            open.text, symptom,
-            [this](std::vector<cases::Case> cases, const auto&) { return draw(std::move(cases)); },
-            kMostRounds, [this] { return is_over(); });
-    }
-
-  private:
-    run::Session& session_;
-    KnownCauses& out_;
-    const std::function<void()>& on_progress_;
-};
-
-// The cases that fail as their lines say. What a line does not speak of is not known.
-std::vector<Open> failing_cases(const ExpectedFailures& expected, Reducer& reducer) {
-    std::vector<cases::Case> cases;
-    for (const ExpectedFailures::Failing& one : expected.cases) {
-        cases.push_back(one.data);
-    }
-    const std::vector<CaseRecord> records = reducer.draw(cases).records;
-    std::vector<Open> all;
-    for (size_t k = 0; k < records.size() && !reducer.is_over(); ++k) {
-        CaseRecord record = records[k];
-        apply(expected.cases[k].line, record);
-        cases::Case c = expected.cases[k].data;
-        c.claim.expected_hits.reset();
-        const cases::Expected<std::string> text = cases::to_toml(c);
-        std::vector<Symptom> symptoms = fuzz::symptoms_of(records[k]);
-        if (record.status == Status::xfail && text && !symptoms.empty()) {
-            all.push_back({*text, record.known.bug, fuzz::facts_of(*text), std::move(symptoms)});
-        }
-    }
-    // The shortest first: nearest to what it will be.
-    std::ranges::stable_sort(
-        all, [](const Open& a, const Open& b) { return a.text.size() < b.text.size(); });
-    return all;
 }
 
 }  // namespace
@@ -168,40 +95,83 @@ ExpectedFailures expected_failures(const Program& program, const RunOptions& opt
     return out;
 }
 
-KnownCauses reduce_known(const ExpectedFailures& expected, const std::vector<Entry>& known,
-                         run::Session& session, const std::function<void()>& on_progress,
-                         const KeepEntry& keep) {
-    KnownCauses out;
-    Reducer reducer(session, out, on_progress);
-    const std::vector<Open> all = failing_cases(expected, reducer);
-    out.failing = all.size();
-    std::vector<Entry> entries = known;
-    size_t reduced = 0;
-    for (const Open& open : all) {
-        for (const Symptom& symptom : open.symptoms) {
-            if (reducer.is_over()) {
-                return out;
-            }
-            if (is_explained(entries, symptom, open)) {
-                continue;
-            }
-            if (reduced >= kMostCauses) {
-                ++out.left;
-                continue;
-            }
-            std::optional<Entry> entry = reducer.reduce(open, symptom);
-            if (!entry || reducer.is_over()) {
-                continue;
-            }
+// The cases that fail as their lines say. What a line does not speak of is not known.
+void KnownCauses::draw_all(const run::DrawAndJudge& draw, const std::function<bool()>& is_over) {
+    std::vector<cases::Case> cases;
+    for (const ExpectedFailures::Failing& one : expected_.cases) {
+        cases.push_back(one.data);
+    }
+    const std::vector<CaseRecord> records = draw(cases, {}).records;
+    if (is_over()) {
+        return;
+    }
+    is_drawn_ = true;
+    for (size_t k = 0; k < records.size(); ++k) {
+        CaseRecord record = records[k];
+        apply(expected_.cases[k].line, record);
+        cases::Case c = std::move(expected_.cases[k].data);
+        c.claim.expected_hits.reset();
+        const cases::Expected<std::string> text = cases::to_toml(c);
+        std::vector<Symptom> symptoms = fuzz::symptoms_of(records[k]);
+        if (record.status == Status::xfail && text && !symptoms.empty()) {
+            open_.push_back(
+                {c.id, *text, record.known.bug, fuzz::facts_of(*text), std::move(symptoms)});
+        }
+    }
+    failing_ = open_.size();
+    // The shortest first: nearest to what it will be.
+    std::ranges::stable_sort(
+        open_, [](const Open& a, const Open& b) { return a.text.size() < b.text.size(); });
+}
+
+// Leaves out what entries explain.
+void KnownCauses::explain(const std::vector<Entry>& entries) {
+    for (Open& open : open_) {
+        std::erase_if(open.symptoms, [&](const Symptom& symptom) {
+            return std::ranges::any_of(entries, [&](const Entry& entry) {
+                return fuzz::explains(entry, symptom, open.facts);
+            });
+        });
+    }
+    std::erase_if(open_, [](const Open& open) { return open.symptoms.empty(); });
+}
+
+std::optional<Entry> KnownCauses::next(const std::vector<Entry>& entries,
+                                       const run::DrawAndJudge& draw,
+                                       const std::function<bool()>& is_over, const Tell& tell) {
+    const auto begin = std::chrono::steady_clock::now();
+    std::optional<Entry> entry;
+    if (!is_drawn_) {
+        tell("drawing expected failures");
+        draw_all(draw, is_over);
+    }
+    while (is_drawn_ && !entry && !is_over()) {
+        explain(entries);
+        if (open_.empty()) {
+            break;
+        }
+        Open& open = open_.front();
+        if (causes_ < kMostCauses) {
+            tell("reducing known " + open.id);
+            entry = fuzz::reduce_case(open.text, open.symptoms.front(), draw, kMostRounds, is_over);
+        } else {
+            ++left_;
+        }
+        if (is_over()) {
+            entry.reset();
+            break;
+        }
+        open.symptoms.erase(open.symptoms.begin());
+        if (entry) {
+            ++causes_;
             entry->is_known = true;
             entry->bug = open.bug;
             entry->count = 0;
-            ++reduced;
-            keep(*entry);
-            entries.push_back(std::move(*entry));
         }
     }
-    return out;
+    explain(entries);
+    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return entry;
 }
 
 }  // namespace cli

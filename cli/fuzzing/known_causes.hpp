@@ -7,14 +7,16 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/options/options.hpp"
 #include "cli/options/program.hpp"
 #include "cli/prepare/suite.hpp"
-#include "fuzz/entry.hpp"
+#include "fuzz/hunt.hpp"
 #include "report/record/run.hpp"
 #include "run/expected/expectation_file.hpp"
 #include "run/session.hpp"
@@ -38,18 +40,36 @@ struct ExpectedFailures {
 ExpectedFailures expected_failures(const Program& program, const RunOptions& options,
                                    const capture::DeviceInfo& device);
 
-struct KnownCauses {
-    size_t failing = 0;  // cases that fail as expected
-    size_t left = 0;     // symptoms that were not reduced: too many causes
-    bool is_interrupted = false;
-    std::string failure;
+// What they come of. They are drawn when the first cause is asked for.
+class KnownCauses : public fuzz::KnownFailures {
+  public:
+    explicit KnownCauses(ExpectedFailures expected) : expected_(std::move(expected)) {}
+    std::optional<fuzz::Entry> next(const std::vector<fuzz::Entry>& entries,
+                                    const run::DrawAndJudge& draw,
+                                    const std::function<bool()>& is_over,
+                                    const Tell& tell) override;
+    bool is_empty() const override { return is_drawn_ && open_.empty(); }
+    const ExpectedFailures& expected() const { return expected_; }
+    size_t failing() const { return failing_; }  // cases that fail as expected
+    size_t causes() const { return causes_; }
+    size_t left() const { return left_; }  // symptoms that were not reduced: too many causes
+    double seconds() const { return seconds_; }
+
+  private:
+    // A case that fails as an expectation file says, and what no entry explains of it.
+    struct Open {
+        std::string id, text, bug;
+        fuzz::Facts facts;
+        std::vector<fuzz::Symptom> symptoms;
+    };
+    void draw_all(const run::DrawAndJudge& draw, const std::function<bool()>& is_over);
+    void explain(const std::vector<fuzz::Entry>& entries);
+
+    ExpectedFailures expected_;
+    std::vector<Open> open_;
+    bool is_drawn_ = false;
+    size_t failing_ = 0, causes_ = 0, left_ = 0;
+    double seconds_ = 0;
 };
-// Keeps a known cause, which has no file yet.
-using KeepEntry = std::function<void(const fuzz::Entry&)>;
-// Draws the cases, and reduces of what they show what neither `known` nor an earlier one explains;
-// each cause is kept at once.
-KnownCauses reduce_known(const ExpectedFailures& expected, const std::vector<fuzz::Entry>& known,
-                         run::Session& session, const std::function<void()>& on_progress,
-                         const KeepEntry& keep);
 
 }  // namespace cli

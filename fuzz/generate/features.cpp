@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 #include "cases/key/key.hpp"
+#include "cases/model/way.hpp"
 #include "fuzz/generate/pose.hpp"
 
 namespace fuzz {
@@ -21,6 +22,14 @@ std::vector<std::string_view> words(const cases::KeyTable& keys, std::string_vie
     return all;
 }
 
+std::vector<std::string_view> words_of_ways() {
+    std::vector<std::string_view> all = {"none"};
+    for (const cases::WayRow& way : cases::all_ways()) {
+        all.push_back(way.word);
+    }
+    return all;
+}
+
 }  // namespace
 
 const std::vector<Feature>& features() {
@@ -30,7 +39,7 @@ const std::vector<Feature>& features() {
         {"size", {"16", "odd", "wide", "high", "64", "tiny", "large"}},
         {"layers", {"1", "2", "3"}},
         {"depth", {"d32-float", "d16-unorm", "d24-unorm"}},
-        // Depth or a stencil alone is drawn by ways (cases/model/way.hpp).
+        // Depth or a stencil alone is drawn by ways, in bare poses.
         {"attachments", {"all", "color", "color+depth"}},
         {"color", words(cases::kTargetColorKeys, "format", "none")},
         {"blend",
@@ -95,11 +104,16 @@ const std::vector<Feature>& features() {
           "more-attributes", "scissor-tiles"}},
         {"w", {"one", "equal", "unequal", "steep", "behind"}},
         {"z", {"half", "plane", "beyond"}},
-        // Drawn apart (kFeaturesApart of pose.cpp): they stay last.
+        // Drawn apart, or bare (kFeaturesApart of pose.cpp): they stay last.
         {"conservative", {"none", "overestimate", "underestimate", "extra"}},
         {"fragment_size", {"1x1", "2x1", "2x2", "1x2", "4x2", "2x4", "4x4"}},
         {"fragment-input", {"none", "sample-mask-in", "shading-rate"}},
         {"alpha_to_coverage", {"false", "true"}},
+        // Of bare poses alone (bare.hpp).
+        {"way", words_of_ways()},
+        {"bare-format", {"rgba8-unorm", "bgra8-unorm", "rgba8-srgb"}},
+        {"viewport-place", {"target", "beside", "around", "far"}},
+        {"scissor-place", {"target", "beside", "far"}},
     };
     return kAll;
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cases/load/loader.hpp"
+#include "fuzz/generate/bare.hpp"
 #include "fuzz/generate/beside.hpp"
 #include "fuzz/generate/blit.hpp"
 #include "fuzz/generate/color.hpp"
@@ -28,9 +29,9 @@ namespace {
 // Each cast of the dice is a statement or an item of a braced list: C++ leaves the order in which
 // the arguments of a call are evaluated to the compiler.
 
-// Streams of the dice (dice.hpp): poses take 1.
+// Streams of the dice (dice.hpp): poses take 1, 11 and 13.
 constexpr uint64_t kStateStream = 2, kGeometryStream = 3, kTurnStream = 7, kDoorStream = 8,
-                   kBesideStream = 9, kControlStream = 10;
+                   kBesideStream = 9, kControlStream = 10, kWayStream = 12;
 // State with many words, as the factors of blending, has several turns in a pose, one for so many
 // geometries.
 constexpr uint64_t kGeometriesOfTurn = 16;
@@ -90,6 +91,10 @@ class CaseWriter {
             line("relations = [\"{}\"]", pose_.value("relation"));
         }
         write_target();
+        // What lies beside the target shows nothing, but a case has to show something.
+        if (pose_.is("viewport-place", "beside") || pose_.is("scissor-place", "beside")) {
+            line("\n[[draw]]\nvertices = [[0, 0], [{}, 0], [0, {}]]", width_, height_);
+        }
         const bool is_complement = !pose_.is_default("complement");
         for (size_t k = 0; k < draws_; ++k) {
             if (is_complement && k + 2 == draws_) {
@@ -280,6 +285,10 @@ class CaseWriter {
             line("viewport = {{ depth = [{}, {}] }}", near, far);
             depths_ = {near, far};
         }
+        if (!pose_.is_default("viewport-place")) {
+            frame_ = placed(pose_.value("viewport-place"), width_, height_, dice_);
+            line("viewport = [{}, {}, {}, {}]", frame_.x, frame_.y, frame_.width, frame_.height);
+        }
     }
 
     void write_scissor() {
@@ -296,6 +305,16 @@ class CaseWriter {
         } else if (scissor == "thin") {
             const int width = dice_.one_in(2) ? 1 : 2;
             line("scissor = [{}, 0, {}, {}]", dice_.between(0, w - 1), width, h);
+        }
+        const std::string_view place = pose_.value("scissor-place");
+        if (place == "beside") {
+            const bool is_right = dice_.one_in(2);
+            line("scissor = [{}, {}, {}, {}]", is_right ? w + dice_.between(0, 1) : 0,
+                 is_right ? 0 : h + dice_.between(0, 1), 1 + dice_.below(2 * width_), h);
+        } else if (place == "far") {
+            const int64_t reach = int64_t{1} << dice_.between(7, 30);
+            const int64_t y = dice_.between(0, h / 2), x = dice_.between(0, w / 2);
+            line("scissor = [{}, {}, {}, {}]", x, y, reach, dice_.one_in(2) ? reach : h);
         }
     }
 
@@ -315,8 +334,11 @@ class CaseWriter {
                                       : pose_.is("topology", "triangle-strip") ? Connection::strip
                                                                                : Connection::fan;
         const bool with_restart = pose_.is("indices", "restart");
-        const Shape shape = make_shape(dice_, connection, !pose_.is_default("indices"),
-                                       with_restart, width_, height_);
+        const bool with_indices = !pose_.is_default("indices");
+        const Shape shape =
+            pose_.is_default("way")
+                ? make_shape(dice_, connection, with_indices, with_restart, width_, height_)
+                : make_bare_shape(dice_, connection, with_indices, width_, height_, frame_);
         const bool in_clip = pose_.is("space", "clip") || pose_.is("w", "behind");
         if (in_clip) {
             line("space = \"clip\"");
@@ -379,6 +401,7 @@ class CaseWriter {
     size_t draws_ = 1;
     uint32_t width_ = 16, height_ = 16, samples_ = 1, layers_ = 1, stencil_clear_ = 0;
     std::array<double, 2> depths_ = {0, 1};  // of the viewport of the draw that is written
+    Frame frame_{0, 0, width_, height_};     // its viewport, if that is placed
     StoredDepths stored_{pose_, static_cast<double>(cases::kDepthClear)};
     bool has_bounds_ = false;
 };
@@ -386,11 +409,18 @@ class CaseWriter {
 }  // namespace
 
 std::string case_text(uint64_t seed, const Pose& pose, uint64_t pose_number, uint64_t number) {
+    // Each kind of poses has a sequence of its own.
+    number = number_of_kind(pose_number) * kGeometries + number % kGeometries;
+    pose_number = number / kGeometries;
     const uint64_t turn = number / kGeometriesOfTurn;
     std::string text =
         CaseWriter(pose, Dice(seed, kStateStream, pose_number), Dice(seed, kTurnStream, turn),
                    Dice(seed, kGeometryStream, number), Dice(seed, kControlStream, number))
             .write();
+    if (!pose.is_default("way")) {
+        Dice dice(seed, kWayStream, number);
+        return by_way_of(pose, text, dice);
+    }
     Dice beside(seed, kBesideStream, turn);
     // These are of one target alone.
     const bool is_alone = !pose.is_default("second") || !pose.is_default("alpha_to_one") ||

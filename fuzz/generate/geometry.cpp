@@ -23,6 +23,36 @@ class Maker {
     Maker(Dice& dice, uint32_t width, uint32_t height)
         : dice_(dice), width_(width), height_(height), grid_(dice.of(kGrids)) {}
 
+    // The next triangles of a bare list. `corners`: of a rectangle that may be filled.
+    void add_plain_to(std::vector<Triangle>& all, const std::array<Position, 4>& corners) {
+        const auto [a, b, c, d] = corners;
+        switch (dice_.below(8)) {
+            case 0:  // one triangle over all of it
+                all.push_back({a, {2 * b.x - a.x, b.y}, {d.x, 2 * d.y - a.y}});
+                break;
+            case 1:
+                all.push_back({a, b, c});
+                all.push_back({a, c, d});
+                break;
+            case 2:
+            case 3:
+            case 4:
+                add_rectangle(all);
+                break;
+            case 5: {  // next to no height, or none
+                const Position p = anywhere(), q = anywhere();
+                const double finer = dice_.one_in(2) ? unit() : 1 / kFinest;
+                const double x = steps(1) * finer, y = steps(1) * finer;
+                const double at = static_cast<double>(dice_.between(-2, 10)) / 8;
+                all.push_back({p, q, {p.x + (q.x - p.x) * at + x, p.y + (q.y - p.y) * at + y}});
+                break;
+            }
+            default:
+                add_to(all);
+                break;
+        }
+    }
+
     // Anywhere on and a quarter beside the target.
     Position anywhere() { return {along(width_), along(height_)}; }
 
@@ -154,6 +184,18 @@ size_t count_of(Dice& dice) {  // of triangles
                                                : dice.below(96));
 }
 
+void add_indices(Shape& shape, Connection connection, bool with_restart, Dice& dice) {
+    const size_t n = shape.vertices.size();
+    for (size_t k = 0; k < n; ++k) {
+        // Mostly each vertex in turn, now and then another one: shared and repeated vertices.
+        shape.indices.push_back(static_cast<int64_t>(dice.one_in(5) ? dice.below(n) : k));
+        if (with_restart && connection != Connection::list && k >= 2 && k + 3 < n &&
+            dice.one_in(4)) {
+            shape.indices.push_back(-1);
+        }
+    }
+}
+
 }  // namespace
 
 Shape make_shape(Dice& dice, Connection connection, bool with_indices, bool with_restart,
@@ -173,17 +215,81 @@ Shape make_shape(Dice& dice, Connection connection, bool with_indices, bool with
         shape.vertices =
             connection == Connection::strip ? maker.zigzag(count + 2) : maker.ring(count + 1);
     }
-    if (!with_indices) {
-        return shape;
+    if (with_indices) {
+        add_indices(shape, connection, with_restart, dice);
     }
-    const size_t n = shape.vertices.size();
-    for (size_t k = 0; k < n; ++k) {
-        // Mostly each vertex in turn, now and then another one: shared and repeated vertices.
-        shape.indices.push_back(static_cast<int64_t>(dice.one_in(5) ? dice.below(n) : k));
-        if (with_restart && connection != Connection::list && k >= 2 && k + 3 < n &&
-            dice.one_in(4)) {
-            shape.indices.push_back(-1);
+    return shape;
+}
+
+Frame placed(std::string_view place, int64_t width, int64_t height, Dice& dice) {
+    // Along one side: where it begins, and how long it is.
+    struct Along {
+        int64_t begin, length;
+    };
+    const auto around = [&](int64_t side) {
+        const int64_t begin = -dice.between(0, side);
+        return Along{begin, side - begin + dice.between(0, side)};
+    };
+    const auto beside = [&](int64_t side) {
+        const int64_t length = dice.one_in(2) ? side : dice.between(1, 2 * side);
+        const int64_t over = dice.one_in(2) ? 0 : dice.between(-2, 2);
+        return Along{dice.one_in(2) ? over - length : side + over, length};
+    };
+    // Longer ones and places beyond 2^15 are no viewports (cases/load/load_draw.cpp).
+    const auto far = [&](int64_t side) {
+        const int64_t length = int64_t{1} << dice.between(8, 14);
+        const int64_t kind = dice.between(0, 3);
+        return Along{kind == 0   ? -length
+                     : kind == 1 ? side
+                     : kind == 2 ? -length / 2
+                                 : dice.between(-length, side),
+                     length};
+    };
+    const bool is_along_x = dice.one_in(2), is_both = dice.one_in(4);
+    const auto along = [&](int64_t side, bool is_placed) {
+        return !is_placed && !is_both && place != "around" ? Along{0, side}
+               : place == "beside"                         ? beside(side)
+               : place == "far"                            ? far(side)
+                                                           : around(side);
+    };
+    const Along x = along(width, is_along_x), y = along(height, !is_along_x);
+    const bool is_flipped = dice.one_in(4);
+    return {x.begin, is_flipped ? y.begin + y.length : y.begin, x.length,
+            is_flipped ? -y.length : y.length};
+}
+
+Shape make_bare_shape(Dice& dice, Connection connection, bool with_indices, uint32_t width,
+                      uint32_t height, const Frame& frame) {
+    const bool is_framed = dice.one_in(2);
+    const Frame target{0, 0, width, height};
+    const Frame& all = is_framed ? frame : target;
+    const auto corner = [&](int k) {
+        return Position{static_cast<double>(all.x + (k % 3 == 0 ? 0 : all.width)),
+                        static_cast<double>(all.y + (k < 2 ? 0 : all.height))};
+    };
+    Shape shape;
+    if (connection != Connection::list && dice.one_in(3)) {
+        // The whole of it, as a strip or a fan.
+        shape.vertices = {corner(0), corner(1), corner(3), corner(2)};
+        if (connection == Connection::fan) {
+            std::swap(shape.vertices[2], shape.vertices[3]);
         }
+    } else if (connection != Connection::list) {
+        Maker maker(dice, width, height);
+        const size_t count = 3 + dice.below(3);
+        shape.vertices = connection == Connection::strip ? maker.zigzag(count) : maker.ring(count);
+    } else {
+        std::vector<Triangle> triangles;
+        Maker maker(dice, width, height);
+        for (uint64_t count = 1 + (dice.one_in(2) ? 0 : dice.below(3)); triangles.size() < count;) {
+            maker.add_plain_to(triangles, {corner(0), corner(1), corner(2), corner(3)});
+        }
+        for (const Triangle& t : triangles) {
+            shape.vertices.insert(shape.vertices.end(), t.begin(), t.end());
+        }
+    }
+    if (with_indices) {
+        add_indices(shape, connection, false, dice);
     }
     return shape;
 }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "fuzz/generate/dice.hpp"
@@ -28,5 +29,18 @@ enum class Connection : uint8_t { list, strip, fan };
 // `with_restart` (strips and fans) begins anew now and then.
 Shape make_shape(Dice& dice, Connection connection, bool with_indices, bool with_restart,
                  uint32_t width, uint32_t height);
+
+// A rectangle that a viewport is.
+struct Frame {
+    int64_t x = 0, y = 0, width = 1, height = 1;  // pixels; a negative height flips
+};
+// A viewport beside a target of `width` x `height` pixels or across its border, "around" it, or
+// "far" around it. The target's corner, a border and viewports' limits are met now and then.
+Frame placed(std::string_view place, int64_t width, int64_t height, Dice& dice);
+
+// Few triangles, as applications have them: rectangles, full-screen triangles, and what is nearly
+// degenerate. Some of them fill the frame or lie at its borders.
+Shape make_bare_shape(Dice& dice, Connection connection, bool with_indices, uint32_t width,
+                      uint32_t height, const Frame& frame);
 
 }  // namespace fuzz

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <initializer_list>
 
+#include "fuzz/generate/bare.hpp"
 #include "fuzz/generate/dice.hpp"
 
 namespace fuzz {
@@ -106,7 +107,7 @@ struct Often {
     std::string_view feature, value;
     uint64_t times;
 };
-constexpr std::array<Often, 10> kOften = {{
+constexpr std::array<Often, 13> kOften = {{
     {"blend", "factors", 2},
     {"probe", "query-lod", 5},
     {"probe", "at-offset", 6},
@@ -117,6 +118,9 @@ constexpr std::array<Often, 10> kOften = {{
     {"interpolation", "noperspective", 4},
     {"color", "rgba8-srgb", 8},
     {"samples", "4", 2},  // 2 and 8 are rarely supported
+    {"way", "bare-beside", 8},
+    {"way", "bare-depth", 12},
+    {"way", "prepass", 12},
 }};
 
 // One pose in so many is a blit: it has next to no features, and would never be taken for its
@@ -124,9 +128,9 @@ constexpr std::array<Often, 10> kOften = {{
 constexpr uint64_t kPosesOfBlit = 48, kFirstOfBlit = 8;
 // One pose in so many has, besides what it is, what few devices have or what leaves much open, and
 // would otherwise be in every pose that had it for its pairs: conservative draws, fragments of
-// several pixels, alpha to coverage. The features of it stand last.
+// several pixels, alpha to coverage. The features of it, and of bare poses, stand last.
 constexpr uint64_t kPosesApart = 8, kFirstOfArea = 5, kFirstOfFragments = 2, kFirstOfAlpha = 7;
-constexpr size_t kFeaturesApart = 4;
+constexpr size_t kFeaturesApart = 8;
 
 }  // namespace
 
@@ -160,8 +164,12 @@ std::string Pose::text() const {
     return text.empty() ? "plain" : text;
 }
 
-size_t value_of(size_t feature, size_t first, Dice& dice) {
-    const Feature& row = features()[feature];
+void Pose::set(std::string_view feature, size_t value) {
+    values_[index_of(feature)] = value;
+}
+
+size_t value_of(std::string_view feature, size_t first, Dice& dice) {
+    const Feature& row = features()[index_of(feature)];
     for (const Often& often : kOften) {
         if (often.feature == row.name && dice.one_in(often.times)) {
             const auto at = std::ranges::find(row.values, often.value);
@@ -188,27 +196,31 @@ std::vector<size_t> sizes_of_fragments(const Pose& pose, size_t most) {
 
 Pose Poses::draw(size_t candidate) const {
     constexpr uint64_t kStream = 1;
-    if (count_ % kPosesOfBlit == kFirstOfBlit) {
-        return blit(count_ / kPosesOfBlit + seed_);
+    if (is_bare(count_)) {
+        return bare_pose(seed_, number(), candidate);
     }
-    Dice dice(seed_, kStream, count_ * 4096 + candidate);
+    if (number() % kPosesOfBlit == kFirstOfBlit) {
+        return blit(number() / kPosesOfBlit + seed_);
+    }
+    Dice dice(seed_, kStream, number() * 4096 + candidate);
     Pose pose;
-    const auto set = [&pose](std::string_view feature, size_t value) {
-        pose.set(index_of(feature), value);
-    };
+    const auto set = [&pose](std::string_view feature, size_t value) { pose.set(feature, value); };
     // Any value but the default, which is the first.
-    const auto switch_on = [&](size_t feature) { pose.set(feature, value_of(feature, 1, dice)); };
+    const auto switch_on = [&](std::string_view feature) {
+        pose.set(feature, value_of(feature, 1, dice));
+    };
     // Few features at a time: what many switch off between them is never seen otherwise.
     const uint64_t count = 1 + dice.below(6);
     for (uint64_t k = 0; k < count; ++k) {
-        const size_t feature = dice.below(features().size() - kFeaturesApart);
+        const size_t place = dice.below(features().size() - kFeaturesApart);
+        const std::string_view feature = features()[place].name;
         pose.set(feature, value_of(feature, 0, dice));
     }
     set("blit", 0);
     for (const Company& company : kCompany) {
         const std::string_view other = dice.of(company.others);
         if (!pose.is_default(company.feature) && pose.is_default(other) && !dice.one_in(3)) {
-            switch_on(index_of(other));
+            switch_on(other);
         }
     }
     // Hits are counted by blending, which a logical operation switches off, and queries are judged
@@ -242,7 +254,7 @@ Pose Poses::draw(size_t candidate) const {
     }
     // The mask of one sample has one bit.
     if (pose.is("source", "sample-mask-in") && pose.is_default("samples") && !dice.one_in(4)) {
-        switch_on(index_of("samples"));
+        switch_on("samples");
     }
     if (pose.is("depth-layout", "unchanged")) {
         set("frag_depth", 5);  // gl_FragCoord.z, which alone is the fragment's own depth
@@ -268,14 +280,13 @@ Pose Poses::draw(size_t candidate) const {
 }
 
 std::optional<Pose> Poses::apart(const Pose& pose) const {
-    if (!pose.is_default("blit")) {
+    if (!pose.is_default("blit") || is_bare(count_)) {
         return std::nullopt;
     }
     Pose out = pose;
-    const uint64_t number = count_ / kPosesApart + seed_;
-    const auto set = [&](std::string_view feature, size_t value) {
-        out.set(index_of(feature), value);
-    };
+    const uint64_t place = this->number() % kPosesApart;
+    const uint64_t number = this->number() / kPosesApart + seed_;
+    const auto set = [&](std::string_view feature, size_t value) { out.set(feature, value); };
     const auto switch_on = [&](std::string_view feature, size_t value) {
         if (pose.is_default(feature)) {
             set(feature, value);
@@ -285,10 +296,10 @@ std::optional<Pose> Poses::apart(const Pose& pose) const {
     const auto leave_out = [&](std::initializer_list<std::string_view> others) {
         std::ranges::for_each(others, [&](std::string_view other) { set(other, 0); });
     };
-    if (count_ % kPosesApart == kFirstOfArea) {
+    if (place == kFirstOfArea) {
         leave_out({"clip-distances", "cull-distances", "complement"});
         set("conservative", 1 + number % 3);
-    } else if (count_ % kPosesApart == kFirstOfFragments) {
+    } else if (place == kFirstOfFragments) {
         leave_out({"clip-distances", "cull-distances", "complement", "discard", "discard_by",
                    "early_tests", "frag_depth", "depth-layout", "sample-shading", "shader_mask"});
         // Blocks begin at the target's first pixel, not at those of these.
@@ -300,7 +311,7 @@ std::optional<Pose> Poses::apart(const Pose& pose) const {
         const bool has_mask = out.is("fragment-input", "sample-mask-in");
         const std::vector<size_t> sizes = sizes_of_fragments(pose, has_mask ? 16 : 32);
         set("fragment_size", sizes[number / 6 % sizes.size()]);
-    } else if (count_ % kPosesApart == kFirstOfAlpha && number % 2 == 0) {
+    } else if (place == kFirstOfAlpha && number % 2 == 0) {
         leave_out({"query", "early_tests"});
         set("alpha_to_coverage", 1);
         set("attachments", 2);  // with a depth
@@ -314,9 +325,8 @@ std::optional<Pose> Poses::apart(const Pose& pose) const {
 
 Pose Poses::blit(uint64_t number) {
     Pose pose;
-    pose.set(index_of("blit"), 1 + number % 2);
-    const size_t size = index_of("size");
-    pose.set(size, number / 2 % features()[size].values.size());
+    pose.set("blit", 1 + number % 2);
+    pose.set("size", number / 2 % features()[index_of("size")].values.size());
     return pose;
 }
 
@@ -325,8 +335,9 @@ size_t Poses::fresh_pairs(const Pose& pose) const {
     const auto active = pose.active();
     for (size_t a = 0; a < active.size(); ++a) {
         for (size_t b = a; b < active.size(); ++b) {  // a feature with itself: it alone
-            fresh += seen_.contains({active[a].first * 64 + active[a].second,
-                                     active[b].first * 64 + active[b].second})
+            fresh += seen_.at(is_bare(count_) ? 1 : 0)
+                             .contains({active[a].first * 64 + active[a].second,
+                                        active[b].first * 64 + active[b].second})
                          ? 0U
                          : 1U;
         }
@@ -338,8 +349,9 @@ void Poses::take(const Pose& pose) {
     const auto active = pose.active();
     for (size_t a = 0; a < active.size(); ++a) {
         for (size_t b = a; b < active.size(); ++b) {
-            seen_.insert(
-                {active[a].first * 64 + active[a].second, active[b].first * 64 + active[b].second});
+            seen_.at(is_bare(count_) ? 1 : 0)
+                .insert({active[a].first * 64 + active[a].second,
+                         active[b].first * 64 + active[b].second});
         }
     }
     ++count_;

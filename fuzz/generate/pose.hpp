@@ -5,6 +5,7 @@
 // driver a pipeline or an attachment. Many geometries are drawn with each.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <set>
@@ -12,6 +13,8 @@
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "fuzz/generate/dice.hpp"
 
 namespace fuzz {
 
@@ -33,6 +36,7 @@ class Pose {
     }
     bool is_default(std::string_view feature) const;
     void set(size_t feature, size_t value) { values_[feature] = value; }
+    void set(std::string_view feature, size_t value);
     // (feature, value) of all that are no defaults.
     std::vector<std::pair<size_t, size_t>> active() const;
     std::string text() const;  // "samples=4 topology=triangle-fan"
@@ -41,10 +45,21 @@ class Pose {
     std::vector<size_t> values_;  // by index of features()
 };
 
+// Any value of a feature from the `first` one on, some more often than others.
+size_t value_of(std::string_view feature, size_t first, Dice& dice);
+
+// Of three poses the last one is bare (bare.hpp). Those of each kind have numbers of their own.
+constexpr bool is_bare(uint64_t pose_number) {
+    return pose_number % 3 == 2;
+}
+constexpr uint64_t number_of_kind(uint64_t pose_number) {
+    return is_bare(pose_number) ? pose_number / 3 : 2 * (pose_number / 3) + pose_number % 3;
+}
+
 // The poses of a seed, one after the other: a few random features are switched on in each [Groce
 // et al., "Swarm Testing", ISSTA 2012], and of some such candidates the one is taken with the most
-// pairs of features that no earlier pose had. `is_valid` says which candidates are cases at all;
-// it must depend on the pose alone, so that a seed means the same on every machine.
+// pairs of features that no earlier pose of its kind had. `is_valid` says which candidates are
+// cases at all; it must depend on the pose alone, so that a seed means the same on every machine.
 class Poses {
   public:
     explicit Poses(uint64_t seed) : seed_(seed) {}
@@ -67,12 +82,13 @@ class Poses {
         return other && is_valid(*other) ? *other : best;
     }
     size_t count() const { return count_; }
-    size_t pairs() const { return seen_.size(); }
+    size_t pairs() const { return seen_[0].size() + seen_[1].size(); }
 
   private:
     static constexpr size_t kCandidates = 12;
     Pose draw(size_t candidate) const;
     static Pose blit(uint64_t number);
+    uint64_t number() const { return number_of_kind(count_); }
     // Of some poses the same with what is drawn apart. It need not be a case.
     std::optional<Pose> apart(const Pose& pose) const;
     size_t fresh_pairs(const Pose& pose) const;
@@ -80,7 +96,7 @@ class Poses {
 
     uint64_t seed_ = 0;
     size_t count_ = 0;
-    std::set<std::pair<uint64_t, uint64_t>> seen_;
+    std::array<std::set<std::pair<uint64_t, uint64_t>>, 2> seen_;  // of bare poses the second
 };
 
 }  // namespace fuzz

@@ -191,15 +191,20 @@ class Reducer {
     // Goes through the steps of some stages until some show the finding, and takes as
     // many of these as do so together. The stage where to go on, or nothing if no step showed it.
     std::optional<Stage> take_some(std::span<const Stage> stages) {
+        // Each question about many triangles is dear: half of them are gone before the rest is
+        // asked about.
+        constexpr size_t kTrianglesAt = 1, kManyTriangles = 4, kFewQuestions = 8;
+        const bool is_dear = measure(out_.document)[kTrianglesAt] > kManyTriangles;
+        const size_t most = is_dear ? std::min(kFewQuestions, options_.batch) : options_.batch;
         std::deque<std::vector<Step>> kept;  // candidates point to them
         std::vector<Stepped> batch;
         for (const Stage stage : stages) {
             const std::span<const Step> steps = kept.emplace_back(steps_of(out_.document, stage));
-            for (size_t at = 0; at < steps.size() && !is_spent(); at += options_.batch) {
-                const size_t count = std::min(options_.batch, steps.size() - at);
+            for (size_t at = 0; at < steps.size() && !is_spent(); at += most) {
+                const size_t count = std::min(most, steps.size() - at);
                 for (Stepped& c : stepped(out_.document, steps.subspan(at, count),
                                           [&](const auto& text) { return !is_refused(text); })) {
-                    if (batch.size() == options_.batch) {
+                    if (batch.size() == most) {
                         if (const std::optional<Stage> found = settle(batch)) {
                             return found;
                         }

@@ -92,7 +92,7 @@ Hunt hunt_on(Device& device, HuntOptions options, const std::vector<Waiting>& wa
         [&device](std::vector<cases::Case> cases, const auto& on_progress) {
             return device.draw(std::move(cases), on_progress);
         },
-        {}, waiting, [](const HuntCounts&, size_t) {});
+        {}, waiting, [](const auto&...) {});
 }
 
 // What a hunt has not judged when it ends, another one judges, and each case is judged once.
@@ -242,6 +242,85 @@ TEST(Hunt, AReductionThatIsCutWaits) {
     ASSERT_THAT(second.waiting(), SizeIs(1));
     EXPECT_EQ(second.waiting()[0].number, 1000U);
     EXPECT_EQ(second.counts().unrepeated, 0U);
+}
+
+// So many known causes; the last one explains what the device does wrong.
+class KnownOnes : public KnownFailures {
+  public:
+    KnownOnes(Device& device, size_t count) : device_(device), count_(count) {}
+    std::optional<Entry> next(const std::vector<Entry>& entries, const run::DrawAndJudge& draw,
+                              const std::function<bool()>&, const Tell& tell) override {
+        EXPECT_THAT(entries, SizeIs(asked));
+        drawn_before = asked == 0 ? device_.drawn.size() : drawn_before;
+        tell("reducing known one");
+        const auto c = load_one(PlainSource().make(0).text, std::to_string(1'000'000 + asked));
+        draw({*c}, {});
+        ++asked;
+        Entry entry;
+        entry.is_known = true;
+        entry.symptom.rule = "cover.inside";
+        if (asked == count_) {
+            entry.also.insert({entry.symptom.kind, entry.symptom.rule});
+        } else {
+            entry.essentials.insert({Trait::unequal_w});  // which no case of the hunt has
+        }
+        return entry;
+    }
+    bool is_empty() const override { return asked == count_; }
+    size_t asked = 0, drawn_before = 0;
+
+  private:
+    Device& device_;
+    size_t count_;
+};
+
+// A hunt's own cases come first, and known causes when one fails that no entry explains.
+TEST(Hunt, KnownCausesAreAskedForWhenACaseFails) {
+    for (const bool fails : {false, true}) {
+        Device device;
+        KnownOnes known(device, 9);
+        HuntOptions options;
+        options.known_failures = &known;
+        options.most_cases = 3 * kChunk;
+        if (fails) {
+            device.failing = {5, kChunk + 5};
+        }
+        Hunt hunt = hunt_on(device, options);
+        ASSERT_EQ(hunt.step(), Hunt::State::goes_on);
+        EXPECT_EQ(known.drawn_before, fails ? kChunk : 0);
+        // Some after each chunk: the hunt goes on drawing, and tells nothing that may be known.
+        EXPECT_EQ(known.asked > 0 && known.asked < 9, fails);
+        EXPECT_THAT(hunt.waiting(), SizeIs(fails ? 1 : 0));
+        while (hunt.step() == Hunt::State::goes_on) {
+        }
+        EXPECT_EQ(known.asked, fails ? 9U : 0U);
+        EXPECT_EQ(device.drawn.count(2 * kChunk), 1U);
+        EXPECT_THAT(hunt.waiting(), IsEmpty());
+        EXPECT_THAT(hunt.entries(), SizeIs(known.asked));
+        for (const Entry& entry : hunt.entries()) {
+            EXPECT_TRUE(entry.is_known);
+        }
+        if (fails) {
+            EXPECT_EQ(hunt.entries().back().count, 2U);
+        }
+    }
+}
+
+// A hunt whose time is over has asked for no known cause in vain, and its failing case waits.
+TEST(Hunt, NothingIsNewBeforeAllKnownCausesAreMet) {
+    Device device;
+    device.failing = {5};
+    KnownOnes known(device, SIZE_MAX);
+    HuntOptions options;
+    options.known_failures = &known;
+    options.deadline = Clock::time_point(std::chrono::seconds(kChunk + 20));
+    Hunt hunt = hunt_on(device, options);
+    while (hunt.step() == Hunt::State::goes_on) {
+    }
+    EXPECT_GT(known.asked, 3U);
+    ASSERT_THAT(hunt.waiting(), SizeIs(1));
+    EXPECT_EQ(hunt.waiting()[0].number, 5U);
+    EXPECT_THAT(hunt.entries(), testing::Each(testing::Field(&Entry::is_known, true)));
 }
 
 }  // namespace
