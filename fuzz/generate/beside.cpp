@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 #include <vector>
@@ -26,15 +27,17 @@ std::string key_of(std::string_view text, std::string_view begin, char close) {
                                         : std::string(text.substr(from, to + 1 - from));
 }
 
-std::string number_of(bool is_integer, Dice& dice) {
-    return is_integer ? fmt::format("{}", dice.below(256))
-                      : fmt::format("{}", dice.fraction(-8, 32, 16));
+std::string number_of(cases::ColorFormat format, uint32_t k, Dice& dice) {
+    const auto most = static_cast<int64_t>(cases::whole_range(format, k).most);
+    return cases::is_integer(format)
+               ? fmt::format("{}", dice.between(0, std::min<int64_t>(most, 255)))
+               : fmt::format("{}", dice.fraction(-8, 32, 16));
 }
 
-std::string value_of(bool is_integer, Dice& dice) {
+std::string value_of(cases::ColorFormat format, Dice& dice) {
     std::vector<std::string> numbers;
-    for (int k = 0; k < 4; ++k) {
-        numbers.push_back(number_of(is_integer, dice));
+    for (uint32_t k = 0; k < 4; ++k) {
+        numbers.push_back(number_of(format, k, dice));
     }
     return fmt::format("[{}]", fmt::join(numbers, ", "));
 }
@@ -45,7 +48,7 @@ std::string output_of(std::string_view own, cases::ColorFormat format, Dice& dic
     const std::string attribute = key_of(own, "attribute = \"", '"');
     std::string out = !is_integer && !attribute.empty() && dice.one_in(2)
                           ? attribute
-                          : "value = " + value_of(is_integer, dice);
+                          : "value = " + value_of(format, dice);
     if (!is_integer && dice.one_in(2)) {
         out += fmt::format(", blend = \"{}\"",
                            cases::kBlendWords[1 + dice.below(cases::kBlendWords.size() - 1)]);
@@ -81,7 +84,7 @@ std::string beside_others(std::string text, Dice dice) {
     std::vector<std::string> targets;
     for (const cases::ColorFormat format : formats) {
         targets.push_back(fmt::format("{{ format = \"{}\", clear = {} }}", cases::name_of(format),
-                                      value_of(cases::is_integer(format), dice)));
+                                      value_of(format, dice)));
     }
     // The keys of the table, a line each.
     std::string own = text.substr(target + kTarget.size(), end - target - kTarget.size());

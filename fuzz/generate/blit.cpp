@@ -19,7 +19,8 @@ namespace {
 std::string_view format_of(bool is_integer, Dice& dice) {
     std::vector<std::string_view> words;
     for (const cases::ColorFormatRow& row : cases::kColorFormats) {
-        if ((row.kind == cases::ComponentKind::uint) == is_integer) {
+        if (cases::can_be_blitted(row.format) && cases::bytes_of(row.format) > 1 &&
+            cases::is_integer(row.kind) == is_integer) {
             words.push_back(row.word);
         }
     }

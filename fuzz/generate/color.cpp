@@ -44,12 +44,16 @@ std::string component(const Pose& pose, uint32_t k, Dice& dice) {
     const cases::ColorFormatRow& row = row_of(pose);
     const bool is_code = !pose.is_default("logic");
     const uint32_t bits = row.bits.at(k);
-    if (row.kind == cases::ComponentKind::uint) {
-        // binary32 has all whole numbers up to 2^24 (cases/load/color.cpp).
-        const uint32_t most = std::min(std::max(bits, 8U), 24U);
-        return fmt::format("{}", is_code          ? code_of(most, dice)
-                                 : dice.one_in(4) ? dice.below(uint64_t{1} << most)
-                                                  : dice.below(256));
+    if (is_integer(row.kind)) {
+        const cases::Whole range = cases::whole_range(row.format, k);
+        const auto least = static_cast<int64_t>(range.least),
+                   most = static_cast<int64_t>(range.most);
+        if (is_code) {
+            const uint32_t own = std::min(bits == 0 ? row.bits[0] : bits, 24U);
+            return fmt::format("{}", least + static_cast<int64_t>(code_of(own, dice)));
+        }
+        const int64_t near = dice.one_in(4) ? INT32_MAX : 255;
+        return fmt::format("{}", dice.between(std::max(least, -near), std::min(most, near)));
     }
     if (is_code && row.kind == cases::ComponentKind::unorm && bits > 0) {
         return fmt::format("\"{}/{}\"", code_of(bits, dice), (uint64_t{1} << bits) - 1);
@@ -120,6 +124,10 @@ std::string logic(const Pose& pose, bool is_last, Dice& dice) {
 }
 
 }  // namespace
+
+bool has_integers(const Pose& pose) {
+    return is_integer(row_of(pose).kind);
+}
 
 std::string color_of(const Pose& pose, Dice& dice) {
     std::vector<std::string> numbers;

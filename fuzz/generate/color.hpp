@@ -13,6 +13,9 @@
 
 namespace fuzz {
 
+// Whether the pose's colour is of integers.
+bool has_integers(const Pose& pose);
+
 // Four numbers that the pose's format can hold. Operands of a logical operation are codes of the
 // format: any other number is rounded first, and where it lies half-way all bits are open.
 std::string color_of(const Pose& pose, Dice& dice);

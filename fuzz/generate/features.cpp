@@ -32,7 +32,12 @@ const std::vector<Feature>& features() {
         {"depth", {"d32-float", "d16-unorm", "d24-unorm"}},
         // Depth or a stencil alone is drawn by ways (cases/model/way.hpp).
         {"attachments", {"all", "color", "color+depth"}},
-        {"color", words(cases::kTargetColorKeys, "format", "none")},
+        // Of formats with components alike one: pairs of values are what a hunt counts.
+        {"color",
+         {"none", "rgba8-unorm", "bgra8-unorm", "rgba8-srgb", "rgb10a2-unorm", "r5g6b5-unorm",
+          "rgba16-unorm", "rgba16-float", "rg16-float", "rgba32-float", "r32-float", "r32-uint",
+          "rgba8-uint", "r8-unorm", "a8b8g8r8-unorm", "a1r5g5b5-unorm", "rgba8-snorm", "rgba8-sint",
+          "r11g11b10-float"}},
         {"blend",
          {"none", "additive", "alpha", "premultiplied", "multiply", "reverse-subtract", "min",
           "max", "factors"}},

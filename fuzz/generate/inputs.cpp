@@ -43,7 +43,7 @@ std::string values_of(size_t vertices, size_t components, bool has_sign, Dice& d
 }
 
 std::string color_attribute(const Pose& pose, size_t vertices, Dice& dice) {
-    const bool is_integer = pose.value("color").ends_with("-uint");
+    const bool is_integer = has_integers(pose);
     std::vector<std::string> colors;
     for (size_t v = 0; v < vertices; ++v) {
         colors.push_back(color_of(pose, dice));

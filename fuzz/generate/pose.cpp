@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <initializer_list>
 
+#include "fuzz/generate/color.hpp"
 #include "fuzz/generate/dice.hpp"
 
 namespace fuzz {
@@ -256,7 +257,7 @@ Pose Poses::draw(size_t candidate) const {
         set("attachments", 2);  // with a depth
     }
     // Colours of integers are resolved so, and no others.
-    if (pose.is("resolve", "sample-zero") && !pose.value("color").ends_with("-uint")) {
+    if (pose.is("resolve", "sample-zero") && !has_integers(pose)) {
         constexpr size_t kR32Uint = 11;
         set("color", kR32Uint);
     }
