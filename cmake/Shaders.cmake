@@ -36,18 +36,18 @@ endfunction()
 edgecase_compile_shader(copy_samples.comp copy
     "copy_depth 1.1 DEPTH=1;copy_codes 1.1 DEPTH=2;copy_1 1.1 DEPTH=0 WORDS=1;copy_2 1.1 DEPTH=0 WORDS=2;copy_4 1.1 DEPTH=0 WORDS=4")
 
-# A triangle that clears, one shader for each place that it clears: KIND 0 depth, 1 a colour of numbers, 2 one of integers.
+# A triangle that clears, one shader for each place that it clears: KIND 0 depth, 1 a colour of numbers, 2 one of integers, 3 one
+# of signed ones.
 edgecase_compile_shader(clear.vert clear_vertex "over_target 1.1")
 set(clear_variants "write_depth 1.1 KIND=0 LOCATION=0")
 foreach(location RANGE 15)
     list(APPEND clear_variants "clear_number_${location} 1.1 KIND=1 LOCATION=${location}"
-                               "clear_integer_${location} 1.1 KIND=2 LOCATION=${location}")
-    list(APPEND clear_numbers clear_number_${location})
-    list(APPEND clear_integers clear_integer_${location})
+                               "clear_integer_${location} 1.1 KIND=2 LOCATION=${location}"
+                               "clear_signed_${location} 1.1 KIND=3 LOCATION=${location}")
+    list(APPEND clear_colors clear_number_${location} clear_integer_${location} clear_signed_${location})
 endforeach()
 edgecase_compile_shader(clear.frag clear_fragment "${clear_variants}")
-list(JOIN clear_numbers ", " clear_numbers)
-list(JOIN clear_integers ", " clear_integers)
+list(JOIN clear_colors ", " clear_colors)
 
 edgecase_compile_shader(bare.frag bare
     "bare_constant 1.1 FROM=1;bare_uniform 1.1 FROM=2;bare_offset 1.1 FROM=3;bare_storage 1.1 FROM=4;bare_texture 1.1 FROM=5")
@@ -220,8 +220,7 @@ constexpr std::span<const uint32_t> kControl[] = {${control_names}};
 constexpr std::span<const uint32_t> kEvaluation[] = {${evaluation_names}};
 constexpr std::span<const uint32_t> kFeedback[] = {${feedback_names}};
 constexpr std::span<const uint32_t> kClearVertex = over_target, kClearDepth = write_depth;
-constexpr std::span<const uint32_t> kClearNumbers[] = {${clear_numbers}};
-constexpr std::span<const uint32_t> kClearIntegers[] = {${clear_integers}};
+constexpr std::span<const uint32_t> kClear[] = {${clear_colors}};
 constexpr std::span<const uint32_t> kBare[] = {bare_constant, bare_uniform, bare_offset, bare_storage, bare_texture};
 constexpr std::span<const uint32_t> kCopy[] = {copy_depth, copy_1, copy_2, copy_4};
 constexpr Module<FragmentVariant> kFragment[] = {

@@ -23,14 +23,17 @@ using cases::Profile;
 using cases::Resolve;
 using ref::color::Component;
 
-constexpr double kHalfStep = 0x1p-10;  // of binary16, relative; 2^-24 below 2^-14
-constexpr double kHalfSmallest = 0x1p-24;
 constexpr double kFloatStep = 0x1p-23;
 constexpr double kFloatNormal = 0x1p-126;  // the smallest normal number
 
-// What samples are averaged as: UNORM and integers by their code, floating point by its value.
+// What samples are averaged as: floating point by its value, all else by its code; of SNORM's two
+// codes that are read as -1 by the one that is.
 double number_of(const Component& component, uint32_t code) {
-    return is_floating(component.kind()) ? component.number(code) : code;
+    const double least = component.kind() == ComponentKind::snorm
+                             ? std::round(-1 / component.step().get_d())
+                             : -HUGE_VAL;
+    return is_floating(component.kind()) ? component.number(code)
+                                         : std::max(component.whole_of(code), least);
 }
 
 struct Range {
@@ -44,11 +47,11 @@ struct Range {
 // Floats are added in binary32, in any order: partial sum k of n is at most k * M, M the largest
 // magnitude, and its rounding (even by truncation) errs by k * M * 2^-23 at most. The sum over
 // k = 2..n over n is below M * 2^-23 * (n + 1) / 2; half a step more for the terms of second
-// order. Storing binary16 adds a step of M. The same sum may leave min..max, so it widens that too.
+// order. Storing a half adds a step of M. The same sum may leave min..max, so it widens that too.
 // A denormal number may become 0 wherever one appears: the n samples together, the n - 1 partial
 // sums and the mean move it by less than 2^-126 each (NVIDIA's resolve takes the mean of 0 and
 // 2^-126 for 0).
-Range range_of(const std::vector<double>& samples, ComponentKind kind, Profile profile) {
+Range range_of(const std::vector<double>& samples, const Component& component, Profile profile) {
     const auto [least, greatest] = std::minmax_element(samples.begin(), samples.end());
     const auto n = static_cast<double>(samples.size());
     double sum = 0;
@@ -56,15 +59,15 @@ Range range_of(const std::vector<double>& samples, ComponentKind kind, Profile p
         sum += sample;
     }
     const double mean = sum / n;
-    if (is_floating(kind)) {
+    if (is_floating(component.kind())) {
         const double magnitude = std::max(std::abs(*least), std::abs(*greatest));
         const double storing =
-            kind == ComponentKind::half ? std::max(magnitude * kHalfStep, kHalfSmallest) : 0;
+            component.kind() == ComponentKind::half ? component.least_step(magnitude) : 0;
         const double error = magnitude * kFloatStep * (n + 2) / 2 + storing + 3 * kFloatNormal;
         return profile == Profile::vulkan ? Range{*least - error, *greatest + error}
                                           : Range{mean - error, mean + error};
     }
-    if (profile == Profile::vulkan || kind == ComponentKind::srgb) {
+    if (profile == Profile::vulkan || component.kind() == ComponentKind::srgb) {
         return {*least, *greatest};
     }
     return {std::max(mean - 1, *least), std::min(mean + 1, *greatest)};
@@ -72,9 +75,9 @@ Range range_of(const std::vector<double>& samples, ComponentKind kind, Profile p
 
 // The loosest profile at which `got` is no average; nothing if it is one.
 std::optional<Profile> wrong_average(const std::vector<double>& samples, double got,
-                                     ComponentKind kind, Profile profile) {
+                                     const Component& component, Profile profile) {
     for (const Profile p : {Profile::vulkan, Profile::practice}) {
-        const Range range = range_of(samples, kind, p);
+        const Range range = range_of(samples, component, p);
         if (p <= profile && !(got >= range.min && got <= range.max)) {
             return p;
         }
@@ -103,7 +106,7 @@ std::string to_text(const std::vector<double>& samples) {
 
 // One resolved number against the samples that it comes from.
 std::optional<Finding> judge_number(const std::vector<double>& samples, double got, Resolve mode,
-                                    ComponentKind kind, Profile profile) {
+                                    const Component& component, Profile profile) {
     const auto wrong = [&](std::string_view rule, Profile level, std::string expected) {
         Finding finding;
         finding.kind = FindingKind::value;
@@ -125,11 +128,11 @@ std::optional<Finding> judge_number(const std::vector<double>& samples, double g
     // Nothing is known of a sum with infinities or NaN.
     const bool is_known =
         std::ranges::all_of(samples, [](double sample) { return std::isfinite(sample); });
-    const auto level = is_known ? wrong_average(samples, got, kind, profile) : std::nullopt;
+    const auto level = is_known ? wrong_average(samples, got, component, profile) : std::nullopt;
     if (!level) {
         return std::nullopt;
     }
-    const Range range = range_of(samples, kind, *level);
+    const Range range = range_of(samples, component, *level);
     return wrong(cases::rule::resolve_average, *level,
                  cases::number_text(range.min) + " .. " + cases::number_text(range.max));
 }
@@ -152,7 +155,9 @@ capture::ColorCodes average_codes(std::span<const capture::ColorCodes> samples,
             continue;
         }
         out.at(k) = is_floating(component.kind()) ? component.code_of(mpq_class(mean))
-                                                  : static_cast<uint32_t>(mean + 0.5);
+                    : component.kind() == ComponentKind::snorm
+                        ? component.code_of(mpq_class(mean) * component.step())
+                        : static_cast<uint32_t>(mean + 0.5);
     }
     return out;
 }
@@ -205,10 +210,11 @@ class Judge {
             for (const float depth : depths) {
                 samples.push_back(scaled(depth));
             }
-            report(
-                judge_number(samples, scaled(resolved), target_.depth_resolve,
-                             steps > 0 ? ComponentKind::unorm : ComponentKind::binary32, profile_),
-                pixel, "resolved depth");
+            report(judge_number(samples, scaled(resolved), target_.depth_resolve,
+                                cases::ComponentFormat{
+                                    steps > 0 ? ComponentKind::unorm : ComponentKind::binary32, 32},
+                                profile_),
+                   pixel, "resolved depth");
         }
         return true;
     }
@@ -224,9 +230,9 @@ class Judge {
              capture_.color.subspan(pixel * target_.samples, target_.samples)) {
             samples.push_back(number_of(stored, codes.at(component)));
         }
-        report(judge_number(samples, number_of(stored, code), target_.color_resolve, stored.kind(),
-                            profile_),
-               pixel, fmt::format("resolved color.{}", "rgba"[component]));
+        report(
+            judge_number(samples, number_of(stored, code), target_.color_resolve, stored, profile_),
+            pixel, fmt::format("resolved color.{}", "rgba"[component]));
     }
 
     void report(std::optional<Finding> finding, size_t pixel, std::string quantity) {

@@ -37,8 +37,9 @@ uint32_t window_begin(uint32_t lo, uint32_t hi, uint32_t size) {
 
 // What a screen shows of a stored component: [0, 1] as 0..255, whole numbers up to 255 as they are.
 uint8_t shown(uint32_t code, cases::ComponentFormat format) {
-    if (format.kind == cases::ComponentKind::uint) {
-        return static_cast<uint8_t>(std::min(code, 255U));
+    if (is_integer(format.kind)) {
+        return static_cast<uint8_t>(
+            std::clamp(ref::color::Component(format).number(code), 0.0, 255.0));
     }
     // A screen takes sRGB as it is stored.
     const bool is_srgb = format.kind == cases::ComponentKind::srgb;

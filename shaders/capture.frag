@@ -6,8 +6,8 @@
 //
 // Defined by the build is only what changes capabilities or what is statically used: ATTRIBUTES (0..4),
 // PROBES (interpolateAt*, derivatives), LOD (textureQueryLod), BARYCENTRICS, MASK_IN (gl_SampleMaskIn),
-// SAMPLE (gl_SampleID, gl_SamplePosition), RATE (gl_ShadingRateEXT), MASK_OUT (gl_SampleMask), DISCARD, DEPTH (gl_FragDepth), COLOR (0 none, 1 float, 2 uint,
-// 3 two sources of float, 4 several, each as float and as uint), INSTRUMENTS (0: the colour output alone), SPLIT (the instruments as four small outputs), PAIRS (with them
+// SAMPLE (gl_SampleID, gl_SamplePosition), RATE (gl_ShadingRateEXT), MASK_OUT (gl_SampleMask), DISCARD, DEPTH (gl_FragDepth), COLOR (0 none, 1 float,
+// 2 uint or int, 3 two sources of float, 4 several, each as float, as uint and as int), INSTRUMENTS (0: the colour output alone), SPLIT (the instruments as four small outputs), PAIRS (with them
 // each attribute as two). What an attribute holds is chosen by specialization
 // constants (shaders.hpp). All inputs are smooth here: Flat, NoPerspective, Centroid and Sample are
 // added to the compiled module (shaders/spirv_variant.hpp), where the input at location 7 may also
@@ -129,20 +129,26 @@ ATTRIBUTE_OUTPUT(3)
 #if COLOR == 1
 layout(location = COLOR_LOCATION) out vec4 out_color;
 #elif COLOR == 2
-layout(location = COLOR_LOCATION) out uvec4 out_color;
+// One is left, at the first location (shaders/spirv_variant.hpp).
+layout(location = COLOR_LOCATION + 1) out uvec4 out_color;
+layout(location = COLOR_LOCATION + 2) out ivec4 out_signed;
 #elif COLOR == 3
 layout(location = COLOR_LOCATION, index = 0) out vec4 out_color;
 layout(location = COLOR_LOCATION, index = 1) out vec4 out_second;
 #elif COLOR == 4
-// Of each pair one is left, at the location of its target (shaders/spirv_variant.hpp).
+// Of each three one is left, at the location of its target (shaders/spirv_variant.hpp).
 layout(location = COLOR_LOCATION) out vec4 out_number0;
 layout(location = COLOR_LOCATION + 1) out uvec4 out_integer0;
-layout(location = COLOR_LOCATION + 2) out vec4 out_number1;
-layout(location = COLOR_LOCATION + 3) out uvec4 out_integer1;
-layout(location = COLOR_LOCATION + 4) out vec4 out_number2;
-layout(location = COLOR_LOCATION + 5) out uvec4 out_integer2;
-layout(location = COLOR_LOCATION + 6) out vec4 out_number3;
-layout(location = COLOR_LOCATION + 7) out uvec4 out_integer3;
+layout(location = COLOR_LOCATION + 2) out ivec4 out_signed0;
+layout(location = COLOR_LOCATION + 3) out vec4 out_number1;
+layout(location = COLOR_LOCATION + 4) out uvec4 out_integer1;
+layout(location = COLOR_LOCATION + 5) out ivec4 out_signed1;
+layout(location = COLOR_LOCATION + 6) out vec4 out_number2;
+layout(location = COLOR_LOCATION + 7) out uvec4 out_integer2;
+layout(location = COLOR_LOCATION + 8) out ivec4 out_signed2;
+layout(location = COLOR_LOCATION + 9) out vec4 out_number3;
+layout(location = COLOR_LOCATION + 10) out uvec4 out_integer3;
+layout(location = COLOR_LOCATION + 11) out ivec4 out_signed3;
 #endif
 
 // Choices are numbered as shaders::Choice.
@@ -264,8 +270,9 @@ vec4 color_of(int which, uvec4 bits) {
 }
 #endif
 #if COLOR == 4
-void write_color(int which, uvec4 bits, out vec4 number, out uvec4 whole) {
+void write_color(int which, uvec4 bits, out vec4 number, out uvec4 whole, out ivec4 signed_whole) {
     number = color_of(which, bits);
+    signed_whole = which < 0 ? ivec4(bits) : ivec4(number);
     whole = which < 0 ? bits : uvec4(number);
 }
 #endif
@@ -299,10 +306,10 @@ void main() {
 #endif
 #endif
 #if COLOR == 4
-    write_color(kColorAttribute, draw.color, out_number0, out_integer0);
-    write_color(kColorAttribute1, draw.other_colors[0], out_number1, out_integer1);
-    write_color(kColorAttribute2, draw.other_colors[1], out_number2, out_integer2);
-    write_color(kColorAttribute3, draw.other_colors[2], out_number3, out_integer3);
+    write_color(kColorAttribute, draw.color, out_number0, out_integer0, out_signed0);
+    write_color(kColorAttribute1, draw.other_colors[0], out_number1, out_integer1, out_signed1);
+    write_color(kColorAttribute2, draw.other_colors[1], out_number2, out_integer2, out_signed2);
+    write_color(kColorAttribute3, draw.other_colors[2], out_number3, out_integer3, out_signed3);
 #elif COLOR
     vec4 color = color_of(kColorAttribute, draw.color);
 #if COLOR != 2
@@ -312,6 +319,7 @@ void main() {
 #endif
 #else
     out_color = kColorAttribute < 0 ? draw.color : uvec4(color);
+    out_signed = kColorAttribute < 0 ? ivec4(draw.color) : ivec4(color);
 #endif
 #endif
 #if MASK_OUT

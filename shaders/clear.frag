@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Writes a push constant to one attachment. Defined by the build: KIND (0: to the depth, 1: to a colour of numbers,
-// 2: to one of integers) and LOCATION of the colour.
+// 2: to one of integers, 3: to one of signed ones) and LOCATION of the colour.
 #version 450
 
 layout(push_constant) uniform Clear {
@@ -14,6 +14,8 @@ clear;
 layout(location = LOCATION) out vec4 out_color;
 #elif KIND == 2
 layout(location = LOCATION) out uvec4 out_color;
+#elif KIND == 3
+layout(location = LOCATION) out ivec4 out_color;
 #endif
 
 void main() {
@@ -21,6 +23,8 @@ void main() {
     gl_FragDepth = uintBitsToFloat(clear.bits.x);
 #elif KIND == 1
     out_color = uintBitsToFloat(clear.bits);
+#elif KIND == 3
+    out_color = ivec4(clear.bits);
 #else
     out_color = clear.bits;
 #endif

@@ -68,10 +68,9 @@ std::span<const uint32_t> clear_vertex() {
     return kClearVertex;
 }
 
-std::span<const uint32_t> clear_color(uint32_t location, bool is_integer) {
+std::span<const uint32_t> clear_color(uint32_t location, Output output) {
     return location >= kClearLocations ? std::span<const uint32_t>()
-           : is_integer                ? kClearIntegers[location]
-                                       : kClearNumbers[location];
+                                       : kClear[3 * location + static_cast<uint32_t>(output)];
 }
 
 std::span<const uint32_t> clear_depth() {
@@ -131,8 +130,7 @@ std::span<const uint32_t> any_module(size_t i) {
         return i == 0 ? clear_vertex() : clear_depth();
     }
     i -= 2;
-    return i < size_t{2} * kClearLocations ? clear_color(static_cast<uint32_t>(i / 2), i % 2 == 1)
-                                           : std::span<const uint32_t>();
+    return i < std::size(kClear) ? kClear[i] : std::span<const uint32_t>();
 }
 
 }  // namespace shaders

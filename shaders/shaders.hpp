@@ -27,9 +27,9 @@ struct VertexVariant {
 // The others have their vertices beside the view volume.
 inline constexpr uint32_t kShownInstance = 7;
 
-// Components of the colour output. two_numbers: a second one for dual-source blending; several: an
-// output of numbers and one of integers for each of four colour targets, of which with_outputs()
-// (spirv_variant.hpp) leaves those that there are.
+// Components of the colour output. two_numbers: a second one for dual-source blending; integer: an
+// output of unsigned and one of signed integers; several: these and one of numbers for each of four
+// colour targets. Of both with_outputs() (spirv_variant.hpp) leaves those that there are.
 enum class ColorKind : uint8_t { none, number, integer, two_numbers, several };
 
 // What capture.frag was compiled for: everything that needs a capability of the device or that has
@@ -130,11 +130,14 @@ std::span<const uint32_t> bare_fragment(uint32_t from);
 // writes.
 std::span<const uint32_t> feedback_vertex(uint32_t attributes);
 
+// What a shader writes to a colour.
+enum class Output : uint8_t { number, whole, signed_whole };
+
 // clear.vert: a triangle over every target. clear.frag: writes the push constant to one of the
-// colours, number or integer, or to the depth.
+// colours, or to the depth.
 inline constexpr uint32_t kClearLocations = 16;
 std::span<const uint32_t> clear_vertex();
-std::span<const uint32_t> clear_color(uint32_t location, bool is_integer);
+std::span<const uint32_t> clear_color(uint32_t location, Output output);
 std::span<const uint32_t> clear_depth();
 
 // input.frag: copies an input attachment to a buffer, of integers or of other numbers.

@@ -341,7 +341,7 @@ std::vector<uint32_t> without(const Instruction& entry, const std::set<uint32_t>
 }  // namespace
 
 Changed with_outputs(std::span<const uint32_t> module, const OutputChange& change) {
-    if (change.integers.empty()) {
+    if (change.kept.empty()) {
         return std::vector<uint32_t>(module.begin(), module.end());
     }
     auto code = split(module);
@@ -350,8 +350,9 @@ Changed with_outputs(std::span<const uint32_t> module, const OutputChange& chang
     }
     const std::map<uint32_t, uint32_t> outputs = outputs_by_location(*code);
     std::map<uint32_t, uint32_t> kept;  // variables with their locations
-    for (uint32_t k = 0; k < change.integers.size(); ++k) {
-        const uint32_t location = change.first_location + 2 * k + (change.integers[k] ? 1 : 0);
+    for (uint32_t k = 0; k < change.kept.size(); ++k) {
+        const uint32_t location =
+            change.first_location + 3 * k + static_cast<uint32_t>(change.kept[k]);
         const auto found = outputs.find(location);
         if (found == outputs.end()) {
             return Error(fmt::format("no output of the module has location {}", location));

@@ -14,6 +14,8 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "shaders/shaders.hpp"
+
 namespace shaders {
 
 // A changed module, or in one sentence why there is none.
@@ -43,13 +45,13 @@ Changed change_inputs(std::span<const uint32_t> module, std::span<const InputCha
 // Which output each of several colours keeps, and where the first of them lies.
 struct OutputChange {
     uint32_t first_location = 0;
-    std::vector<bool> integers;  // by colour; empty: the module is left as it is
+    std::vector<Output> kept;  // by colour; empty: the module is left as it is
     friend auto operator<=>(const OutputChange&, const OutputChange&) = default;
 };
 
-// The module of a fragment shader that has two outputs for each of several colours from
-// first_location on, of numbers and of integers, with the one that each colour keeps at the
-// location of the colour. All others become Private variables, so that nothing is written. Errors:
+// The module of a fragment shader that has three outputs for each of several colours from
+// first_location on, numbered as Output, with the one that each colour keeps at the location of the
+// colour. All others become Private variables, so that nothing is written. Errors:
 // as above, and outputs that are not there.
 Changed with_outputs(std::span<const uint32_t> module, const OutputChange& change);
 

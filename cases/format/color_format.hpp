@@ -26,13 +26,67 @@ enum class ColorFormat : uint8_t {
     rgba32_float,
     r32_float,
     r32_uint,
-    rgba8_uint
+    rgba8_uint,
+    r8_unorm,
+    r8_snorm,
+    r8_uint,
+    r8_sint,
+    rg8_unorm,
+    rg8_snorm,
+    rg8_uint,
+    rg8_sint,
+    rgba8_snorm,
+    rgba8_sint,
+    bgra8_srgb,
+    a8b8g8r8_unorm,
+    a8b8g8r8_snorm,
+    a8b8g8r8_uint,
+    a8b8g8r8_sint,
+    a8b8g8r8_srgb,
+    r4g4b4a4_unorm,
+    b4g4r4a4_unorm,
+    b5g6r5_unorm,
+    r5g5b5a1_unorm,
+    b5g5r5a1_unorm,
+    a1r5g5b5_unorm,
+    bgr10a2_unorm,
+    bgr10a2_uint,
+    rgb10a2_uint,
+    r16_unorm,
+    r16_snorm,
+    r16_uint,
+    r16_sint,
+    r16_float,
+    rg16_unorm,
+    rg16_snorm,
+    rg16_uint,
+    rg16_sint,
+    rgba16_snorm,
+    rgba16_uint,
+    rgba16_sint,
+    r32_sint,
+    rg32_uint,
+    rg32_sint,
+    rg32_float,
+    rgba32_uint,
+    rgba32_sint,
+    r11g11b10_float
 };
 
-enum class ComponentKind : uint8_t { unorm, srgb, half, binary32, uint };
+// `half` has 5 bits of exponent and, of 16 bits, 10 of fraction and a sign; of 11 and 10 bits 6 and
+// 5 of fraction and no sign [Khronos Data Format Specification, "Unsigned 11-bit floating-point
+// numbers", "Unsigned 10-bit floating-point numbers"].
+enum class ComponentKind : uint8_t { unorm, srgb, half, binary32, uint, snorm, sint };
 
 constexpr bool is_floating(ComponentKind kind) {
     return kind == ComponentKind::half || kind == ComponentKind::binary32;
+}
+constexpr bool is_integer(ComponentKind kind) {
+    return kind == ComponentKind::uint || kind == ComponentKind::sint;
+}
+// Of two's complement.
+constexpr bool is_signed(ComponentKind kind) {
+    return kind == ComponentKind::snorm || kind == ComponentKind::sint;
 }
 
 struct ColorFormatRow {
@@ -61,6 +115,50 @@ inline constexpr auto kColorFormats = [] {
         {F::r32_float, "r32-float", K::binary32, {32, 0, 0, 0}, {0, 0, 0, 0}, 100},
         {F::r32_uint, "r32-uint", K::uint, {32, 0, 0, 0}, {0, 0, 0, 0}, 98},
         {F::rgba8_uint, "rgba8-uint", K::uint, {8, 8, 8, 8}, {0, 8, 16, 24}, 41},
+        {F::r8_unorm, "r8-unorm", K::unorm, {8, 0, 0, 0}, {0, 0, 0, 0}, 9},
+        {F::r8_snorm, "r8-snorm", K::snorm, {8, 0, 0, 0}, {0, 0, 0, 0}, 10},
+        {F::r8_uint, "r8-uint", K::uint, {8, 0, 0, 0}, {0, 0, 0, 0}, 13},
+        {F::r8_sint, "r8-sint", K::sint, {8, 0, 0, 0}, {0, 0, 0, 0}, 14},
+        {F::rg8_unorm, "rg8-unorm", K::unorm, {8, 8, 0, 0}, {0, 8, 0, 0}, 16},
+        {F::rg8_snorm, "rg8-snorm", K::snorm, {8, 8, 0, 0}, {0, 8, 0, 0}, 17},
+        {F::rg8_uint, "rg8-uint", K::uint, {8, 8, 0, 0}, {0, 8, 0, 0}, 20},
+        {F::rg8_sint, "rg8-sint", K::sint, {8, 8, 0, 0}, {0, 8, 0, 0}, 21},
+        {F::rgba8_snorm, "rgba8-snorm", K::snorm, {8, 8, 8, 8}, {0, 8, 16, 24}, 38},
+        {F::rgba8_sint, "rgba8-sint", K::sint, {8, 8, 8, 8}, {0, 8, 16, 24}, 42},
+        {F::bgra8_srgb, "bgra8-srgb", K::srgb, {8, 8, 8, 8}, {16, 8, 0, 24}, 50},
+        {F::a8b8g8r8_unorm, "a8b8g8r8-unorm", K::unorm, {8, 8, 8, 8}, {0, 8, 16, 24}, 51},
+        {F::a8b8g8r8_snorm, "a8b8g8r8-snorm", K::snorm, {8, 8, 8, 8}, {0, 8, 16, 24}, 52},
+        {F::a8b8g8r8_uint, "a8b8g8r8-uint", K::uint, {8, 8, 8, 8}, {0, 8, 16, 24}, 55},
+        {F::a8b8g8r8_sint, "a8b8g8r8-sint", K::sint, {8, 8, 8, 8}, {0, 8, 16, 24}, 56},
+        {F::a8b8g8r8_srgb, "a8b8g8r8-srgb", K::srgb, {8, 8, 8, 8}, {0, 8, 16, 24}, 57},
+        {F::r4g4b4a4_unorm, "r4g4b4a4-unorm", K::unorm, {4, 4, 4, 4}, {12, 8, 4, 0}, 2},
+        {F::b4g4r4a4_unorm, "b4g4r4a4-unorm", K::unorm, {4, 4, 4, 4}, {4, 8, 12, 0}, 3},
+        {F::b5g6r5_unorm, "b5g6r5-unorm", K::unorm, {5, 6, 5, 0}, {0, 5, 11, 0}, 5},
+        {F::r5g5b5a1_unorm, "r5g5b5a1-unorm", K::unorm, {5, 5, 5, 1}, {11, 6, 1, 0}, 6},
+        {F::b5g5r5a1_unorm, "b5g5r5a1-unorm", K::unorm, {5, 5, 5, 1}, {1, 6, 11, 0}, 7},
+        {F::a1r5g5b5_unorm, "a1r5g5b5-unorm", K::unorm, {5, 5, 5, 1}, {10, 5, 0, 15}, 8},
+        {F::bgr10a2_unorm, "bgr10a2-unorm", K::unorm, {10, 10, 10, 2}, {20, 10, 0, 30}, 58},
+        {F::bgr10a2_uint, "bgr10a2-uint", K::uint, {10, 10, 10, 2}, {20, 10, 0, 30}, 62},
+        {F::rgb10a2_uint, "rgb10a2-uint", K::uint, {10, 10, 10, 2}, {0, 10, 20, 30}, 68},
+        {F::r16_unorm, "r16-unorm", K::unorm, {16, 0, 0, 0}, {0, 0, 0, 0}, 70},
+        {F::r16_snorm, "r16-snorm", K::snorm, {16, 0, 0, 0}, {0, 0, 0, 0}, 71},
+        {F::r16_uint, "r16-uint", K::uint, {16, 0, 0, 0}, {0, 0, 0, 0}, 74},
+        {F::r16_sint, "r16-sint", K::sint, {16, 0, 0, 0}, {0, 0, 0, 0}, 75},
+        {F::r16_float, "r16-float", K::half, {16, 0, 0, 0}, {0, 0, 0, 0}, 76},
+        {F::rg16_unorm, "rg16-unorm", K::unorm, {16, 16, 0, 0}, {0, 16, 0, 0}, 77},
+        {F::rg16_snorm, "rg16-snorm", K::snorm, {16, 16, 0, 0}, {0, 16, 0, 0}, 78},
+        {F::rg16_uint, "rg16-uint", K::uint, {16, 16, 0, 0}, {0, 16, 0, 0}, 81},
+        {F::rg16_sint, "rg16-sint", K::sint, {16, 16, 0, 0}, {0, 16, 0, 0}, 82},
+        {F::rgba16_snorm, "rgba16-snorm", K::snorm, {16, 16, 16, 16}, {0, 16, 32, 48}, 92},
+        {F::rgba16_uint, "rgba16-uint", K::uint, {16, 16, 16, 16}, {0, 16, 32, 48}, 95},
+        {F::rgba16_sint, "rgba16-sint", K::sint, {16, 16, 16, 16}, {0, 16, 32, 48}, 96},
+        {F::r32_sint, "r32-sint", K::sint, {32, 0, 0, 0}, {0, 0, 0, 0}, 99},
+        {F::rg32_uint, "rg32-uint", K::uint, {32, 32, 0, 0}, {0, 32, 0, 0}, 101},
+        {F::rg32_sint, "rg32-sint", K::sint, {32, 32, 0, 0}, {0, 32, 0, 0}, 102},
+        {F::rg32_float, "rg32-float", K::binary32, {32, 32, 0, 0}, {0, 32, 0, 0}, 103},
+        {F::rgba32_uint, "rgba32-uint", K::uint, {32, 32, 32, 32}, {0, 32, 64, 96}, 107},
+        {F::rgba32_sint, "rgba32-sint", K::sint, {32, 32, 32, 32}, {0, 32, 64, 96}, 108},
+        {F::r11g11b10_float, "r11g11b10-float", K::half, {11, 11, 10, 0}, {0, 11, 22, 0}, 122},
     });
 }();
 inline constexpr auto kLastColorFormat = static_cast<ColorFormat>(kColorFormats.size() - 1);
@@ -78,7 +176,13 @@ constexpr std::string_view name_of(ColorFormat format) {
 
 // Whether the format holds whole numbers, which are never blended.
 constexpr bool is_integer(ColorFormat format) {
-    return row_of(format).kind == ComponentKind::uint;
+    return is_integer(row_of(format).kind);
+}
+
+// Whether blits take the format: not one whose numbers `blit_source` does not make.
+constexpr bool can_be_blitted(ColorFormat format) {
+    const ColorFormatRow& row = row_of(format);
+    return !is_signed(row.kind) && (row.kind != ComponentKind::half || row.bits[0] == 16);
 }
 
 // The size of a texel in memory; no format here has bits that mean nothing.
@@ -99,6 +203,25 @@ constexpr ComponentFormat component_of(ColorFormat format, uint32_t k) {
     const ColorFormatRow& row = row_of(format);
     const bool is_linear = row.kind == ComponentKind::srgb && k == 3;
     return {is_linear ? ComponentKind::unorm : row.kind, row.bits.at(k)};
+}
+
+// The number that a code of two's complement means, as of a component of a signed kind.
+constexpr int32_t signed_code(uint32_t code, uint32_t bits) {
+    const uint32_t unused = 32 - bits;
+    return static_cast<int32_t>(code << unused) >> unused;
+}
+// The smallest and the largest number of component k of integers, of those that binary32 holds
+// together with all whole numbers between (magnitudes of up to 2^24). Of a component that the
+// format lacks those of red.
+struct Whole {
+    float least = 0, most = 0;
+};
+constexpr Whole whole_range(ColorFormat format, uint32_t k) {
+    const ColorFormatRow& row = row_of(format);
+    const uint32_t own = row.bits.at(k) != 0 ? row.bits.at(k) : row.bits[0];
+    const uint32_t bits = own - (is_signed(row.kind) ? 1 : 0);
+    const float beyond = bits < 24 ? static_cast<float>(uint32_t{1} << bits) : 0x1p24F;
+    return {is_signed(row.kind) ? -beyond : 0, bits < 24 ? beyond - 1 : beyond};
 }
 
 // The stored code of each component of a texel, as the colour plane of a capture has it; 0 where

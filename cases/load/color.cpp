@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -14,6 +15,12 @@ namespace cases {
 namespace {
 
 using Kind = TomlValue::Kind;
+
+// Whether component k of a format of integers holds the number.
+bool is_whole(float number, ColorFormat format, uint32_t k) {
+    const Whole range = whole_range(format, k);
+    return number >= range.least && number <= range.most && !(std::floor(number) < number);
+}
 
 // Four numbers, and for integer formats whole ones that the format holds.
 std::optional<glm::vec4> read_color(LeafContext& context, const TomlValue& value,
@@ -29,14 +36,12 @@ std::optional<glm::vec4> read_color(LeafContext& context, const TomlValue& value
         if (!number) {
             return std::nullopt;
         }
-        // binary32 holds whole numbers up to 2^24.
-        const uint32_t bits = component_of(format, 0).bits;
-        const float largest = bits < 24 ? static_cast<float>((1U << bits) - 1) : 0x1p24F;
-        if (is_integer(format) &&
-            (!(*number >= 0.0F) || *number > largest || std::floor(*number) < *number)) {
-            context.error(where, fmt::format("{} is not a whole number from 0 to {}, as the format "
-                                             "{} needs it",
-                                             what, largest, name_of(format)));
+        if (is_integer(format) && !is_whole(*number, format, static_cast<uint32_t>(k))) {
+            const Whole range = whole_range(format, static_cast<uint32_t>(k));
+            context.error(where,
+                          fmt::format("{} is not a whole number from {} to {}, as the format "
+                                      "{} needs it",
+                                      what, range.least, range.most, name_of(format)));
             return std::nullopt;
         }
         color[static_cast<int>(k)] = *number;
@@ -109,17 +114,15 @@ int32_t read_attribute_name(LeafContext& context, const TomlValue& value, const 
         return -1;
     }
     if (is_integer(target.format)) {
-        const bool whole = std::ranges::all_of(found->values, [](const glm::vec4& v) {
-            for (int k = 0; k < 4; ++k) {
-                if (!(v[k] >= 0.0F) || v[k] > 0x1p24F || std::floor(v[k]) < v[k]) {
-                    return false;
-                }
-            }
-            return true;
+        const bool whole = std::ranges::all_of(found->values, [&](const glm::vec4& v) {
+            return std::ranges::all_of(std::array{0U, 1U, 2U, 3U}, [&](uint32_t k) {
+                return is_whole(v[static_cast<int>(k)], target.format, k);
+            });
         });
         if (found->interpolation != Interpolation::flat || !whole) {
             context.error(value.where, fmt::format("the colour of a target of integers ({}) needs "
-                                                   "a flat attribute of whole numbers",
+                                                   "a flat attribute of whole numbers that it "
+                                                   "holds",
                                                    name_of(target.format)));
         }
     }
@@ -202,8 +205,8 @@ std::optional<ColorTarget> read_color_target(LeafContext& context, const TomlVal
     ColorTarget out;
     context.read_all(value, kTargetColorKeys, out);
     if (value.find("format") == nullptr) {
-        context.error(value.where, fmt::format("[target.color] has no format; write {}",
-                                               alternatives(kWords<ColorFormat>)));
+        context.error(value.where,
+                      "[target.color] has no format; write one, as format = \"rgba8-unorm\"");
         return std::nullopt;
     }
     if (const TomlValue* clear = value.find("clear")) {

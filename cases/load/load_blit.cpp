@@ -44,6 +44,16 @@ class BlitLoader {
         }
         blit_.source_format = target_.color->format;
         context_.read_all(table_, kBlitKeys, blit_);
+        for (const ColorFormat format : {blit_.source_format, target_.color->format}) {
+            if (!can_be_blitted(format) || bytes_of(format) == 1) {
+                context_.error(table_.where,
+                               fmt::format("a blit is not judged from or to {}, which has signed "
+                                           "codes, floats without a sign or one byte; write "
+                                           "another format",
+                                           name_of(format)));
+                return;
+            }
+        }
         if (is_integer(blit_.source_format) != is_integer(target_.color->format)) {
             context_.error(
                 table_.where,

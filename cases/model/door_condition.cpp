@@ -36,11 +36,14 @@ bool is_one(float value) {
 // Whether a shader that writes the number leaves what clearing to it leaves: neither is rounded.
 // Denormal numbers a shader may flush.
 bool is_written_as_cleared(const ComponentFormat& component, float value) {
-    if (component.bits == 0 || component.kind == ComponentKind::uint) {
+    if (component.bits == 0 || is_integer(component.kind)) {
         return true;
     }
     if (component.kind == ComponentKind::half) {
-        return half_bits(value).has_value();
+        constexpr uint32_t kSign = 0x8000U;
+        const std::optional<uint32_t> bits = half_bits(value);
+        const uint32_t lost = component.bits < 16 ? kSign | ((1U << (15 - component.bits)) - 1) : 0;
+        return bits && (*bits & lost) == 0;
     }
     if (component.kind == ComponentKind::binary32) {
         return std::isnormal(value) || std::fpclassify(value) == FP_ZERO;

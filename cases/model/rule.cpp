@@ -272,8 +272,14 @@ constexpr std::array kRules = {
          "The linear value is encoded by the sRGB transfer function and stored as a neighbouring "
          "code.",
          "fundamentals-fpfixedconv", "3.2.3.8", "ref/color/component.hpp"},
+    Rule{rule::store_snorm, Profile::vulkan,
+         "A signed normalized colour is stored as one of the two nearest codes",
+         "r = f (2^(b-1) - 1) of the value clamped to -1..1, in two's complement; a whole r is "
+         "stored as it is, otherwise one of its two neighbours. Direct3D allows 0.6 of a unit.",
+         "fundamentals-fpfixedconv", "3.2.3.4", "ref/color/component.hpp"},
     Rule{rule::store_half, Profile::vulkan, "A half holds one of the two neighbours of a value",
-         "The rounding direction is not defined; what a half can represent is kept.",
+         "The rounding direction is not defined; what a half can represent is kept. Halves without "
+         "a sign, of 11 and 10 bits, hold 0 of what is negative.",
          "fundamentals-fp-conversion", "3.2.2", "ref/color/component.hpp"},
     Rule{rule::store_float, Profile::vulkan, "A binary32 target holds what the shader wrote",
          "No conversion takes place.", "interfaces-fragmentoutput", "3.2.2",

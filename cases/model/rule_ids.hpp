@@ -58,6 +58,7 @@ inline constexpr char fragcoord_xy[] = "fragcoord.xy";
 inline constexpr char fragcoord_w[] = "fragcoord.w";
 inline constexpr char store_unorm[] = "store.unorm";
 inline constexpr char store_srgb[] = "store.srgb";
+inline constexpr char store_snorm[] = "store.snorm";
 inline constexpr char store_half[] = "store.half";
 inline constexpr char store_float[] = "store.float";
 inline constexpr char store_integer[] = "store.integer";

@@ -244,9 +244,9 @@ constexpr Statement kStatements[] = {
      "The stored depth is the FragCoord.z that the same invocation wrote elsewhere, exactly; that it is the depth which "
      "fixed functions compute is not asked: Vulkan only relates shaders that do so to each other (Rule 5).",
      {"depth.written"}, ""},
-    {"storing UNORM", tolerance, tolerance,
+    {"storing UNORM and SNORM", tolerance, tolerance,
      "Either code next to the value; whole codes exactly.",
-     {"store.unorm", "store.srgb"}, ""},
+     {"store.unorm", "store.snorm", "store.srgb"}, ""},
     {"storing half precision", tolerance, exact,
      "Either neighbour.",
      {"store.half"}, ""},

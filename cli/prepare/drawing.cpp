@@ -275,7 +275,7 @@ capture::Image blit_image(const cases::Case& c, const ref::BlitReference& refere
             const cases::TexelCodes codes = reference.nominal(x, y);
             for (uint32_t k = 0; k < out.channels.size(); ++k) {
                 const cases::ComponentFormat component = cases::component_of(format, k);
-                const bool is_whole = component.kind == cases::ComponentKind::uint;
+                const bool is_whole = is_integer(component.kind);
                 const double largest = is_to_look_at && is_whole
                                            ? std::ldexp(1.0, static_cast<int>(component.bits)) - 1
                                            : 1.0;

@@ -172,6 +172,8 @@ std::string_view undrawable_part(const cases::Case& c) {
     return first_of({
         {c.blit.has_value(), "a blit"},
         {claims_doors, "doors"},
+        {t.color && !cases::can_be_blitted(t.color->format),
+         "a colour of signed codes or of floats without a sign"},
         {!t.sample_locations.empty(), "sample locations of its own"},
         {t.has_stencil, "a stencil"},
         {!t.has_instruments && !t.color, "depth alone"},

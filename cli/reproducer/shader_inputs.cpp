@@ -92,7 +92,12 @@ std::vector<uint32_t> Inputs::fragment_code(const cases::Draw& d) const {
             changes.push_back(change);
         }
     }
-    return shaders::change_inputs(code, changes).value();
+    const std::vector<uint32_t> changed = shaders::change_inputs(code, changes).value();
+    if (color != shaders::ColorKind::integer) {
+        return changed;
+    }
+    const auto first = static_cast<uint32_t>(has_instruments ? 2 + attributes.size() : 0);
+    return shaders::with_outputs(changed, {first, {shaders::Output::whole}}).value();
 }
 
 uint32_t Inputs::choice(size_t k) const {

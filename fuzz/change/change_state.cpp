@@ -155,15 +155,18 @@ Words add_color(Document& document, Dice& dice) {
     if (target == nullptr || draws == nullptr || find(*target, "color") != nullptr) {
         return {};
     }
-    const std::string_view format = any_of(cases::kWords<cases::ColorFormat>, dice);
-    const bool is_integer = format.ends_with("-uint");
+    const cases::ColorFormatRow& row =
+        cases::kColorFormats[dice.below(cases::kColorFormats.size())];
+    const bool is_integer = cases::is_integer(row.format);
     Document& color = set(*target, "color", table());
-    set(color, "format", text(std::string(format)));
+    set(color, "format", text(std::string(row.word)));
     for (Document& draw : draws->array) {
         std::vector<double> value;
-        for (int k = 0; k < 4; ++k) {
-            value.push_back(is_integer ? static_cast<double>(dice.below(256))
-                                       : dice.fraction(0, 16, 16));
+        for (uint32_t k = 0; k < 4; ++k) {
+            const auto most = static_cast<int64_t>(cases::whole_range(row.format, k).most);
+            value.push_back(is_integer
+                                ? static_cast<double>(dice.between(0, std::min<int64_t>(most, 255)))
+                                : dice.fraction(0, 16, 16));
         }
         Document& of_draw = set(draw, "color", table());
         set(of_draw, "value", numbers(value));
@@ -175,7 +178,7 @@ Words add_color(Document& document, Dice& dice) {
         constexpr std::string_view kColored[] = {"all", "color", "color+depth"};
         set(*target, "attachments", text(std::string(any_of(kColored, dice))));
     }
-    return fmt::format("a colour target of {}", format);
+    return fmt::format("a colour target of {}", row.word);
 }
 
 // An attribute, or a clip or cull distance, for each vertex of a draw.

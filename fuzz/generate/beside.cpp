@@ -10,6 +10,7 @@
 
 #include "cases/format/color_format.hpp"
 #include "cases/load/color.hpp"
+#include "fuzz/generate/color.hpp"
 
 namespace fuzz {
 
@@ -75,7 +76,7 @@ std::string beside_others(std::string text, Dice dice) {
     // With attributes there is less room.
     const uint64_t most = text.find("[[draw.attribute]]") == std::string::npos ? 3 : 1;
     for (uint64_t count = 1 + dice.below(most); formats.size() < count;) {
-        formats.push_back(cases::kColorFormats[dice.below(cases::kColorFormats.size())].format);
+        formats.push_back(kPoseFormats[dice.below(kPoseFormats.size())].format);
     }
     const size_t judged = dice.below(formats.size() + 1);
     std::vector<std::string> targets;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cases/format/color_format.hpp"
+#include "fuzz/generate/color.hpp"
 
 namespace fuzz {
 
@@ -18,7 +19,7 @@ namespace {
 // A format of numbers, or of integers, which are blitted to integers only.
 std::string_view format_of(bool is_integer, Dice& dice) {
     std::vector<std::string_view> words;
-    for (const cases::ColorFormatRow& row : cases::kColorFormats) {
+    for (const cases::ColorFormatRow& row : kPoseFormats) {
         if ((row.kind == cases::ComponentKind::uint) == is_integer) {
             words.push_back(row.word);
         }

@@ -5,13 +5,19 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 
+#include "cases/format/color_format.hpp"
 #include "fuzz/generate/dice.hpp"
 #include "fuzz/generate/pose.hpp"
 
 namespace fuzz {
+
+// The formats of poses that are not bare: with others their sequence, of which tests/hunt has a
+// record, would be another one. Bare poses draw others, too (features.cpp).
+inline constexpr auto kPoseFormats = std::span(cases::kColorFormats).first<12>();
 
 // Four numbers that the pose's format can hold. Operands of a logical operation are codes of the
 // format: any other number is rounded first, and where it lies half-way all bits are open.

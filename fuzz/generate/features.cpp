@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cases/key/key.hpp"
 #include "cases/model/way.hpp"
+#include "fuzz/generate/color.hpp"
 #include "fuzz/generate/pose.hpp"
 
 namespace fuzz {
@@ -18,6 +19,14 @@ std::vector<std::string_view> words(const cases::KeyTable& keys, std::string_vie
     }
     if (key != nullptr) {
         all.insert(all.end(), key->words.begin(), key->words.end());
+    }
+    return all;
+}
+
+std::vector<std::string_view> words_of_formats() {
+    std::vector<std::string_view> all = {"none"};
+    for (const cases::ColorFormatRow& format : kPoseFormats) {
+        all.push_back(format.word);
     }
     return all;
 }
@@ -41,7 +50,7 @@ const std::vector<Feature>& features() {
         {"depth", {"d32-float", "d16-unorm", "d24-unorm"}},
         // Depth or a stencil alone is drawn by ways, in bare poses.
         {"attachments", {"all", "color", "color+depth"}},
-        {"color", words(cases::kTargetColorKeys, "format", "none")},
+        {"color", words_of_formats()},
         {"blend",
          {"none", "additive", "alpha", "premultiplied", "multiply", "reverse-subtract", "min",
           "max", "factors"}},
@@ -111,7 +120,10 @@ const std::vector<Feature>& features() {
         {"alpha_to_coverage", {"false", "true"}},
         // Of bare poses alone (bare.hpp).
         {"way", words_of_ways()},
-        {"bare-format", {"rgba8-unorm", "bgra8-unorm", "rgba8-srgb"}},
+        {"bare-format",
+         {"rgba8-unorm", "bgra8-unorm", "rgba8-srgb", "bgra8-srgb", "a8b8g8r8-unorm", "r8-unorm",
+          "rg8-unorm", "a1r5g5b5-unorm", "r4g4b4a4-unorm", "rgba16-snorm", "r16-float",
+          "r11g11b10-float"}},
         {"viewport-place", {"target", "beside", "around", "far"}},
         {"scissor-place", {"target", "beside", "far"}},
     };

@@ -60,7 +60,10 @@ class Finder {
             std::string(key.neighbour == "= {}" ? fmt::format("{} = {{}}", key.name)
                                                 : key.neighbour) +
             in;
-        for (const std::string_view word : key.words) {
+        // Each is drawn; of the many formats the first ones tell as much as all.
+        constexpr size_t kMostWords = 20;
+        for (const std::string_view word :
+             key.words.first(std::min(key.words.size(), kMostWords))) {
             Document changed = document_;
             Document* table = at(changed, path);
             if (word == now || table == nullptr) {

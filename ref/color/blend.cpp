@@ -73,7 +73,7 @@ Interval factor_of(BlendFactor factor, size_t k, const Color& source, const Colo
 // What a device may read of a component of the target; what it may hold is codes.
 Interval read(const Component& component, const Interval& before) {
     if (component.kind() != ComponentKind::srgb) {
-        return held(component, before);
+        return held(component, component.clamped(before));
     }
     return {component.read(component.code_of(before.low)).low,
             component.read(component.code_of(before.high)).high};
@@ -111,7 +111,8 @@ Interval BlendInputs::blended(const Component& component, const cases::Blend& bl
         }
     } else {
         const auto factor = [&](BlendFactor of) {
-            return held(component, factor_of(of, k, s, second, d, constants));
+            const Interval value = factor_of(of, k, s, second, d, constants);
+            return held(component, component.is_fixed_point() ? component.clamped(value) : value);
         };
         const Interval f = factor(equation.source), g = factor(equation.destination);
         const Interval a = term(component, s[k], f);
@@ -186,9 +187,9 @@ Color Unit::write(const cases::ColorOutput& output, const Color& written,
         const Component component(cases::component_of(format, k));
         const Component& grid = component.exists() ? component : first;
         if (first.is_fixed_point()) {
-            s[k] = clamped(s[k]);
-            second[k] = clamped(second[k]);
-            constants[k] = clamped(constants[k]);
+            s[k] = first.clamped(s[k]);
+            second[k] = first.clamped(second[k]);
+            constants[k] = first.clamped(constants[k]);
         }
         s[k] = held(grid, s[k]);
         second[k] = held(grid, second[k]);
@@ -268,9 +269,10 @@ std::string Unit::text_of(const std::array<uint32_t, 4>& codes) const {
         out += fmt::format("{}{} ", out.empty() ? "" : ", ", "rgba"[k]);
         const double value = Component(c).number(codes[k]);
         if (!is_floating(c.kind)) {
-            out += std::to_string(codes[k]);
+            out += fmt::format("{:.0f}", Component(c).whole_of(codes[k]));
         } else {
-            out += fmt::format("{} (0x{:0{}x})", cases::number_text(value), codes[k], c.bits / 4);
+            out += fmt::format("{} (0x{:0{}x})", cases::number_text(value), codes[k],
+                               (c.bits + 3) / 4);
         }
     }
     return out;

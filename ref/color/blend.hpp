@@ -11,7 +11,8 @@
 // representable. What an sRGB target holds is decoded first (Component::read). The computation may
 // be done in another order (blend_order.hpp), of which then stays exact what is exact in both. With
 // fixed-point targets that is within what neighbours allow (UNORM), or done in binary32 (sRGB);
-// source, destination, constants, factors and the result are clamped to [0, 1].
+// source, destination, constants, factors and the result are clamped to [0, 1], with SNORM to
+// [-1, 1]. An unsigned float may lose what is negative wherever it is rounded.
 //
 // Logical operations (ref/color/logic.hpp) take the place of blending.
 #pragma once

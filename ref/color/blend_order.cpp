@@ -21,6 +21,8 @@ Interval held(const Component& component, const Interval& v) {
     if (component.kind() == ComponentKind::binary32) {
         out.low = out.low > 0 && out.low < kNormal ? mpq_class(0) : out.low;
         out.high = out.high < 0 && out.high > -kNormal ? mpq_class(0) : out.high;
+    } else if (component.is_unsigned_float() && out.low < 0 && !Component::is_anything(out)) {
+        out.high = std::max(out.high, mpq_class(0));
     }
     return out;
 }
@@ -107,13 +109,11 @@ std::vector<Interval> with_one_product(Shared shared, BlendOp op, const mpq_clas
     return {plus(times(f, a - b), b), plus(times(g, b - a), a)};
 }
 
-// The unit of the last place of numbers of that magnitude, in binary16 or binary32.
+// The unit of the last place of numbers of that magnitude, in the format.
 mpq_class unit_of(const Component& component, const mpq_class& magnitude) {
-    const bool is_half = component.kind() == ComponentKind::half;
     int exponent = 0;
     std::frexp(magnitude.get_d() * (1 + 0x1p-40), &exponent);  // magnitude < 2^exponent
-    const int least = is_half ? -24 : -149;
-    return mpq_class(std::ldexp(1.0, std::max(exponent - (is_half ? 11 : 24), least)));
+    return mpq_class(component.least_step(std::ldexp(1.0, exponent - 1)));
 }
 
 // The largest magnitude in an interval.

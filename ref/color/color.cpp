@@ -30,10 +30,11 @@ color::Source point_source(const glm::vec4& value) {
 }
 
 // What a wrong colour breaks where nothing is blended or masked, in the order of ComponentKind.
-constexpr std::string_view kStoreRules[] = {cases::rule::store_unorm, cases::rule::store_srgb,
-                                            cases::rule::store_half, cases::rule::store_float,
+constexpr std::string_view kStoreRules[] = {cases::rule::store_unorm,   cases::rule::store_srgb,
+                                            cases::rule::store_half,    cases::rule::store_float,
+                                            cases::rule::store_integer, cases::rule::store_snorm,
                                             cases::rule::store_integer};
-static_assert(std::size(kStoreRules) == static_cast<size_t>(cases::ComponentKind::uint) + 1);
+static_assert(std::size(kStoreRules) == static_cast<size_t>(cases::ComponentKind::sint) + 1);
 
 }  // namespace
 

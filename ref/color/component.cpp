@@ -38,11 +38,20 @@ mpz_class ceil_of(const mpq_class& x, const mpz_class& times) {
 struct Floating {
     long fraction, least, most;
 };
-constexpr Floating kHalf = {10, -14, 15};
+constexpr Floating kHalf = {10, -14, 15}, kEleven = {6, -14, 15}, kTen = {5, -14, 15};
 constexpr Floating kBinary32 = {23, -126, 127};
 
-const Floating& floating_of(ComponentKind kind) {
-    return kind == ComponentKind::half ? kHalf : kBinary32;
+const Floating& floating_of(const cases::ComponentFormat& format) {
+    return format.kind != ComponentKind::half ? kBinary32
+           : format.bits == 16                ? kHalf
+           : format.bits == 11                ? kEleven
+                                              : kTen;
+}
+
+// The bits of the binary16 number that a `half` of so many bits is: a short one lacks the sign and
+// the last places.
+uint32_t bits_of_half(uint32_t code, uint32_t bits) {
+    return bits == 16 ? code : code << (15 - bits);
 }
 
 // The spacing of the format's numbers around x != 0.
@@ -61,9 +70,12 @@ const mpq_class& largest_of(const Floating& format) {
     static const auto make = [](const Floating& f) {
         return mpq_class(power_of_two(f.most + 1) - power_of_two(f.most - f.fraction));
     };
-    static const mpq_class half = make(kHalf);
+    static const mpq_class half = make(kHalf), eleven = make(kEleven), ten = make(kTen);
     static const mpq_class binary32 = make(kBinary32);
-    return format.fraction == kHalf.fraction ? half : binary32;
+    return &format == &kHalf     ? half
+           : &format == &kEleven ? eleven
+           : &format == &kTen    ? ten
+                                 : binary32;
 }
 
 mpq_class round_to(const Floating& format, const mpq_class& x, bool upwards) {
@@ -101,7 +113,7 @@ const std::vector<mpq_class>& srgb_values() {
 
 mpq_class value_of_floating(const Floating& format, uint32_t code, bool& is_number) {
     const uint32_t fraction_bits = static_cast<uint32_t>(format.fraction);
-    const uint32_t exponent_bits = fraction_bits == 10 ? 5 : 8;
+    const uint32_t exponent_bits = format.most == kHalf.most ? 5 : 8;
     const uint32_t fraction = code & ((1U << fraction_bits) - 1);
     const uint32_t exponent = code >> fraction_bits & ((1U << exponent_bits) - 1);
     const bool is_negative = (code >> (fraction_bits + exponent_bits) & 1U) != 0;
@@ -120,11 +132,13 @@ Interval point(const mpq_class& value) {
     return {value, value};
 }
 
-Interval clamped(const Interval& v) {
-    const auto clamp = [](const mpq_class& x) -> mpq_class {
-        return x < 0 ? mpq_class(0) : x > 1 ? mpq_class(1) : x;
-    };
-    return {clamp(v.low), clamp(v.high)};
+Interval Component::clamped(const Interval& v) const {
+    const mpq_class least = format_.kind == ComponentKind::snorm ? -1 : 0, most = 1;
+    return is_fixed_point()
+               ? Interval{std::clamp(v.low, least, most), std::clamp(v.high, least, most)}
+           : is_unsigned_float() && !is_anything(v)
+               ? Interval{std::max(v.low, least), std::max(v.high, least)}
+               : v;
 }
 
 const mpz_class& Component::units() const {
@@ -135,7 +149,11 @@ const mpz_class& Component::units() const {
         }
         return out;
     }();
-    return all.at(format_.bits);
+    return all.at(format_.bits - (is_signed(format_.kind) && format_.bits > 0 ? 1 : 0));
+}
+
+uint32_t Component::code_of_whole(const mpz_class& whole) const {
+    return static_cast<uint32_t>(whole.get_si()) & (UINT32_MAX >> (32 - format_.bits));
 }
 
 Interval Component::anything() {
@@ -149,20 +167,32 @@ bool Component::is_anything(const Interval& v) {
 }
 
 bool Component::may_be_infinite(const Interval& v) const {
-    if (format_.kind != ComponentKind::half && format_.kind != ComponentKind::binary32) {
+    if (!is_floating(format_.kind)) {
         return false;
     }
-    const mpq_class& largest = largest_of(floating_of(format_.kind));
+    const mpq_class& largest = largest_of(floating_of(format_));
     return v.high > largest || v.low < -largest;
 }
 
 bool Component::is_fixed_point() const {
-    return format_.kind == ComponentKind::unorm || format_.kind == ComponentKind::srgb;
+    return format_.kind == ComponentKind::unorm || format_.kind == ComponentKind::srgb ||
+           format_.kind == ComponentKind::snorm;
+}
+
+bool Component::is_unsigned_float() const {
+    return format_.kind == ComponentKind::half && format_.bits < 16;
+}
+
+double Component::least_step(double magnitude) const {
+    const Floating& format = floating_of(format_);
+    return std::ldexp(std::max(magnitude, std::ldexp(1, static_cast<int>(format.least))),
+                      static_cast<int>(-format.fraction));
 }
 
 mpq_class Component::neighbour(const mpq_class& x, bool upwards) const {
     switch (format_.kind) {
         case ComponentKind::unorm:
+        case ComponentKind::snorm:
             return fraction(upwards ? ceil_of(x, units()) : floor_of(x, units()), units());
         case ComponentKind::srgb: {
             // A value within kSrgbError of a code's is that code.
@@ -178,20 +208,18 @@ mpq_class Component::neighbour(const mpq_class& x, bool upwards) const {
         }
         case ComponentKind::half:
         case ComponentKind::binary32:
-            return round_to(floating_of(format_.kind), x, upwards);
+            return round_to(floating_of(format_), x, upwards);
         case ComponentKind::uint:
+        case ComponentKind::sint:
             break;
     }
     return x;
 }
 
 Interval Component::stored(const Interval& v, cases::Profile profile, bool is_blended) const {
-    if (!is_fixed_point()) {
-        return either(v);
-    }
     const Interval in = clamped(v);
-    if (format_.kind == ComponentKind::unorm && profile == cases::Profile::direct3d &&
-        !is_blended) {
+    if (is_fixed_point() && format_.kind != ComponentKind::srgb &&
+        profile == cases::Profile::direct3d && !is_blended) {
         const mpq_class slack(3, 5);  // of a unit on the integer side
         const mpq_class low = fraction(ceil_of(in.low * units() - slack), units());
         const mpq_class high = fraction(floor_of(in.high * units() + slack), units());
@@ -204,12 +232,16 @@ double Component::number(uint32_t code) const {
     switch (format_.kind) {
         case ComponentKind::unorm:
             return code / (std::ldexp(1.0, static_cast<int>(format_.bits)) - 1);
+        case ComponentKind::snorm:
+            return whole_of(code) / units().get_d();
         case ComponentKind::half:
-            return static_cast<double>(glm::unpackHalf1x16(static_cast<uint16_t>(code)));
+            return static_cast<double>(
+                glm::unpackHalf1x16(static_cast<uint16_t>(bits_of_half(code, format_.bits))));
         case ComponentKind::binary32:
             return static_cast<double>(std::bit_cast<float>(code));
         case ComponentKind::uint:
-            return code;
+        case ComponentKind::sint:
+            return whole_of(code);
         case ComponentKind::srgb:
             break;
     }
@@ -224,16 +256,20 @@ bool Component::value_of(uint32_t code, mpq_class& value) const {
         case ComponentKind::unorm:
             value = fraction(code, units());
             break;
+        case ComponentKind::snorm:
+            value = fraction(cases::signed_code(code, format_.bits), units());
+            break;
         case ComponentKind::srgb:
             is_number = code < 256;
             value = srgb_values()[is_number ? code : 0];
             break;
         case ComponentKind::half:
         case ComponentKind::binary32:
-            value = value_of_floating(floating_of(format_.kind), code, is_number);
+            value = value_of_floating(floating_of(format_), code, is_number);
             break;
         case ComponentKind::uint:
-            value = code;
+        case ComponentKind::sint:
+            value = whole_of(code);
             break;
     }
     return is_number;
@@ -247,15 +283,15 @@ bool Component::allows(uint32_t code, const Interval& stored) const {
     if (value_of(code, value)) {
         return value >= stored.low && value <= stored.high;
     }
-    const bool is_half = format_.kind == ComponentKind::half;
-    const mpq_class& largest = largest_of(floating_of(format_.kind));
-    return code == (is_half ? 0x7c00U : 0x7f800000U)   ? stored.high > largest
-           : code == (is_half ? 0xfc00U : 0xff800000U) ? stored.low < -largest
-                                                       : false;
+    const mpq_class& largest = largest_of(floating_of(format_));
+    const double infinity = number(code);
+    return std::isnan(infinity) ? false
+           : infinity > 0       ? stored.high > largest
+                                : stored.low < -largest;
 }
 
 bool Component::may_convert(const Interval& v, uint32_t code) const {
-    if (format_.kind == ComponentKind::uint) {
+    if (is_integer(format_.kind)) {
         const mpq_class largest(units());
         return allows(code, {std::min(v.low, largest), std::min(v.high, largest)});
     }
@@ -271,36 +307,42 @@ Interval Component::read(uint32_t code) const {
     }
     mpq_class value;
     value_of(code, value);
-    return point(value);
+    return clamped(point(value));
 }
 
 uint32_t Component::code_of(const mpq_class& value) const {
     switch (format_.kind) {
         case ComponentKind::unorm:
+        case ComponentKind::snorm:
         case ComponentKind::srgb: {
+            const bool is_least = format_.kind == ComponentKind::snorm && value < -1;
             const mpq_class v = clamped(point(value)).low;
-            const mpq_class code = format_.kind == ComponentKind::unorm
-                                       ? mpq_class(v * units())
-                                       : mpq_class(code_of_linear(v.get_d()));
-            return static_cast<uint32_t>(floor_of(mpq_class(code + mpq_class(1, 2))).get_ui());
+            const mpq_class code =
+                is_least ? mpq_class(std::max<mpq_class>(value * units(), -units() - 1))
+                : format_.kind != ComponentKind::srgb ? mpq_class(v * units())
+                                                      : mpq_class(code_of_linear(v.get_d()));
+            return code_of_whole(floor_of(mpq_class(code + mpq_class(1, 2))));
         }
         case ComponentKind::half:
         case ComponentKind::binary32: {
             const bool is_half = format_.kind == ComponentKind::half;
-            const mpq_class& largest = largest_of(floating_of(format_.kind));
-            const mpq_class v = std::clamp(value, mpq_class(-largest), largest);
+            const mpq_class& largest = largest_of(floating_of(format_));
+            const mpq_class v = std::clamp(clamped(point(value)).low, mpq_class(-largest), largest);
             const Interval neighbours = either(point(v));
             const bool is_up = neighbours.high - v <= v - neighbours.low;
             // A number of the format: the conversions are exact.
             const auto nearest =
                 static_cast<float>((is_up ? neighbours.high : neighbours.low).get_d());
-            return is_half ? glm::packHalf1x16(nearest) : std::bit_cast<uint32_t>(nearest);
+            return is_half
+                       ? glm::packHalf1x16(nearest) >> (format_.bits < 16 ? 15 - format_.bits : 0)
+                       : std::bit_cast<uint32_t>(nearest);
         }
         case ComponentKind::uint:
+        case ComponentKind::sint:
             break;
     }
     const mpq_class whole = std::min(value, mpq_class(units()));
-    return static_cast<uint32_t>(floor_of(mpq_class(whole + mpq_class(1, 2))).get_ui());
+    return code_of_whole(floor_of(mpq_class(whole + mpq_class(1, 2))));
 }
 
 mpq_class Component::step() const {
@@ -314,6 +356,7 @@ std::string Component::text_of(const Interval& v) const {
     const auto text = [&](const mpq_class& x) -> std::string {
         switch (format_.kind) {
             case ComponentKind::unorm:
+            case ComponentKind::snorm:
                 return mpz_class(floor_of(x * units())).get_str();
             case ComponentKind::srgb: {
                 const auto& values = srgb_values();
@@ -321,6 +364,7 @@ std::string Component::text_of(const Interval& v) const {
                                       values.begin());
             }
             case ComponentKind::uint:
+            case ComponentKind::sint:
                 return mpz_class(ref::floor_of(x)).get_str();
             case ComponentKind::half:
             case ComponentKind::binary32:

@@ -46,18 +46,22 @@ std::optional<bool> may_store(const Component& component, double low, double hig
         return true;
     }
     switch (component.kind()) {
-        case ComponentKind::unorm: {
+        case ComponentKind::unorm:
+        case ComponentKind::snorm: {
             // The code c may be stored if floor(units low) <= c <= ceil(units high), that is
             // units low < c + 1 and units high > c - 1; with a slack of 3/5 of a unit if
             // 5 units low <= 5 c + 3 and 5 units high >= 5 c - 3.
             const bool has_slack = profile == cases::Profile::direct3d;
             const double times = has_slack ? 5 : 1;
             const double slack = has_slack ? 3 : 1;
-            const double scale = times * (std::ldexp(1.0, static_cast<int>(component.bits())) - 1);
-            const double least = std::clamp(low, 0.0, 1.0) * scale;
-            const double most = std::clamp(high, 0.0, 1.0) * scale;
-            const double above = times * code + slack;
-            const double below = times * code - slack;
+            const bool is_signed = component.kind() == ComponentKind::snorm;
+            const auto bits = static_cast<int>(component.bits());
+            const double whole = component.whole_of(code);
+            const double scale = times * (std::ldexp(1.0, is_signed ? bits - 1 : bits) - 1);
+            const double least = std::clamp(low, is_signed ? -1.0 : 0.0, 1.0) * scale;
+            const double most = std::clamp(high, is_signed ? -1.0 : 0.0, 1.0) * scale;
+            const double above = times * whole + slack;
+            const double below = times * whole - slack;
             if (least < above && most > below) {
                 return true;
             }
@@ -67,6 +71,9 @@ std::optional<bool> may_store(const Component& component, double low, double hig
             return std::nullopt;
         }
         case ComponentKind::half:
+            if (component.bits() < 16) {
+                return std::nullopt;
+            }
             if ((code & 0x7c00U) == 0x7c00U) {
                 return code == 0x7c00U   ? high > half_of(0x7bffU)
                        : code == 0xfc00U ? low < half_of(0xfbffU)
@@ -83,6 +90,8 @@ std::optional<bool> may_store(const Component& component, double low, double hig
         }
         case ComponentKind::uint:
             return low <= code && high >= code;
+        case ComponentKind::sint:
+            return low <= component.whole_of(code) && high >= component.whole_of(code);
         case ComponentKind::srgb:
             break;
     }

@@ -11,7 +11,7 @@ using cases::LogicOp;
 
 bool takes_logic(cases::ColorFormat format) {
     const cases::ComponentKind kind = row_of(format).kind;
-    return kind == cases::ComponentKind::unorm || kind == cases::ComponentKind::uint;
+    return kind != cases::ComponentKind::srgb && !is_floating(kind);
 }
 
 uint32_t operated(LogicOp op, uint32_t source, uint32_t before, uint32_t bits) {
@@ -30,23 +30,32 @@ Interval operated(LogicOp op, const Component& component, const Interval& source
                   const Interval& before) {
     constexpr uint64_t kMostPairs = 1U << 12;
     const uint32_t bits = component.bits();
-    const uint32_t first = component.code_of(source.low), last = component.code_of(source.high);
-    const uint32_t from = component.code_of(before.low), to = component.code_of(before.high);
-    uint32_t low = 0, high = operated(LogicOp::set, 0, 0, bits);
-    if ((uint64_t{last} - first + 1) * (uint64_t{to} - from + 1) <= kMostPairs) {
+    const bool is_signed = cases::is_signed(component.kind());
+    const auto whole_of = [&](uint32_t code) {
+        return static_cast<int64_t>(component.whole_of(code));
+    };
+    const auto whole_at = [&](const mpq_class& value) {
+        return whole_of(component.code_of(value));
+    };
+    const int64_t first = whole_at(source.low), last = whole_at(source.high);
+    const int64_t from = whole_at(before.low), to = whole_at(before.high);
+    int64_t low = is_signed ? -(int64_t{1} << (bits - 1)) : 0;
+    int64_t high = low + (int64_t{1} << bits) - 1;
+    if (static_cast<uint64_t>(last - first + 1) * static_cast<uint64_t>(to - from + 1) <=
+        kMostPairs) {
         std::swap(low, high);
-        for (uint64_t s = first; s <= last; ++s) {
-            for (uint64_t d = from; d <= to; ++d) {
-                const uint32_t code =
-                    operated(op, static_cast<uint32_t>(s), static_cast<uint32_t>(d), bits);
-                low = std::min(low, code);
-                high = std::max(high, code);
+        for (int64_t s = first; s <= last; ++s) {
+            for (int64_t d = from; d <= to; ++d) {
+                const int64_t whole = whole_of(
+                    operated(op, static_cast<uint32_t>(s), static_cast<uint32_t>(d), bits));
+                low = std::min(low, whole);
+                high = std::max(high, whole);
             }
         }
     }
     Interval out;
-    component.value_of(low, out.low);
-    component.value_of(high, out.high);
+    component.value_of(static_cast<uint32_t>(low), out.low);
+    component.value_of(static_cast<uint32_t>(high), out.high);
     return out;
 }
 

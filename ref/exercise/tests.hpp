@@ -40,10 +40,10 @@ bool is_provoked_by(const View& view, std::string_view) {
                               [](const cases::Draw& draw) { return draw.provoking == convention; });
 }
 
-template <cases::ComponentKind kind>
+template <cases::ComponentKind... kinds>
 bool is_stored_as(const View& view, std::string_view) {
     const std::optional<cases::ColorTarget>& color = view.of().target.color;
-    return color && cases::row_of(color->format).kind == kind &&
+    return color && ((cases::row_of(color->format).kind == kinds) || ...) &&
            is_written_by(view, [](uint32_t) { return true; });
 }
 

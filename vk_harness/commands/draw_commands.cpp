@@ -49,7 +49,7 @@ std::vector<VkRect2D> scissors_of(const cases::Draw& draw, const cases::Case& te
 // The bits of what a fragment writes to a target of this format.
 void write_bits(cases::ColorFormat format, const glm::vec4& value, uint32_t (&to)[4]) {
     for (int k = 0; k < 4; ++k) {
-        to[k] = cases::is_integer(format) ? static_cast<uint32_t>(value[k])
+        to[k] = cases::is_integer(format) ? static_cast<uint32_t>(static_cast<int32_t>(value[k]))
                                           : std::bit_cast<uint32_t>(value[k]);
     }
 }

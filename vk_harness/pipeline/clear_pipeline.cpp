@@ -4,20 +4,14 @@
 
 #include <algorithm>
 
-#include "cases/format/color_format.hpp"
 #include "cases/model/sample.hpp"
 #include "shaders/shaders.hpp"
+#include "vk_harness/pipeline/pipeline_key.hpp"
 #include "vk_harness/pipeline/pipeline_state.hpp"
 
 namespace vk_harness {
 
 namespace {
-
-bool is_integer_format(VkFormat format) {
-    return std::ranges::any_of(cases::kColorFormats, [format](const cases::ColorFormatRow& row) {
-        return row.vulkan == uint32_t{format} && cases::is_integer(row.format);
-    });
-}
 
 constexpr VkStencilOpState kReplace = {VK_STENCIL_OP_REPLACE,
                                        VK_STENCIL_OP_REPLACE,
@@ -52,7 +46,7 @@ std::vector<ClearKey> clear_keys(const cases::Target& target,
     for (uint32_t k = 0; k < key.colors.size(); ++k) {
         keys.push_back(key);
         keys.back().location = k;
-        keys.back().is_integer = is_integer_format(key.colors[k]);
+        keys.back().output = output_of(key.colors[k]);
     }
     if (key.has_depth || key.has_stencil) {
         keys.push_back(key);
@@ -69,8 +63,8 @@ VkClearValue other_clear(const Attachment& attachment) {
     }
     const auto& own = attachment.clear.color.uint32;
     const bool has_zero = std::find(std::begin(own), std::end(own), 0U) != std::end(own);
-    if (has_zero && is_integer_format(attachment.format)) {
-        std::fill(std::begin(out.color.uint32), std::end(out.color.uint32), 0x5aU);
+    if (has_zero && output_of(attachment.format) != shaders::Output::number) {
+        std::fill(std::begin(out.color.uint32), std::end(out.color.uint32), 1U);
     } else if (has_zero) {
         std::fill(std::begin(out.color.float32), std::end(out.color.float32), 0.8125F);
     }
@@ -81,7 +75,7 @@ Handle<VkPipeline> make_clear(PipelineBase& base, const ClearKey& key) {
     const bool is_depth = !key.location;
     const VkShaderModule vertex = base.shader_module(shaders::clear_vertex());
     const VkShaderModule fragment = base.shader_module(
-        is_depth ? shaders::clear_depth() : shaders::clear_color(*key.location, key.is_integer));
+        is_depth ? shaders::clear_depth() : shaders::clear_color(*key.location, key.output));
     const std::array<VkPipelineShaderStageCreateInfo, 2> stages = {
         stage_info(VK_SHADER_STAGE_VERTEX_BIT, vertex),
         stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, fragment)};

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cases/model/case.hpp"
+#include "shaders/shaders.hpp"
 #include "vk_harness/pipeline/pipeline_base.hpp"
 #include "vk_harness/target/attachments.hpp"
 
@@ -20,7 +21,7 @@ namespace vk_harness {
 struct ClearKey {
     std::vector<VkFormat> colors;      // of the rendering, by location
     std::optional<uint32_t> location;  // of the colour that is written; nothing: depth and stencil
-    bool is_integer = false;           // that colour
+    shaders::Output output = shaders::Output::number;  // to that colour
     VkFormat depth_format = VK_FORMAT_UNDEFINED, stencil_format = VK_FORMAT_UNDEFINED;
     bool has_depth = false, has_stencil = false;
     uint32_t samples = 1;

@@ -30,7 +30,7 @@ PipelineKey without_outputs(PipelineKey key) {
     for (ColorKey& color : key.colors) {
         ColorKey bare;
         bare.format = color.format;
-        bare.is_integer = color.is_integer;
+        bare.output = color.output;
         bare.attribute = color.attribute;
         color = bare;
     }

@@ -56,7 +56,7 @@ StageWay stage_way(cases::Door door) {
 ColorKey color_key(const cases::ColorTarget& target, const cases::ColorOutput& output) {
     ColorKey key;
     key.format = to_vulkan(target.format);
-    key.is_integer = cases::is_integer(target.format);
+    key.output = output_of(key.format);
     key.write_mask = output.write_mask;
     if (output.blend) {
         key.blends = true;
@@ -112,6 +112,15 @@ void switch_on_unused(PipelineKey& key) {
 }
 
 }  // namespace
+
+shaders::Output output_of(VkFormat format) {
+    const auto* row =
+        std::ranges::find(cases::kColorFormats, uint32_t{format}, &cases::ColorFormatRow::vulkan);
+    return row == cases::kColorFormats.end() || !cases::is_integer(row->kind)
+               ? shaders::Output::number
+           : cases::is_signed(row->kind) ? shaders::Output::signed_whole
+                                         : shaders::Output::whole;
+}
 
 PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw,
                          const TargetLayout& layout) {
@@ -223,12 +232,12 @@ shaders::VertexVariant geometry_variant(const PipelineKey& key) {
 
 shaders::OutputChange output_change(const PipelineKey& key) {
     shaders::OutputChange out;
-    if (key.color != shaders::ColorKind::several) {
+    if (key.color != shaders::ColorKind::several && key.color != shaders::ColorKind::integer) {
         return out;
     }
     out.first_location = first_color(key);
     for (const ColorKey& color : key.colors) {
-        out.integers.push_back(color.is_integer);
+        out.kept.push_back(color.output);
     }
     return out;
 }

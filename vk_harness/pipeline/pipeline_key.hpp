@@ -31,10 +31,13 @@ struct AttributeKey {
     friend auto operator<=>(const AttributeKey&, const AttributeKey&) = default;
 };
 
+// What a shader writes to an attachment of this format; numbers to all that no row has.
+shaders::Output output_of(VkFormat format);
+
 // A colour target and how it is written.
 struct ColorKey {
     VkFormat format = VK_FORMAT_UNDEFINED;
-    bool is_integer = false;
+    shaders::Output output = shaders::Output::number;
     bool blends = false;
     std::array<uint8_t, 6> equation{};  // source, destination, op of colour, then of alpha
     uint8_t write_mask = 0xf;

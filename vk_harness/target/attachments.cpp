@@ -36,7 +36,7 @@ Attachment color_attachment(const cases::ColorTarget& target) {
     out.sample_bytes = std::max(out.texel_bytes, 4U);
     if (is_integer(target.format)) {
         for (int k = 0; k < 4; ++k) {
-            out.clear.color.uint32[k] = static_cast<uint32_t>(target.clear[k]);
+            out.clear.color.int32[k] = static_cast<int32_t>(target.clear[k]);
         }
     } else {
         out.clear = clear_color(target.clear.x, target.clear.y, target.clear.z, target.clear.w);
@@ -53,7 +53,7 @@ void append_resolved(const cases::Target& target, std::vector<Attachment>& out) 
         Attachment a = color_attachment(*target.color);
         a.role = Role::resolved_color;
         if (is_integer(target.color->format)) {
-            a.clear.color.uint32[0] ^= 0x5aU;
+            a.clear.color.uint32[0] ^= 1U;
         } else {
             a.clear = clear_all(kNeverResolved);
         }
@@ -70,14 +70,16 @@ void append_resolved(const cases::Target& target, std::vector<Attachment>& out) 
 }
 
 // Whether the bits of a texel follow from what a shader reads of it: not of sRGB, of which it gets
-// another number, nor of binary16, whose denormal numbers it may lose, nor of D24, where c / (2^24
+// another number, nor of SNORM, which has two codes of -1, nor of halves, whose denormal numbers it
+// may lose, nor of D24, where c / (2^24
 // - 1) in binary32 may be more than half a code off: c times the rounded reciprocal 2^-24 (1 +
 // 2^-23), as lavapipe computes it, makes 0.37500006 of code 6291456, whose successor is 0.37500008.
 // A code of up to 16 bits is found again: what is read is within a few 2^-24 of code / largest, and
 // half a code is 2^-17 or more. What is not looked at and what is resolved is copied, too.
 bool can_be_input(const cases::Target& target, const Attachment& a) {
-    const auto is_code_or_binary32 = [](cases::ComponentKind kind) {
-        return kind != cases::ComponentKind::srgb && kind != cases::ComponentKind::half;
+    using Kind = cases::ComponentKind;
+    const auto is_code_or_binary32 = [](Kind kind) {
+        return kind == Kind::unorm || kind == Kind::binary32 || kind == Kind::uint;
     };
     const bool is_wide_depth =
         a.role == Role::depth && target.depth_format == cases::DepthFormat::d24_unorm;

@@ -12,7 +12,7 @@
 
 // A texture that holds exactly these codes, red first.
 inline GLuint texture_of_codes(const Json& source) {
-    const ColorFormat& format = color_format_of(source["format"]);
+    const ColorFormat& format = *color_format_of(source["format"]);
     std::vector<GLfloat> floats;
     std::vector<GLushort> halves;
     std::vector<GLuint> wholes;

@@ -66,6 +66,11 @@ inline std::string refusal(const Context& gl, const Json& c) {
         return "the driver has at most " + std::to_string(Context::number(GL_MAX_SAMPLES)) +
                " samples a pixel";
     }
+    const Json& blit = c["blit"];
+    if ((!target["color"].is_null() && color_format(target) == nullptr) ||
+        (!blit.is_null() && color_format_of(blit["source"]["format"]) == nullptr)) {
+        return "this program does not know the colour format";
+    }
     if (depth_format(target) == 0 && !target["depth"].is_null()) {
         return "OpenGL has no 16-bit depth beside a stencil";
     }

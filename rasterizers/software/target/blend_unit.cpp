@@ -12,8 +12,8 @@ namespace software {
 
 namespace {
 
-float clamp_to_unit(float v) {
-    return v > 0 ? v < 1 ? v : 1.0F : 0.0F;
+float clamp_to_unit(float v, float least = 0) {
+    return v > least ? v < 1 ? v : 1.0F : least;
 }
 
 std::array<float, 4> to_array(const glm::vec4& v) {
@@ -30,8 +30,8 @@ BlendUnit::BlendUnit(cases::ColorFormat format, const Device& device)
 }
 
 bool BlendUnit::is_fixed() const {
-    return layout_.channels[0].number == Number::unorm ||
-           layout_.channels[0].number == Number::srgb;
+    const Number number = layout_.channels[0].number;
+    return number == Number::unorm || number == Number::srgb || number == Number::snorm;
 }
 
 Texel BlendUnit::cleared(const glm::vec4& color) const {
@@ -110,7 +110,7 @@ std::array<uint32_t, 4> BlendUnit::blend_fixed(const cases::Blend& blend,
 
 glm::vec4 BlendUnit::replaced(const cases::ColorOutput& output, const glm::vec4& written) const {
     const Number number = layout_.channels[0].number;
-    const bool is_on = output.alpha_to_one && (number != Number::uint ||
+    const bool is_on = output.alpha_to_one && (!cases::is_integer(number) ||
                                                device_.fault == "alpha-to-one-of-integers"_fault);
     const bool is_lost = device_.fault == "alpha-to-one-ignored"_fault ||
                          device_.fault == "alpha-to-one-stored"_fault ||
@@ -121,7 +121,7 @@ glm::vec4 BlendUnit::replaced(const cases::ColorOutput& output, const glm::vec4&
     if (device_.fault == "alpha-to-one-everywhere"_fault) {
         return glm::vec4(1);
     }
-    const float most = number == Number::uint ? 255.0F : 1.0F;
+    const float most = cases::is_integer(number) ? 255.0F : 1.0F;
     return {written.x, written.y, written.z, most};
 }
 
@@ -142,7 +142,8 @@ Texel BlendUnit::write(const cases::ColorOutput& output, const glm::vec4& writte
                            : 0;
         }
     } else if (is_eight_bits && device_.blend != BlendMath::binary32 &&
-               device_.blend != BlendMath::one_product) {
+               device_.blend != BlendMath::one_product &&
+               device_.fault != "a8b8g8r8-blended-with-zero"_fault) {
         std::array<uint32_t, 4> s{}, d{};
         for (size_t k = 0; k < 4; ++k) {
             s[k] = store_channel(source_of_blending(source[static_cast<int>(k)]), channels[k],
@@ -160,6 +161,7 @@ Texel BlendUnit::write(const cases::ColorOutput& output, const glm::vec4& writte
     } else {
         glm::vec4 s = source;
         glm::vec4 d(0, 0, 0, 1);
+        const float least = channels[0].number == Number::snorm ? -1.0F : 0.0F;
         cases::Blend clamped =
             device_.blend == BlendMath::one_product
                 ? with_known_factors(*equation, output.alpha_to_one, channels[3].bits == 0)
@@ -170,16 +172,19 @@ Texel BlendUnit::write(const cases::ColorOutput& output, const glm::vec4& writte
         for (int k = 0; k < 4; ++k) {
             const auto n = static_cast<size_t>(k);
             if (is_fixed() && device_.fault != "blend-source-unclamped"_fault) {
-                s[k] = clamp_to_unit(s[k]);
-                clamped.constants[k] = clamp_to_unit(clamped.constants[k]);
+                s[k] = clamp_to_unit(s[k], least);
+                clamped.constants[k] = clamp_to_unit(clamped.constants[k], least);
             }
             if (is_fixed() && device_.fault != "second-unclamped"_fault) {
-                clamped.second[k] = clamp_to_unit(clamped.second[k]);
+                clamped.second[k] = clamp_to_unit(clamped.second[k], least);
             }
             if (device_.fault == "blend-floats-clamped"_fault && !is_fixed()) {
                 s[k] = clamp_to_unit(s[k]);
             }
-            if (channels[n].bits != 0) {
+            if (device_.fault == "a8b8g8r8-blended-with-zero"_fault &&
+                cases::name_of(format_).starts_with("a8b8g8r8")) {
+                d[k] = 0;
+            } else if (channels[n].bits != 0) {
                 d[k] = load_channel(before[layout_.position[n]], channels[n], device_);
             }
         }

@@ -29,6 +29,8 @@ bool has_logic(const FormatLayout& layout, size_t k, Fault fault) {
     switch (layout.channels[0].number) {  // alpha of an sRGB format is UNORM itself
         case Number::unorm:
         case Number::uint:
+        case Number::snorm:
+        case Number::sint:
             return true;
         case Number::srgb:
             return fault == "logic-on-srgb"_fault;

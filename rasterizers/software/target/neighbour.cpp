@@ -14,7 +14,7 @@ namespace {
 
 bool is_fixed(cases::ColorFormat format) {
     const Number number = layout_of(format).channels[0].number;
-    return number == Number::unorm || number == Number::srgb;
+    return number == Number::unorm || number == Number::srgb || number == Number::snorm;
 }
 
 template <class Is>
@@ -70,7 +70,7 @@ cases::ColorOutput output_beside(const cases::Case& c, const cases::Draw& draw,
             }
             break;
         case "targets-unblended-beside-integers"_fault:
-            if (any_other(target, cases::is_integer)) {
+            if (any_other(target, [](cases::ColorFormat f) { return is_integer(f); })) {
                 output.blend.reset();
             }
             break;

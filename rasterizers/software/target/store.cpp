@@ -79,6 +79,35 @@ FormatLayout layout_of(cases::ColorFormat format) {
     return out;
 }
 
+namespace {
+
+// The sign and the code of the magnitude make a code of two's complement.
+uint32_t to_snorm(float v, uint32_t bits, const Device& device) {
+    const bool is_negative = v < 0 && device.fault != "snorm-unsigned"_fault;
+    const uint32_t code = to_code(is_negative ? -v : v, bits - 1, device);
+    return (is_negative ? ~code + 1 : code) & ((1U << bits) - 1);
+}
+
+uint32_t to_whole(float v, Channel channel, const Device& device) {
+    const bool is_signed =
+        cases::is_signed(channel.number) && device.fault != "integer-unsigned"_fault;
+    const int64_t code = static_cast<int64_t>(is_signed || v > 0 ? v : 0.0F);
+    const uint32_t bits = device.fault == "integer-8-bits"_fault ? 8U : channel.bits;
+    return static_cast<uint32_t>(code) & (UINT32_MAX >> (32 - bits));
+}
+
+// A half of 11 or 10 bits: a binary16 number without its sign and last places.
+uint32_t to_short_half(float v, uint32_t bits, const Device& device) {
+    const bool is_lost = v < 0 && device.fault != "short-float-magnitude"_fault;
+    const uint32_t dropped = 15 - bits;
+    const uint32_t half = is_lost ? 0U : to_half(v, device) & 0x7fffU;
+    const bool is_up =
+        (half >> (dropped - 1) & 1U) != 0 && !device.half_toward_zero && half < 0x7c00U;
+    return std::isnan(v) ? UINT32_MAX >> (32 - bits) : (half >> dropped) + (is_up ? 1 : 0);
+}
+
+}  // namespace
+
 uint32_t store_channel(float v, Channel channel, const Device& device) {
     if (channel.number == Number::half || channel.number == Number::binary32) {
         if (device.fault == "float-store-clamped"_fault) {
@@ -102,16 +131,17 @@ uint32_t store_channel(float v, Channel channel, const Device& device) {
             }
             return to_code(encode_srgb(to_unit(v)), channel.bits, device);
         case Number::half:
-            return to_half(v, device);
+            return channel.bits < 16 ? to_short_half(v, channel.bits, device) : to_half(v, device);
         case Number::binary32:
             return std::bit_cast<uint32_t>(
                 device.fault == "float-store-half"_fault ? from_half(to_half(v, device)) : v);
+        case Number::snorm:
+            return to_snorm(v, channel.bits, device);
         case Number::uint:
+        case Number::sint:
             break;
     }
-    const uint32_t code = v > 0 ? static_cast<uint32_t>(v) : 0U;
-    const bool is_narrow = channel.bits == 8 || device.fault == "integer-8-bits"_fault;
-    return is_narrow ? code & 0xffU : code;
+    return to_whole(v, channel, device);
 }
 
 float load_channel(uint32_t code, Channel channel, const Device& device) {
@@ -123,9 +153,16 @@ float load_channel(uint32_t code, Channel channel, const Device& device) {
             return device.fault == "srgb-not-decoded"_fault ? encoded : decode_srgb(encoded);
         }
         case Number::half:
-            return from_half(static_cast<uint16_t>(code));
+            return from_half(
+                static_cast<uint16_t>(channel.bits < 16 ? code << (15 - channel.bits) : code));
         case Number::binary32:
             return std::bit_cast<float>(code);
+        case Number::snorm:
+            return std::fmax(static_cast<float>(cases::signed_code(code, channel.bits)) /
+                                 steps_of(channel.bits - 1),
+                             -1.0F);
+        case Number::sint:
+            return static_cast<float>(cases::signed_code(code, channel.bits));
         case Number::uint:
             break;
     }

@@ -30,7 +30,7 @@ FormatLayout layout_of(cases::ColorFormat format);
 // The codes of a texel in the order of memory.
 using Texel = std::array<uint32_t, 4>;
 
-// The code of a number. UNORM and sRGB: clamped to [0, 1], NaN is 0.
+// The code of a number. UNORM and sRGB: clamped to [0, 1], SNORM to [-1, 1], NaN is 0.
 uint32_t store_channel(float v, Channel channel, const Device& device);
 // What a code means.
 float load_channel(uint32_t code, Channel channel, const Device& device);

@@ -16,6 +16,9 @@ TEST(EncodeTexels, AreReadBackAsTheSameCodesInEveryFormat) {
     for (uint32_t f = 0; f <= static_cast<uint32_t>(cases::kLastColorFormat); ++f) {
         cases::Blit blit;
         blit.source_format = static_cast<cases::ColorFormat>(f);
+        if (!cases::can_be_blitted(blit.source_format)) {
+            continue;
+        }
         blit.source_width = 7;
         blit.source_height = 5;
         const std::vector<cases::TexelCodes> texels = cases::blit_source(blit);

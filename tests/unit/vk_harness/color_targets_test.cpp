@@ -75,9 +75,17 @@ TEST(ColorTargets, HaveStatesOfTheirOwn) {
     EXPECT_THAT(dynamic.write_masks, ElementsAre(0xfU, 1U, 0U));
     EXPECT_EQ(dynamic.equations[0].srcColorBlendFactor, VK_BLEND_FACTOR_CONSTANT_COLOR);
     const PipelineKey bare = without_outputs(key);
-    EXPECT_EQ(output_change(bare).integers, output_change(key).integers);
+    EXPECT_EQ(output_change(bare).kept, output_change(key).kept);
     EXPECT_FALSE(bare.colors[0].blends);
     EXPECT_EQ(bare.colors[2].write_mask, 0xf);
+}
+
+TEST(ColorTargets, GetWhatIsOfTheirFormatsClass) {
+    using shaders::Output;
+    EXPECT_EQ(output_of(VK_FORMAT_R8_SNORM), Output::number);
+    EXPECT_EQ(output_of(VK_FORMAT_A2B10G10R10_UINT_PACK32), Output::whole);
+    EXPECT_EQ(output_of(VK_FORMAT_R16G16_SINT), Output::signed_whole);
+    EXPECT_EQ(output_of(kTwoNumbers), Output::number);
 }
 
 TEST(ColorTargets, TakeTheInputsThatTheyName) {

@@ -34,10 +34,10 @@ std::map<uint32_t, std::string> names_in_header() {
 }
 
 // "Format Definition": components of whole bytes are named in the order of memory, those of a
-// packed word from its highest bit down.
+// packed word from its highest bit down. Of four bytes in this order there is a packed word, too.
 std::string name_from(const cases::ColorFormatRow& row) {
     std::vector<uint32_t> present;
-    bool is_packed = false;
+    bool is_packed = row.word.starts_with("a8b8g8r8");
     for (uint32_t k = 0; k < 4; ++k) {
         if (row.bits[k] != 0) {
             present.push_back(k);
@@ -59,9 +59,15 @@ std::string name_from(const cases::ColorFormatRow& row) {
         case cases::ComponentKind::srgb:
             name += "_SRGB";
             break;
+        case cases::ComponentKind::snorm:
+            name += "_SNORM";
+            break;
+        case cases::ComponentKind::sint:
+            name += "_SINT";
+            break;
         case cases::ComponentKind::half:
         case cases::ComponentKind::binary32:
-            name += "_SFLOAT";
+            name += is_packed ? "_UFLOAT" : "_SFLOAT";
             break;
         case cases::ComponentKind::uint:
             name += "_UINT";
@@ -100,6 +106,7 @@ TEST(Formats, ComponentsFillATexelWithoutOverlap) {
 }
 
 TEST(Formats, BitsAreReadThroughAFormatOfTheSameSize) {
+    EXPECT_EQ(bits_format(VK_FORMAT_R8_SNORM), VK_FORMAT_R8_UINT);
     EXPECT_EQ(bits_format(to_vulkan(cases::ColorFormat::r5g6b5_unorm)), VK_FORMAT_R16_UINT);
     EXPECT_EQ(bits_format(to_vulkan(cases::ColorFormat::rgba8_srgb)), VK_FORMAT_R32_UINT);
     EXPECT_EQ(bits_format(to_vulkan(cases::ColorFormat::rgba16_float)), VK_FORMAT_R32G32_UINT);

@@ -300,36 +300,40 @@ TEST(SpirvVariant, EveryOtherEndingIsValid) {
     }
 }
 
-// Of two colours from location 4 on, at 4 to 7, the first keeps its integers and the second its
-// numbers; 8 and 9, 5 and 6 are outputs of others.
+// Of two colours from location 4 on, at 4 to 9, the first keeps its integers and the second its
+// signed ones; that at 3 is an output of another.
 TEST(SpirvVariant, OutputsThatAreLeftOutBecomePrivate) {
     constexpr uint32_t kEntry = 15, kPointer = 32, kPrivate = 6;
     const Words name = {0x6e69616d, 0};  // "main"
     Assembler a;
-    a.add(kCapability, {1}).add(kEntry, {4, 1, name[0], name[1], 5, 6, 7, 8, 9});
-    for (uint32_t k = 0; k < 5; ++k) {
+    a.add(kCapability, {1}).add(kEntry, {4, 1, name[0], name[1], 5, 6, 7, 8, 9, 10, 11});
+    for (uint32_t k = 0; k < 7; ++k) {
         a.add(kDecorate, {5 + k, 30, 3 + k});
     }
     a.add(kPointer, {3, kOutput, 2});
-    for (uint32_t k = 0; k < 5; ++k) {
+    for (uint32_t k = 0; k < 7; ++k) {
         a.add(kVariable, {3, 5 + k, kOutput});
     }
-    const auto made = shaders::with_outputs(a.words(), {4, {true, false}});
+    using enum shaders::Output;
+    Words module = a.words();
+    module[3] = 12;
+    const auto made = shaders::with_outputs(module, {4, {whole, signed_whole}});
     ASSERT_TRUE(made) << made.error();
     Assembler want;
-    want.add(kCapability, {1}).add(kEntry, {4, 1, name[0], name[1], 5, 7, 8});
-    want.add(kDecorate, {5, 30, 3}).add(kDecorate, {7, 30, 4}).add(kDecorate, {8, 30, 5});
+    want.add(kCapability, {1}).add(kEntry, {4, 1, name[0], name[1], 5, 7, 11});
+    want.add(kDecorate, {5, 30, 3}).add(kDecorate, {7, 30, 4}).add(kDecorate, {11, 30, 5});
     want.add(kPointer, {3, kOutput, 2}).add(kVariable, {3, 5, kOutput});
-    want.add(kPointer, {10, kPrivate, 2}).add(kVariable, {10, 6, kPrivate});
-    want.add(kVariable, {3, 7, kOutput}).add(kVariable, {3, 8, kOutput});
-    want.add(kVariable, {10, 9, kPrivate});
+    want.add(kPointer, {12, kPrivate, 2}).add(kVariable, {12, 6, kPrivate});
+    want.add(kVariable, {3, 7, kOutput}).add(kVariable, {12, 8, kPrivate});
+    want.add(kVariable, {12, 9, kPrivate}).add(kVariable, {12, 10, kPrivate});
+    want.add(kVariable, {3, 11, kOutput});
     Words words = want.words();
-    words[3] = 11;  // one id more
+    words[3] = 13;  // one id more
     EXPECT_EQ(*made, words);
     EXPECT_EQ(shaders::with_outputs(a.words(), {}).value(), a.words());
-    const auto missing = shaders::with_outputs(a.words(), {4, {true, true, true}});
+    const auto missing = shaders::with_outputs(a.words(), {4, {whole, whole, number}});
     ASSERT_FALSE(missing);
-    EXPECT_EQ(missing.error(), "no output of the module has location 9");
+    EXPECT_EQ(missing.error(), "no output of the module has location 10");
 }
 
 // Every choice of two to four outputs, with the instruments in both layouts and without.
@@ -342,10 +346,10 @@ TEST(SpirvVariant, EveryChoiceOfOutputsIsValid) {
             key.layout.split = split && instruments;
             key.color = shaders::ColorKind::several;
             for (uint32_t count = 2; count <= shaders::kMaxColors; ++count) {
-                for (uint32_t choice = 0; choice < 1U << count; ++choice) {
+                for (uint32_t choice = 0; choice < 3U * 3U * 3U * 3U; ++choice) {
                     key.colors.assign(count, {});
-                    for (uint32_t k = 0; k < count; ++k) {
-                        key.colors[k].is_integer = (choice >> k & 1U) != 0;
+                    for (uint32_t k = 0, rest = choice; k < count; ++k, rest /= 3) {
+                        key.colors[k].output = static_cast<shaders::Output>(rest % 3);
                     }
                     const auto code = shaders::capture_fragment(fragment_variant(key));
                     ASSERT_FALSE(code.empty());
