@@ -26,7 +26,7 @@ class Maker {
     // The next triangles of a bare list. `corners`: of a rectangle that may be filled.
     void add_plain_to(std::vector<Triangle>& all, const std::array<Position, 4>& corners) {
         const auto [a, b, c, d] = corners;
-        switch (dice_.below(8)) {
+        switch (dice_.below(9)) {
             case 0:  // one triangle over all of it
                 all.push_back({a, {2 * b.x - a.x, b.y}, {d.x, 2 * d.y - a.y}});
                 break;
@@ -45,6 +45,15 @@ class Maker {
                 const double x = steps(1) * finer, y = steps(1) * finer;
                 const double at = static_cast<double>(dice_.between(-2, 10)) / 8;
                 all.push_back({p, q, {p.x + (q.x - p.x) * at + x, p.y + (q.y - p.y) * at + y}});
+                break;
+            }
+            case 6: {  // a point, or a line along x, y or both
+                const Position p = anywhere(), q = anywhere(), r = anywhere();
+                const bool is_along_x = dice_.one_in(2), is_along_y = dice_.one_in(3);
+                const auto beside = [&](const Position& v) {
+                    return Position{is_along_x ? v.x : p.x, is_along_y ? v.y : p.y};
+                };
+                all.push_back({p, beside(q), beside(is_along_x && is_along_y ? q : r)});
                 break;
             }
             default:
