@@ -68,7 +68,7 @@ TEST(BarePoses, AThirdOfAllHasAWayAndAtMostTwoFeatures) {
         EXPECT_GT(by_count[count], 40U) << count;
     }
     EXPECT_EQ(ways.size(), cases::all_ways().size());
-    EXPECT_EQ(formats.size(), 3U);
+    EXPECT_EQ(formats.size(), 12U);
 }
 
 // Each is a case file, and nothing of a case is lost in it.
@@ -91,8 +91,8 @@ TEST(BarePoses, TheirCasesLoadAndAreWrittenAndLoadAgain) {
                                         c->target.has_depth ? "depth " : "",
                                         c->target.has_stencil ? "stencil " : ""));
             if (c->target.color) {
-                const std::string_view format = cases::name_of(c->target.color->format);
-                EXPECT_EQ(format.substr(1, 5), format.front() == 'b' ? "gra8-" : "gba8-");
+                EXPECT_FALSE(cases::is_integer(c->target.color->format));
+                EXPECT_LE(cases::bytes_of(c->target.color->format), 8U);
                 const cases::ColorOutput& color = c->draws.back().color;
                 sources.insert(color.attribute >= 0 ? "input"
                                                     : std::to_string(static_cast<int>(color.from)));
