@@ -34,6 +34,14 @@ double seconds_since(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
+// Whether judging a case may take minutes, for which all others of its chunk would wait.
+bool is_dear(const cases::Case& c) {
+    constexpr uint64_t kMostPairs = uint64_t{1} << 23U;  // of a sample and a triangle
+    return uint64_t{c.target.width} * c.target.rows() * c.target.samples *
+               cases::assemble(c).size() >
+           kMostPairs;
+}
+
 // Whether the end came before the case's result did.
 bool is_left(const CaseRecord& record) {
     return record.status == Status::not_run || record.status == Status::skip;
@@ -81,7 +89,7 @@ void Hunt::take_up(const std::vector<Waiting>& waiting) {
         } else if (one) {
             Facts facts = facts_of(made.text);
             open_.push_back({std::move(*one), std::move(made.text), std::move(facts), {}});
-        } else if (made.data) {
+        } else if (made.data && !is_dear(*made.data)) {
             left.made.push_back({std::move(made.text), number});
             left.cases.push_back(std::move(*made.data));
         }
@@ -165,7 +173,7 @@ Hunt::Chunk Hunt::make_chunk() {
             }
             Source::Made made = source_->make(k);
             chunk.refused += made.refused;
-            if (made.data) {
+            if (made.data && !is_dear(*made.data)) {
                 chunk.made.push_back({std::move(made.text), k});
                 chunk.cases.push_back(std::move(*made.data));
             } else {

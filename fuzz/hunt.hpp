@@ -71,7 +71,7 @@ struct HuntCounts {
     uint64_t unjudged = 0;              // errors of the judge
     uint64_t unrepeated = 0;  // failures that did not come again when they were to be reduced
     uint64_t refused = 0;     // changes of other cases that made no case
-    uint64_t missing = 0;     // numbers that have no case: none of some changes made one
+    uint64_t missing = 0;     // numbers that have no case, or one that takes minutes to judge
     uint64_t poses = 0, pairs = 0;
     uint64_t reductions = 0, reduction_cases = 0;
     double drawing_seconds = 0, reducing_seconds = 0;

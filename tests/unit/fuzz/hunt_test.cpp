@@ -244,6 +244,31 @@ TEST(Hunt, AReductionThatIsCutWaits) {
     EXPECT_EQ(second.counts().unrepeated, 0U);
 }
 
+// Two cases are so large that the others of their chunk would wait for minutes.
+class LargeSource : public PlainSource {
+  public:
+    Made make(uint64_t number) const override {
+        Made made = PlainSource::make(number);
+        if (made.data && number < 2) {
+            made.data->target.width = 4096;
+            made.data->target.height = 4096;
+        }
+        return made;
+    }
+};
+
+TEST(Hunt, WhatTakesMinutesToJudgeIsNotDrawn) {
+    Device device;
+    HuntOptions options;
+    options.source = [] { return std::make_unique<LargeSource>(); };
+    options.most_cases = 16;
+    Hunt hunt = hunt_on(device, options);
+    while (hunt.step() == Hunt::State::goes_on) {
+    }
+    EXPECT_EQ(hunt.counts().drawn, 14U);
+    EXPECT_EQ(hunt.counts().missing, 2U);
+}
+
 // So many known causes; the last one explains what the device does wrong.
 class KnownOnes : public KnownFailures {
   public:
