@@ -14,6 +14,7 @@
 
 namespace cases {
 
+// The number of a row; those that code names. In their order the first rows.
 enum class ColorFormat : uint8_t {
     rgba8_unorm,
     bgra8_unorm,
@@ -26,51 +27,7 @@ enum class ColorFormat : uint8_t {
     rgba32_float,
     r32_float,
     r32_uint,
-    rgba8_uint,
-    r8_unorm,
-    r8_snorm,
-    r8_uint,
-    r8_sint,
-    rg8_unorm,
-    rg8_snorm,
-    rg8_uint,
-    rg8_sint,
-    rgba8_snorm,
-    rgba8_sint,
-    bgra8_srgb,
-    a8b8g8r8_unorm,
-    a8b8g8r8_snorm,
-    a8b8g8r8_uint,
-    a8b8g8r8_sint,
-    a8b8g8r8_srgb,
-    r4g4b4a4_unorm,
-    b4g4r4a4_unorm,
-    b5g6r5_unorm,
-    r5g5b5a1_unorm,
-    b5g5r5a1_unorm,
-    a1r5g5b5_unorm,
-    bgr10a2_unorm,
-    bgr10a2_uint,
-    rgb10a2_uint,
-    r16_unorm,
-    r16_snorm,
-    r16_uint,
-    r16_sint,
-    r16_float,
-    rg16_unorm,
-    rg16_snorm,
-    rg16_uint,
-    rg16_sint,
-    rgba16_snorm,
-    rgba16_uint,
-    rgba16_sint,
-    r32_sint,
-    rg32_uint,
-    rg32_sint,
-    rg32_float,
-    rgba32_uint,
-    rgba32_sint,
-    r11g11b10_float
+    rgba8_uint
 };
 
 // `half` has 5 bits of exponent and, of 16 bits, 10 of fraction and a sign; of 11 and 10 bits 6 and
@@ -90,84 +47,86 @@ constexpr bool is_signed(ComponentKind kind) {
 }
 
 struct ColorFormatRow {
-    ColorFormat format;
     std::string_view word;  // in case files
     ComponentKind kind;     // of all components, but the alpha of sRGB is linear
     // How many bits red, green, blue and alpha have, and where they begin. Bit k of a texel is bit
     // k % 8 of its byte k / 8 [Vulkan, "Format Definition": a packed word is little-endian here].
     std::array<uint8_t, 4> bits, first_bit;
-    uint32_t vulkan;  // VkFormat
+    uint32_t vulkan;                     // VkFormat
+    ColorFormat format = ColorFormat();  // its own number
 };
 
 inline constexpr auto kColorFormats = [] {
-    using F = ColorFormat;
     using K = ComponentKind;
-    return std::to_array<ColorFormatRow>({
-        {F::rgba8_unorm, "rgba8-unorm", K::unorm, {8, 8, 8, 8}, {0, 8, 16, 24}, 37},
-        {F::bgra8_unorm, "bgra8-unorm", K::unorm, {8, 8, 8, 8}, {16, 8, 0, 24}, 44},
-        {F::rgba8_srgb, "rgba8-srgb", K::srgb, {8, 8, 8, 8}, {0, 8, 16, 24}, 43},
-        {F::rgb10a2_unorm, "rgb10a2-unorm", K::unorm, {10, 10, 10, 2}, {0, 10, 20, 30}, 64},
-        {F::r5g6b5_unorm, "r5g6b5-unorm", K::unorm, {5, 6, 5, 0}, {11, 5, 0, 0}, 4},
-        {F::rgba16_unorm, "rgba16-unorm", K::unorm, {16, 16, 16, 16}, {0, 16, 32, 48}, 91},
-        {F::rgba16_float, "rgba16-float", K::half, {16, 16, 16, 16}, {0, 16, 32, 48}, 97},
-        {F::rg16_float, "rg16-float", K::half, {16, 16, 0, 0}, {0, 16, 0, 0}, 83},
-        {F::rgba32_float, "rgba32-float", K::binary32, {32, 32, 32, 32}, {0, 32, 64, 96}, 109},
-        {F::r32_float, "r32-float", K::binary32, {32, 0, 0, 0}, {0, 0, 0, 0}, 100},
-        {F::r32_uint, "r32-uint", K::uint, {32, 0, 0, 0}, {0, 0, 0, 0}, 98},
-        {F::rgba8_uint, "rgba8-uint", K::uint, {8, 8, 8, 8}, {0, 8, 16, 24}, 41},
-        {F::r8_unorm, "r8-unorm", K::unorm, {8, 0, 0, 0}, {0, 0, 0, 0}, 9},
-        {F::r8_snorm, "r8-snorm", K::snorm, {8, 0, 0, 0}, {0, 0, 0, 0}, 10},
-        {F::r8_uint, "r8-uint", K::uint, {8, 0, 0, 0}, {0, 0, 0, 0}, 13},
-        {F::r8_sint, "r8-sint", K::sint, {8, 0, 0, 0}, {0, 0, 0, 0}, 14},
-        {F::rg8_unorm, "rg8-unorm", K::unorm, {8, 8, 0, 0}, {0, 8, 0, 0}, 16},
-        {F::rg8_snorm, "rg8-snorm", K::snorm, {8, 8, 0, 0}, {0, 8, 0, 0}, 17},
-        {F::rg8_uint, "rg8-uint", K::uint, {8, 8, 0, 0}, {0, 8, 0, 0}, 20},
-        {F::rg8_sint, "rg8-sint", K::sint, {8, 8, 0, 0}, {0, 8, 0, 0}, 21},
-        {F::rgba8_snorm, "rgba8-snorm", K::snorm, {8, 8, 8, 8}, {0, 8, 16, 24}, 38},
-        {F::rgba8_sint, "rgba8-sint", K::sint, {8, 8, 8, 8}, {0, 8, 16, 24}, 42},
-        {F::bgra8_srgb, "bgra8-srgb", K::srgb, {8, 8, 8, 8}, {16, 8, 0, 24}, 50},
-        {F::a8b8g8r8_unorm, "a8b8g8r8-unorm", K::unorm, {8, 8, 8, 8}, {0, 8, 16, 24}, 51},
-        {F::a8b8g8r8_snorm, "a8b8g8r8-snorm", K::snorm, {8, 8, 8, 8}, {0, 8, 16, 24}, 52},
-        {F::a8b8g8r8_uint, "a8b8g8r8-uint", K::uint, {8, 8, 8, 8}, {0, 8, 16, 24}, 55},
-        {F::a8b8g8r8_sint, "a8b8g8r8-sint", K::sint, {8, 8, 8, 8}, {0, 8, 16, 24}, 56},
-        {F::a8b8g8r8_srgb, "a8b8g8r8-srgb", K::srgb, {8, 8, 8, 8}, {0, 8, 16, 24}, 57},
-        {F::r4g4b4a4_unorm, "r4g4b4a4-unorm", K::unorm, {4, 4, 4, 4}, {12, 8, 4, 0}, 2},
-        {F::b4g4r4a4_unorm, "b4g4r4a4-unorm", K::unorm, {4, 4, 4, 4}, {4, 8, 12, 0}, 3},
-        {F::b5g6r5_unorm, "b5g6r5-unorm", K::unorm, {5, 6, 5, 0}, {0, 5, 11, 0}, 5},
-        {F::r5g5b5a1_unorm, "r5g5b5a1-unorm", K::unorm, {5, 5, 5, 1}, {11, 6, 1, 0}, 6},
-        {F::b5g5r5a1_unorm, "b5g5r5a1-unorm", K::unorm, {5, 5, 5, 1}, {1, 6, 11, 0}, 7},
-        {F::a1r5g5b5_unorm, "a1r5g5b5-unorm", K::unorm, {5, 5, 5, 1}, {10, 5, 0, 15}, 8},
-        {F::bgr10a2_unorm, "bgr10a2-unorm", K::unorm, {10, 10, 10, 2}, {20, 10, 0, 30}, 58},
-        {F::bgr10a2_uint, "bgr10a2-uint", K::uint, {10, 10, 10, 2}, {20, 10, 0, 30}, 62},
-        {F::rgb10a2_uint, "rgb10a2-uint", K::uint, {10, 10, 10, 2}, {0, 10, 20, 30}, 68},
-        {F::r16_unorm, "r16-unorm", K::unorm, {16, 0, 0, 0}, {0, 0, 0, 0}, 70},
-        {F::r16_snorm, "r16-snorm", K::snorm, {16, 0, 0, 0}, {0, 0, 0, 0}, 71},
-        {F::r16_uint, "r16-uint", K::uint, {16, 0, 0, 0}, {0, 0, 0, 0}, 74},
-        {F::r16_sint, "r16-sint", K::sint, {16, 0, 0, 0}, {0, 0, 0, 0}, 75},
-        {F::r16_float, "r16-float", K::half, {16, 0, 0, 0}, {0, 0, 0, 0}, 76},
-        {F::rg16_unorm, "rg16-unorm", K::unorm, {16, 16, 0, 0}, {0, 16, 0, 0}, 77},
-        {F::rg16_snorm, "rg16-snorm", K::snorm, {16, 16, 0, 0}, {0, 16, 0, 0}, 78},
-        {F::rg16_uint, "rg16-uint", K::uint, {16, 16, 0, 0}, {0, 16, 0, 0}, 81},
-        {F::rg16_sint, "rg16-sint", K::sint, {16, 16, 0, 0}, {0, 16, 0, 0}, 82},
-        {F::rgba16_snorm, "rgba16-snorm", K::snorm, {16, 16, 16, 16}, {0, 16, 32, 48}, 92},
-        {F::rgba16_uint, "rgba16-uint", K::uint, {16, 16, 16, 16}, {0, 16, 32, 48}, 95},
-        {F::rgba16_sint, "rgba16-sint", K::sint, {16, 16, 16, 16}, {0, 16, 32, 48}, 96},
-        {F::r32_sint, "r32-sint", K::sint, {32, 0, 0, 0}, {0, 0, 0, 0}, 99},
-        {F::rg32_uint, "rg32-uint", K::uint, {32, 32, 0, 0}, {0, 32, 0, 0}, 101},
-        {F::rg32_sint, "rg32-sint", K::sint, {32, 32, 0, 0}, {0, 32, 0, 0}, 102},
-        {F::rg32_float, "rg32-float", K::binary32, {32, 32, 0, 0}, {0, 32, 0, 0}, 103},
-        {F::rgba32_uint, "rgba32-uint", K::uint, {32, 32, 32, 32}, {0, 32, 64, 96}, 107},
-        {F::rgba32_sint, "rgba32-sint", K::sint, {32, 32, 32, 32}, {0, 32, 64, 96}, 108},
-        {F::r11g11b10_float, "r11g11b10-float", K::half, {11, 11, 10, 0}, {0, 11, 22, 0}, 122},
+    auto rows = std::to_array<ColorFormatRow>({
+        {"rgba8-unorm", K::unorm, {8, 8, 8, 8}, {0, 8, 16, 24}, 37},
+        {"bgra8-unorm", K::unorm, {8, 8, 8, 8}, {16, 8, 0, 24}, 44},
+        {"rgba8-srgb", K::srgb, {8, 8, 8, 8}, {0, 8, 16, 24}, 43},
+        {"rgb10a2-unorm", K::unorm, {10, 10, 10, 2}, {0, 10, 20, 30}, 64},
+        {"r5g6b5-unorm", K::unorm, {5, 6, 5, 0}, {11, 5, 0, 0}, 4},
+        {"rgba16-unorm", K::unorm, {16, 16, 16, 16}, {0, 16, 32, 48}, 91},
+        {"rgba16-float", K::half, {16, 16, 16, 16}, {0, 16, 32, 48}, 97},
+        {"rg16-float", K::half, {16, 16, 0, 0}, {0, 16, 0, 0}, 83},
+        {"rgba32-float", K::binary32, {32, 32, 32, 32}, {0, 32, 64, 96}, 109},
+        {"r32-float", K::binary32, {32, 0, 0, 0}, {0, 0, 0, 0}, 100},
+        {"r32-uint", K::uint, {32, 0, 0, 0}, {0, 0, 0, 0}, 98},
+        {"rgba8-uint", K::uint, {8, 8, 8, 8}, {0, 8, 16, 24}, 41},
+        {"r8-unorm", K::unorm, {8, 0, 0, 0}, {0, 0, 0, 0}, 9},
+        {"r8-snorm", K::snorm, {8, 0, 0, 0}, {0, 0, 0, 0}, 10},
+        {"r8-uint", K::uint, {8, 0, 0, 0}, {0, 0, 0, 0}, 13},
+        {"r8-sint", K::sint, {8, 0, 0, 0}, {0, 0, 0, 0}, 14},
+        {"rg8-unorm", K::unorm, {8, 8, 0, 0}, {0, 8, 0, 0}, 16},
+        {"rg8-snorm", K::snorm, {8, 8, 0, 0}, {0, 8, 0, 0}, 17},
+        {"rg8-uint", K::uint, {8, 8, 0, 0}, {0, 8, 0, 0}, 20},
+        {"rg8-sint", K::sint, {8, 8, 0, 0}, {0, 8, 0, 0}, 21},
+        {"rgba8-snorm", K::snorm, {8, 8, 8, 8}, {0, 8, 16, 24}, 38},
+        {"rgba8-sint", K::sint, {8, 8, 8, 8}, {0, 8, 16, 24}, 42},
+        {"bgra8-srgb", K::srgb, {8, 8, 8, 8}, {16, 8, 0, 24}, 50},
+        {"a8b8g8r8-unorm", K::unorm, {8, 8, 8, 8}, {0, 8, 16, 24}, 51},
+        {"a8b8g8r8-snorm", K::snorm, {8, 8, 8, 8}, {0, 8, 16, 24}, 52},
+        {"a8b8g8r8-uint", K::uint, {8, 8, 8, 8}, {0, 8, 16, 24}, 55},
+        {"a8b8g8r8-sint", K::sint, {8, 8, 8, 8}, {0, 8, 16, 24}, 56},
+        {"a8b8g8r8-srgb", K::srgb, {8, 8, 8, 8}, {0, 8, 16, 24}, 57},
+        {"r4g4b4a4-unorm", K::unorm, {4, 4, 4, 4}, {12, 8, 4, 0}, 2},
+        {"b4g4r4a4-unorm", K::unorm, {4, 4, 4, 4}, {4, 8, 12, 0}, 3},
+        {"b5g6r5-unorm", K::unorm, {5, 6, 5, 0}, {0, 5, 11, 0}, 5},
+        {"r5g5b5a1-unorm", K::unorm, {5, 5, 5, 1}, {11, 6, 1, 0}, 6},
+        {"b5g5r5a1-unorm", K::unorm, {5, 5, 5, 1}, {1, 6, 11, 0}, 7},
+        {"a1r5g5b5-unorm", K::unorm, {5, 5, 5, 1}, {10, 5, 0, 15}, 8},
+        {"bgr10a2-unorm", K::unorm, {10, 10, 10, 2}, {20, 10, 0, 30}, 58},
+        {"bgr10a2-uint", K::uint, {10, 10, 10, 2}, {20, 10, 0, 30}, 62},
+        {"rgb10a2-uint", K::uint, {10, 10, 10, 2}, {0, 10, 20, 30}, 68},
+        {"r16-unorm", K::unorm, {16, 0, 0, 0}, {0, 0, 0, 0}, 70},
+        {"r16-snorm", K::snorm, {16, 0, 0, 0}, {0, 0, 0, 0}, 71},
+        {"r16-uint", K::uint, {16, 0, 0, 0}, {0, 0, 0, 0}, 74},
+        {"r16-sint", K::sint, {16, 0, 0, 0}, {0, 0, 0, 0}, 75},
+        {"r16-float", K::half, {16, 0, 0, 0}, {0, 0, 0, 0}, 76},
+        {"rg16-unorm", K::unorm, {16, 16, 0, 0}, {0, 16, 0, 0}, 77},
+        {"rg16-snorm", K::snorm, {16, 16, 0, 0}, {0, 16, 0, 0}, 78},
+        {"rg16-uint", K::uint, {16, 16, 0, 0}, {0, 16, 0, 0}, 81},
+        {"rg16-sint", K::sint, {16, 16, 0, 0}, {0, 16, 0, 0}, 82},
+        {"rgba16-snorm", K::snorm, {16, 16, 16, 16}, {0, 16, 32, 48}, 92},
+        {"rgba16-uint", K::uint, {16, 16, 16, 16}, {0, 16, 32, 48}, 95},
+        {"rgba16-sint", K::sint, {16, 16, 16, 16}, {0, 16, 32, 48}, 96},
+        {"r32-sint", K::sint, {32, 0, 0, 0}, {0, 0, 0, 0}, 99},
+        {"rg32-uint", K::uint, {32, 32, 0, 0}, {0, 32, 0, 0}, 101},
+        {"rg32-sint", K::sint, {32, 32, 0, 0}, {0, 32, 0, 0}, 102},
+        {"rg32-float", K::binary32, {32, 32, 0, 0}, {0, 32, 0, 0}, 103},
+        {"rgba32-uint", K::uint, {32, 32, 32, 32}, {0, 32, 64, 96}, 107},
+        {"rgba32-sint", K::sint, {32, 32, 32, 32}, {0, 32, 64, 96}, 108},
+        {"r11g11b10-float", K::half, {11, 11, 10, 0}, {0, 11, 22, 0}, 122},
     });
+    for (size_t k = 0; k < rows.size(); ++k) {
+        rows[k].format = static_cast<ColorFormat>(k);
+    }
+    return rows;
 }();
 inline constexpr auto kLastColorFormat = static_cast<ColorFormat>(kColorFormats.size() - 1);
 
 constexpr const ColorFormatRow& row_of(ColorFormat format) {
     return kColorFormats.at(static_cast<size_t>(format));
 }
-static_assert(std::ranges::all_of(kColorFormats,
-                                  [](const auto& row) { return &row == &row_of(row.format); }));
+static_assert(row_of(ColorFormat::rgba8_uint).word == "rgba8-uint");
 
 // The word of a format in case files, as "rgba8-unorm".
 constexpr std::string_view name_of(ColorFormat format) {

@@ -96,7 +96,7 @@ std::vector<uint32_t> Inputs::fragment_code(const cases::Draw& d) const {
     if (color != shaders::ColorKind::integer) {
         return changed;
     }
-    const auto first = static_cast<uint32_t>(has_instruments ? 2 + attributes.size() : 0);
+    const auto first = static_cast<uint32_t>(has_instruments ? 4 + attributes.size() : 0);
     return shaders::with_outputs(changed, {first, {shaders::Output::whole}}).value();
 }
 

@@ -186,6 +186,7 @@ class Right(Reproducer):
                         "order/draws", "bad-numbers/strip:part=3,bad=inf", "discard/among-draws:samples=1,topology=triangle-list", "complement/facing:winding=given,flip=1",
                         "blend/presets:blend=alpha,format=rgba8-unorm", "repeat/clip-distances:class=off-grid", "provoking/fan",
                         "depth-clamp/clip-and-clamp:clip=true,near=0", "depth-clip/symmetric:w=1", "lod/perspective:w=4", "multisample/mask-in:samples=1", "store/srgb:attachments=all",
+                        "store/integers:format=rgba8-uint,attachments=all",
                         "repeat/color:format=rgba8-unorm,class=on-grid", "layer/outside:samples=1,width=1,height=5",
                         "derivative/helper-lanes:x=1,y=1,probe=fwidth", "derivative/helper-lanes:x=0,y=7,probe=dfdy-coarse"):
             with self.subTest(case_id):
