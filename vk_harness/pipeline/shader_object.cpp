@@ -10,11 +10,13 @@ namespace vk_harness {
 
 namespace {
 
-Handle<ShaderObject> make_object(const PipelineBase& base, VkShaderStageFlagBits stage,
-                                 std::span<const uint32_t> code,
+Handle<ShaderObject> make_object(const PipelineBase& base, const PipelineKey& key,
+                                 VkShaderStageFlagBits stage, std::span<const uint32_t> code,
                                  const VkSpecializationInfo* specialization) {
     const Device& device = base.device();
-    const VkDescriptorSetLayout set = base.layouts().texture_set.get();
+    const VkDescriptorSetLayout set = key.color_from > cases::ColorFrom::constant
+                                          ? base.layouts().colored(key.color_from).set.get()
+                                          : base.layouts().texture_set.get();
     const VkPushConstantRange range{draw_stages(device), 0, sizeof(shaders::DrawConstants)};
     ShaderObjectInfo info;
     info.stage = stage;
@@ -36,14 +38,18 @@ Handle<ShaderObject> make_object(const PipelineBase& base, VkShaderStageFlagBits
 }  // namespace
 
 std::array<Handle<ShaderObject>, 2> make_objects(const PipelineBase& base, const PipelineKey& key) {
+    auto vertex = make_object(base, key, VK_SHADER_STAGE_VERTEX_BIT,
+                              shaders::capture_vertex(vertex_variant(key)), nullptr);
+    if (!needs_fragments(key)) {
+        return {std::move(vertex), {}};
+    }
     const bool has_id = base.device().capabilities().info.has_primitive_id;
     const std::vector<uint32_t> code =
         changed_code(fragment_code(key), fragment_changes(key, has_id));
     Specialization specialization;
     specialize(key, specialization);
-    auto vertex = make_object(base, VK_SHADER_STAGE_VERTEX_BIT,
-                              shaders::capture_vertex(vertex_variant(key)), nullptr);
-    auto fragment = make_object(base, VK_SHADER_STAGE_FRAGMENT_BIT, code, &specialization.info);
+    auto fragment =
+        make_object(base, key, VK_SHADER_STAGE_FRAGMENT_BIT, code, &specialization.info);
     return {std::move(vertex), std::move(fragment)};
 }
 
