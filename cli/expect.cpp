@@ -219,7 +219,9 @@ void update_pictures(const Program& program, const ExpectOptions& options) {
     const size_t kept = count_pictures(file);
     run::add_pictures(file, run);
     const size_t added = count_pictures(file) - kept;
-    std::erase_if(file.bits, [&](const auto& entry) { return !ids.contains(entry.first); });
+    std::erase_if(file.bits, [&](const auto& entry) {
+        return !ids.contains(std::string(cases::split_way(entry.first).base));
+    });
     const size_t removed = kept + added - count_pictures(file);
     const std::string text = to_text(file);
     const bool same = text == before && fs::exists(options.file, none);

@@ -123,6 +123,16 @@ class Ways(ProgramTest):
             for line in (record["rerun"], record["explain"]):
                 self.assertIn(" mine.toml@bare-depth", line)
 
+    def test_a_file_of_pictures_keeps_what_ways_draw(self):
+        fault = "flip-pixel@b/two@bare-depth"
+        self.run_ways("--ways", "bare-depth", check=1, fault=fault)
+        self.edgecase("expect", "--suite", "own", "new.txt", "--update", "out", "--bug", "b#2", check=0)
+        self.run_ways("--ways", "bare-depth", "--expect", "new.txt", check=0, fault=fault)
+        for kept in ("1 added, 0 kept", "0 added, 1 kept"):
+            done = self.edgecase("expect", "--suite", "own", "new.pictures", "--update", "out", check=0)
+            self.assertIn(f"0 removed, {kept}", done.stdout)
+        self.assertRegex((self.folder / "new.pictures").read_text(), r"b/two@bare-depth [0-9a-f]{16}")
+
     def test_an_expectation_file_learns_of_ways(self):
         self.run_ways("--ways", "bare-depth", check=1, fault="flip-pixel@b/two@bare-depth")
         self.edgecase("expect", "--suite", "own", "new.txt", "--update", "out", "--bug", "b#2", check=0)
