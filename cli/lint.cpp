@@ -16,6 +16,7 @@
 #include "cases/base/limits.hpp"
 #include "cases/model/rule.hpp"
 #include "cases/model/sample.hpp"
+#include "cases/model/way.hpp"
 #include "cases/select/selector.hpp"
 #include "cli/commands.hpp"
 #include "cli/fuzzing/start_cases.hpp"
@@ -147,7 +148,7 @@ cases::Errors check_case(const cases::Case& c, const ref::Exercise& exercise) {
     return errors;
 }
 
-// A file of pictures: its form, and that every line is about a case.
+// A file of pictures: its form, and that every line is about a case, or a way of one.
 cases::Errors check_pictures(const std::filesystem::path& path,
                              const std::vector<std::string>& ids) {
     const auto file = run::load_pictures(path);
@@ -157,7 +158,7 @@ cases::Errors check_pictures(const std::filesystem::path& path,
     cases::Errors errors;
     const std::set<std::string> known(ids.begin(), ids.end());
     for (const auto& [id, bits] : file->bits) {
-        if (!known.contains(id)) {
+        if (!known.contains(std::string(cases::split_way(id).base))) {
             errors.push_back(
                 {{path.string(), 0, 0},
                  "'" + id + "' is no case" + cases::did_you_mean(id, ids, "; remove its line")});

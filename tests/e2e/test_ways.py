@@ -132,6 +132,9 @@ class Ways(ProgramTest):
             done = self.edgecase("expect", "--suite", "own", "new.pictures", "--update", "out", check=0)
             self.assertIn(f"0 removed, {kept}", done.stdout)
         self.assertRegex((self.folder / "new.pictures").read_text(), r"b/two@bare-depth [0-9a-f]{16}")
+        (self.folder / "expectations").mkdir(exist_ok=True)
+        (self.folder / "new.pictures").rename(self.folder / "expectations/new.pictures")
+        self.edgecase("lint", "--suite", "own", check=0)
 
     def test_an_expectation_file_learns_of_ways(self):
         self.run_ways("--ways", "bare-depth", check=1, fault="flip-pixel@b/two@bare-depth")
