@@ -70,6 +70,13 @@ bool is_drawn_alone(const Device& device, const cases::Case& c) {
     return is_static && std::ranges::any_of(c.draws, &cases::Draw::rasterizer_discard);
 }
 
+// Whether its pipelines have colours. What draws to none ends its submission: on lavapipe 25 and 26
+// the colours of the pipelines behind it are blended as the first one
+// (docs/findings/lavapipe-independent-blending.md), which would be another case's.
+bool has_colors(const cases::Case& c) {
+    return c.blit || c.target.has_instruments || c.target.color;
+}
+
 void append(std::vector<std::string>& to, const std::vector<std::string>& from) {
     to.insert(to.end(), from.begin(), from.end());
 }
@@ -162,7 +169,9 @@ std::vector<Rendered> BatchRenderer::draw(std::span<const Rendering> batch, bool
             image_way(*item.test));
         const bool is_alone = is_drawn_alone(device_, *item.test);
         const bool is_full = bytes + size > kChunkBytes || doors == kDoorsOfSubmission;
-        if ((is_alone || is_full) && !plans.empty()) {
+        const bool is_behind_colorless =
+            !plans.empty() && has_colors(*item.test) && !has_colors(*plans.back().test);
+        if ((is_alone || is_full || is_behind_colorless) && !plans.empty()) {
             flush();
         }
         if (auto rejection = planned(planner, item)) {

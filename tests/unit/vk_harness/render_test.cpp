@@ -451,6 +451,26 @@ TEST(Render, StepsComeInOrder) {
     EXPECT_THAT(steps, ::testing::ElementsAre("pipeline", "record", "submit", "readback"));
 }
 
+// Some drivers blend all that comes behind it in its submission as the first colour.
+TEST(Render, WhatDrawsToNoColourEndsItsSubmission) {
+    const cases::Case colors = make_case(k64, half_square());
+    cases::Case depth = colors;
+    depth.target.has_instruments = false;
+    const auto submissions = [](const std::vector<cases::Case>& batch) {
+        size_t count = 0;
+        const auto drawn = renderer().render(
+            batch, capture::kEveryPlane,
+            [&count](std::string_view s) { count += s == "submit" ? 1U : 0U; }, {});
+        for (const capture::Rendered& one : drawn) {
+            EXPECT_EQ(one.status, capture::Rendered::Status::drawn) << one.reason;
+        }
+        return count;
+    };
+    EXPECT_EQ(submissions({colors, colors}), 1U);
+    EXPECT_EQ(submissions({colors, depth, depth}), 1U);
+    EXPECT_EQ(submissions({depth, colors, depth, colors}), 3U);
+}
+
 TEST(Render, BareDrawsTheSameCases) {
     std::vector<cases::Case> batch = {make_case(k64, half_square())};
     const Rendered bare = render_bare(renderer(), batch).front();
