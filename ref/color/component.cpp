@@ -333,9 +333,10 @@ uint32_t Component::code_of(const mpq_class& value) const {
             // A number of the format: the conversions are exact.
             const auto nearest =
                 static_cast<float>((is_up ? neighbours.high : neighbours.low).get_d());
-            return is_half
-                       ? glm::packHalf1x16(nearest) >> (format_.bits < 16 ? 15 - format_.bits : 0)
-                       : std::bit_cast<uint32_t>(nearest);
+            // Floats below 16 bits are halves without a sign and with fewer bits of the fraction.
+            const unsigned lost_bits = is_half && format_.bits < 16 ? 15U - format_.bits : 0;
+            return is_half ? uint32_t{glm::packHalf1x16(nearest)} >> lost_bits
+                           : std::bit_cast<uint32_t>(nearest);
         }
         case ComponentKind::uint:
         case ComponentKind::sint:
