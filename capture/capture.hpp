@@ -49,7 +49,8 @@ inline constexpr uint32_t kNoPrimitive = 0xffffffefU;
 // and half bits, integers. Components that the format lacks are 0. kPoison in all four: not copied.
 using ColorCodes = std::array<uint32_t, 4>;
 
-// Memory beside an attachment's own that a rendering has changed, before or after it.
+// Memory beside an attachment's own that a rendering has changed, before or after it, or texels
+// beside it in its image.
 struct StrayWrite {
     std::string attachment;  // "depth", "attribute 1"
     bool is_before = false;
@@ -60,6 +61,7 @@ struct StrayWrite {
     uint32_t got = 0;
     uint64_t words = 0;       // that changed
     uint32_t renderings = 1;  // in the submission, any of which may have done it
+    std::string texel = {};  // of texels, the first: "(67, 3) of layer 0, level 1"; words: how many
     static void fields(auto&& visit, auto&... w) {
         visit("attachment", w.attachment...);
         visit("is_before", w.is_before...);
@@ -68,6 +70,7 @@ struct StrayWrite {
         visit("got", w.got...);
         visit("words", w.words...);
         visit("renderings", w.renderings...);
+        visit("texel", w.texel...);
     }
     friend bool operator==(const StrayWrite&, const StrayWrite&) = default;
 };
@@ -98,6 +101,7 @@ struct Planes {
     Store<uint32_t> stencil;           // Target::has_stencil; 0..255 or kPoison
     Store<ColorCodes> resolved_color;  // one a pixel: Target::color_resolve
     Store<float> resolved_depth;       // one a pixel: Target::depth_resolve
+    Store<uint32_t> resolved_stencil;  // one a pixel: Target::stencil_resolve; 0..255 or kPoison
 
     size_t sample_count() const { return size_t{target.width} * target.rows() * target.samples; }
     // All but the planes, which travel as they lie (for_each_plane).
@@ -119,7 +123,8 @@ inline constexpr uint32_t kColorPlane = kDepthPlane + 1;
 inline constexpr uint32_t kStencilPlane = kColorPlane + 1;
 inline constexpr uint32_t kResolvedColorPlane = kStencilPlane + 1;
 inline constexpr uint32_t kResolvedDepthPlane = kResolvedColorPlane + 1;
-inline constexpr uint32_t kPlaneNumbers = kResolvedDepthPlane + 1;
+inline constexpr uint32_t kResolvedStencilPlane = kResolvedDepthPlane + 1;
+inline constexpr uint32_t kPlaneNumbers = kResolvedStencilPlane + 1;
 
 // A plane of the list below: its number, how reports call it and how many entries it has, one a
 // sample or one a resolved pixel; 0 if the target has no such plane.
@@ -159,6 +164,8 @@ void for_each_plane(auto&& visit, const Shape& shape, P&... p) {
         p.resolved_color...);
     add("resolved_depth", if_there(target.depth_resolve != cases::Resolve::none, pixels),
         p.resolved_depth...);
+    add("resolved_stencil", if_there(target.stencil_resolve != cases::Resolve::none, pixels),
+        p.resolved_stencil...);
 }
 
 // "hits", "attribute 1", ...; empty for a number that no plane has.
@@ -195,6 +202,12 @@ inline bool resolves_color(const cases::Target& target) {
 }
 inline bool resolves_depth(const cases::Target& target) {
     return target.depth_resolve != cases::Resolve::none;
+}
+inline bool resolves_stencil(const cases::Target& target) {
+    return target.stencil_resolve != cases::Resolve::none;
+}
+inline bool resolves(const cases::Target& target) {
+    return resolves_color(target) || resolves_depth(target) || resolves_stencil(target);
 }
 
 // Bytes of all planes of a capture, one after the other: those that the target has.

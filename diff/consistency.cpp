@@ -21,6 +21,7 @@ using capture::kDepthPlane;
 using capture::kHitsPlane;
 using capture::kResolvedColorPlane;
 using capture::kResolvedDepthPlane;
+using capture::kResolvedStencilPlane;
 using capture::kStencilPlane;
 using capture::kWritersPlane;
 
@@ -168,7 +169,7 @@ bool is_zero_of_either_sign(uint32_t plane, uint32_t word, uint32_t expected, ui
 }
 
 bool is_resolved(uint32_t plane) {
-    return plane == kResolvedColorPlane || plane == kResolvedDepthPlane;
+    return plane >= kResolvedColorPlane && plane <= kResolvedStencilPlane;
 }
 
 // What a pixel's depth resolves to where the variation makes other depths of its samples; nothing
@@ -311,7 +312,7 @@ class BitComparison {
         }
     }
 
-    // What the samples of a pixel were resolved into, colour and depth.
+    // What the samples of a pixel were resolved into.
     void compare_pixel(size_t pixel, std::span<const capture::SampleState> states) {
         const auto of_pixel = [&](auto samples) {
             return samples.subspan(pixel * target_.samples, target_.samples);
@@ -320,7 +321,7 @@ class BitComparison {
             --result_.compared;
             return;
         }
-        for (const uint32_t p : {kResolvedColorPlane, kResolvedDepthPlane}) {
+        for (const uint32_t p : {kResolvedColorPlane, kResolvedDepthPlane, kResolvedStencilPlane}) {
             for (uint32_t w = 0; is_compared_[p] && w < ours_[p].words; ++w) {
                 const uint32_t base = ours_[p].at(pixel, w);
                 const std::optional<uint32_t> expected =
@@ -340,8 +341,9 @@ class BitComparison {
     // How an average is rounded is the device's ("Render Pass Resolve Operations"), and it may be
     // another way where the images or the pass are others.
     bool may_be_rounded(uint32_t plane, size_t pixel) const {
-        const cases::Resolve mode =
-            plane == kResolvedColorPlane ? target_.color_resolve : target_.depth_resolve;
+        const cases::Resolve mode = plane == kResolvedColorPlane   ? target_.color_resolve
+                                    : plane == kResolvedDepthPlane ? target_.depth_resolve
+                                                                   : target_.stencil_resolve;
         return mode == cases::Resolve::average && variation_.door != cases::Door::none &&
                cases::row_of(variation_.door).promise != cases::DoorPromise::same_bits &&
                is_resolved_rightly(derived_, pixel, cases::Profile::practice);
@@ -440,7 +442,7 @@ std::string show_bits(uint32_t plane, uint64_t bits) {
     if (plane == kCounts) {
         return count_text(bits);
     }
-    if (plane == kStencilPlane) {
+    if (plane == kStencilPlane || plane == kResolvedStencilPlane) {
         return fmt::format("{}", bits);
     }
     return plane == kWritersPlane || plane == kColorPlane || plane == kResolvedColorPlane
@@ -520,8 +522,8 @@ std::string plane_name(uint32_t plane, uint32_t word) {
     if (plane == kDepthPlane || plane == kStencilPlane) {
         return std::string(capture::name_of_plane(plane));
     }
-    if (plane == kResolvedDepthPlane) {
-        return "resolved depth";
+    if (plane == kResolvedDepthPlane || plane == kResolvedStencilPlane) {
+        return plane == kResolvedDepthPlane ? "resolved depth" : "resolved stencil";
     }
     if (plane == kColorPlane || plane == kResolvedColorPlane) {
         return fmt::format("{}color.{}", plane == kColorPlane ? "" : "resolved ", "rgba"[word % 4]);

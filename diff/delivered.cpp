@@ -77,6 +77,7 @@ std::vector<std::string> not_judged(const cases::Case& c, const capture::Deliver
         add(c.target.has_stencil && planes.stencil.empty(), "stencil");
         add(capture::resolves_color(c.target), "resolved color");
         add(capture::resolves_depth(c.target), "resolved depth");
+        add(capture::resolves_stencil(c.target), "resolved stencil");
         add(has_pixel_rules(c) && !delivery_of(c, planes).has_all_fragments(),
             "number of invocations");
     }

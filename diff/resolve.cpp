@@ -216,6 +216,17 @@ class Judge {
                                 profile_),
                    pixel, "resolved depth");
         }
+        if (capture::resolves_stencil(target_)) {
+            const uint32_t resolved = capture_.resolved_stencil[pixel];
+            if (resolved == capture::kPoison) {
+                return false;
+            }
+            const auto stencils = capture_.stencil.subspan(first, target_.samples);
+            report(
+                judge_number({stencils.begin(), stencils.end()}, resolved, target_.stencil_resolve,
+                             cases::ComponentFormat{ComponentKind::uint, 8}, profile_),
+                pixel, "resolved stencil");
+        }
         return true;
     }
 
@@ -286,8 +297,10 @@ std::optional<Finding> judge_count(const capture::CaptureView& capture, size_t i
 std::string judge_dependent_planes(const capture::CaptureView& capture, Profile profile,
                                    const std::function<void(Finding)>& add) {
     const cases::Target& target = capture.target;
-    const bool has_planes = (capture::resolves_color(target) && !capture.resolved_color.empty()) ||
-                            (capture::resolves_depth(target) && !capture.resolved_depth.empty());
+    const bool has_planes =
+        (capture::resolves_color(target) && !capture.resolved_color.empty()) ||
+        (capture::resolves_depth(target) && !capture.resolved_depth.empty()) ||
+        (capture::resolves_stencil(target) && !capture.resolved_stencil.empty());
     return has_planes ? Judge(capture, profile, add).run() : std::string();
 }
 
@@ -326,6 +339,13 @@ void add_dependent_planes(capture::Capture& capture) {
             target.depth_resolve == Resolve::average
                 ? average
                 : static_cast<float>(select(samples, target.depth_resolve));
+    }
+    capture.resolved_stencil.resize(capture::resolves_stencil(target) ? pixels : 0);
+    for (size_t pixel = 0; pixel < capture.resolved_stencil.size(); ++pixel) {
+        const auto stencils =
+            std::span(capture.stencil).subspan(pixel * target.samples, target.samples);
+        capture.resolved_stencil[pixel] = static_cast<uint32_t>(
+            select(std::vector<double>(stencils.begin(), stencils.end()), target.stencil_resolve));
     }
 }
 

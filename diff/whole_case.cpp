@@ -84,6 +84,20 @@ std::string why_of(uint64_t got, const CountBounds& counted, const cases::Draw& 
 void add_stray_writes(const cases::Case& c, std::span<const capture::StrayWrite> writes,
                       Verdict& verdict) {
     for (const capture::StrayWrite& w : writes) {
+        if (!w.texel.empty()) {
+            Finding finding = finding_of_case(FindingKind::value);
+            finding.rule = cases::rule::write_outside;
+            finding.level = cases::Profile::vulkan;
+            finding.quantity = fmt::format("image of {}", w.attachment);
+            finding.expected = fmt::format("{:#010x}", w.expected);
+            finding.got = fmt::format("{:#010x}", w.got);
+            finding.why = fmt::format(
+                "no command of the case writes to texel {}, which lies beside the attachment in "
+                "its image; {} of those texels changed",
+                w.texel, w.words);
+            verdict.add(std::move(finding), c.target);
+            continue;
+        }
         const std::string_view side = w.is_before ? "before" : "after";
         Finding finding = finding_of_case(FindingKind::value);
         finding.rule = cases::rule::write_outside;

@@ -77,7 +77,8 @@ bool has_colors(const cases::Case& c) {
     return c.blit || c.target.has_instruments || c.target.color;
 }
 
-void append(std::vector<std::string>& to, const std::vector<std::string>& from) {
+template <class T>
+void append(std::vector<T>& to, const std::vector<T>& from) {
     to.insert(to.end(), from.begin(), from.end());
 }
 
@@ -271,6 +272,7 @@ std::vector<GuardDamage> BatchRenderer::draw_chunk(std::span<CasePlan> plans, bo
             read_depth_codes(plan, readback->bytes(), planes, result);
         }
         move_back(plan, planes);
+        append(result.stray_writes, changed_surroundings(plan, readback->bytes()));
     }
     return damage;
 }
@@ -281,11 +283,11 @@ void BatchRenderer::blame(std::span<CasePlan> plans, std::span<const GuardDamage
     for (size_t k = 0; plans.size() > 1 && k < plans.size(); ++k) {
         std::vector<Rendered> again(results.size());
         const auto alone = draw_chunk(plans.subspan(k, 1), true, again, step, {});
-        results[plans[k].slot].stray_writes = stray_writes(plans[k], alone, 1);
+        append(results[plans[k].slot].stray_writes, stray_writes(plans[k], alone, 1));
         is_found = is_found || !alone.empty();
     }
     for (size_t k = 0; !is_found && k < plans.size(); ++k) {
-        results[plans[k].slot].stray_writes = stray_writes(plans[k], damage, plans.size());
+        append(results[plans[k].slot].stray_writes, stray_writes(plans[k], damage, plans.size()));
     }
 }
 
@@ -308,7 +310,7 @@ Buffer& BatchRenderer::make_readback(std::span<CasePlan> plans, bool by_rows, Gu
     for (CasePlan& plan : plans) {
         if (!by_rows) {
             plan.readback = make_layout(plan.test->target, plan.attachments, bytes, alignment());
-            bytes = plan.readback.end;
+            bytes = place_surroundings(plan, plan.readback.end);
         }
         for (const auto& [guard, name] : guards_of(plan)) {
             guards.add(guard);
@@ -331,6 +333,9 @@ void BatchRenderer::record(VkCommandBuffer& commands, CasePlan& plan, VkBuffer v
     }
     if (readback != nullptr) {
         submission_.make_input_sets(pipelines_, plan);
+        if (!plan.surroundings.empty()) {
+            fill_surroundings(device_, commands, plan, submission_.pattern());
+        }
     }
     plan.secondaries = submission_.secondaries(secondaries_of(plan));
     record_draws(device_, pipelines_, commands, plan, vertices, readback != nullptr,
@@ -339,6 +344,7 @@ void BatchRenderer::record(VkCommandBuffer& commands, CasePlan& plan, VkBuffer v
         record_copies(device_, pipelines_, commands, plan, readback->get(),
                       plan.test->target.samples > 1 ? submission_.copy_sets(pipelines_, plan)
                                                     : std::vector<VkDescriptorSet>());
+        copy_surroundings(device_, commands, plan, readback->get());
     }
 }
 

@@ -96,7 +96,7 @@ void leave_queries(cases::Case& c) {
 cases::Case colors_alone(const cases::Case& c) {
     cases::Case out = c;
     out.target.has_instruments = false;
-    out.target.depth_resolve = cases::Resolve::none;
+    out.target.depth_resolve = out.target.stencil_resolve = cases::Resolve::none;
     leave_queries(out);
     return out;
 }
@@ -163,7 +163,8 @@ std::vector<Part> parts_of(const Capabilities& capabilities, const cases::Case& 
                 return {};
             }
             leave_queries(part.test);
-            part.test.target.depth_resolve = cases::Resolve::none;
+            part.test.target.depth_resolve = part.test.target.stencil_resolve =
+                cases::Resolve::none;
         }
         parts.push_back(std::move(part));
     }

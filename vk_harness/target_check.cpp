@@ -154,9 +154,8 @@ void check_target(const Capabilities& c, const cases::Case& test) {
         throw unsupported("the target has {} x {} pixels, the device allows {} x {}", t.width,
                           t.height, c.max_width, c.max_height);
     }
-    if (t.layers == 0 ||
-        (t.layers > 1 && (capture::resolves_color(t) || capture::resolves_depth(t)))) {
-        throw invalid("a target has at least one layer, and one that is resolved only one");
+    if (t.layers == 0) {
+        throw invalid("a target has at least one layer");
     }
     if (t.layers > c.max_layers) {
         throw unsupported("the target has {} layers, the device allows {} (maxFramebufferLayers)",

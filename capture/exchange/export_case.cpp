@@ -354,7 +354,7 @@ std::vector<std::string> needs_of(const cases::Case& c) {
               "depth-format");
     needs.add(c.target.has_stencil, "stencil");
     needs.add(c.target.color.has_value(), "color");
-    needs.add(resolves_color(c.target) || resolves_depth(c.target), "resolve");
+    needs.add(resolves(c.target), "resolve");
     for (const cases::Draw& d : c.draws) {
         needs.add_draw(d, c.target);
     }

@@ -85,6 +85,7 @@ constexpr auto kTarget = std::to_array<Key>({
     other("sample_locations").plain("the standard ones"),
     word("resolve", kWords<Resolve>).as("color_resolve").near(kEquals).pipeline(),
     word("depth_resolve", kWords<Resolve>).near(kEquals).pipeline(),
+    word("stencil_resolve", kWords<Resolve>).near(kEquals).pipeline(),
     flag("stencil").pipeline(),
     whole("stencil_clear", 0, kStencilBits).tries(kStencils).plain("0"),
     word("attachments", kWords<Attachments>).near(kEquals).pipeline(),

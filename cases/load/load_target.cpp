@@ -109,16 +109,12 @@ void read_attachments(LeafContext& context, const TomlValue& table, Target& targ
 }
 
 void check_resolves(LeafContext& context, const TomlValue& table, const Target& target) {
-    for (const char* key : {"resolve", "depth_resolve"}) {
-        const bool is_on =
-            (key[0] == 'r' ? target.color_resolve : target.depth_resolve) != Resolve::none;
-        if (is_on && target.samples < 2) {
+    for (const auto& [key, mode] : {std::pair("resolve", target.color_resolve),
+                                    std::pair("depth_resolve", target.depth_resolve),
+                                    std::pair("stencil_resolve", target.stencil_resolve)}) {
+        if (mode != Resolve::none && target.samples < 2) {
             context.error(table.find(key)->where,
                           fmt::format("{} needs several samples; write samples = 4", key));
-        }
-        if (is_on && target.layers > 1) {
-            context.error(table.find(key)->where,
-                          fmt::format("{} does not go with several layers; leave out layers", key));
         }
     }
     if (target.color_resolve != Resolve::none) {
@@ -135,6 +131,13 @@ void check_resolves(LeafContext& context, const TomlValue& table, const Target& 
     if (target.depth_resolve != Resolve::none && !target.has_depth) {
         context.error(table.find("depth_resolve")->where,
                       "depth_resolve needs a depth attachment; leave out attachments");
+    }
+    if (target.stencil_resolve != Resolve::none && !target.has_stencil) {
+        context.error(table.find("stencil_resolve")->where,
+                      "stencil_resolve needs a stencil; write stencil = true");
+    } else if (target.stencil_resolve == Resolve::average) {
+        context.error(table.find("stencil_resolve")->where,
+                      "Vulkan has no average of stencils; write sample-zero, min or max");
     }
 }
 

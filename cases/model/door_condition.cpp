@@ -202,7 +202,7 @@ bool has_half_positions(const Case& c) {
 
 bool has_levels(const Case& c) {
     return c.target.samples == 1 || c.target.color_resolve != Resolve::none ||
-           c.target.depth_resolve != Resolve::none;
+           c.target.depth_resolve != Resolve::none || c.target.stencil_resolve != Resolve::none;
 }
 
 bool has_one_layer(const Case& c) {

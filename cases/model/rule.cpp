@@ -321,10 +321,12 @@ constexpr std::array kRules = {
          "depth "
          "that are right one by one are those of one history of the sample's fragments.",
          "invariance", "", "diff/observers.cpp"},
-    Rule{rule::write_outside, Profile::vulkan, "Nothing is written beside an attachment's memory",
+    Rule{rule::write_outside, Profile::vulkan, "Nothing is written beside an attachment",
          "Drawing, clearing, resolving and blitting write to the attachments alone: buffers in the "
-         "same memory, directly before and after each of them, keep every word. What lies between "
-         "the picture and the end of an attachment's own memory is the driver's.",
+         "same memory, directly before and after each of them, keep every word, and so do texels "
+         "beside the render area, other layers and other mip levels of an image of one sample "
+         "(load, store and resolve operations are restricted to the render area). "
+         "What lies between the image and the end of its memory is the driver's.",
          "resources-memory-aliasing", "", "vk_harness/memory/guard.cpp"},
     Rule{rule::depth_linear, Profile::vulkan, "Depth is linear in framebuffer space",
          "z_f is interpolated linearly at the sample; on a D32 target and for FragCoord.z within "

@@ -42,8 +42,10 @@ struct Target {
     bool has_instruments = true;
     bool has_depth = true;
     float depth_clear = kDepthClear;  // what the depth attachment is cleared to, 0..1
-    // With several samples: average of numbers, sample_zero of integers; any of depth.
-    Resolve color_resolve = Resolve::none, depth_resolve = Resolve::none;
+    // With several samples: average of numbers, sample_zero of integers; any of depth; of a stencil
+    // any but average.
+    Resolve color_resolve = Resolve::none, depth_resolve = Resolve::none,
+            stencil_resolve = Resolve::none;
     bool has_stencil = false;    // 8 bits, in one image with the depth if there is one
     uint32_t stencil_clear = 0;  // what the stencil is cleared to, 0..255
     Attachments attachments() const {
@@ -80,6 +82,7 @@ struct Target {
         visit("stencil_clear", t.stencil_clear...);
         visit("color_resolve", t.color_resolve...);
         visit("depth_resolve", t.depth_resolve...);
+        visit("stencil_resolve", t.stencil_resolve...);
         visit({"instruments", kNotExported}, t.has_instruments...);  // how this program looks
     }
     friend bool operator==(const Target&, const Target&) = default;

@@ -33,7 +33,8 @@ Case plain(const Case& c) {
     out.relations.clear();
     out.doors.clear();
     out.target.has_instruments = false;
-    out.target.color_resolve = out.target.depth_resolve = Resolve::none;
+    out.target.color_resolve = out.target.depth_resolve = out.target.stencil_resolve =
+        Resolve::none;
     for (Draw& draw : out.draws) {
         draw.query = Query::none;
     }

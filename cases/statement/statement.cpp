@@ -131,7 +131,7 @@ constexpr Statement kStatements[] = {
      "Half-open, by sample.",
      {"scissor.half-open"}, ""},
     {"nothing outside the framebuffer", exact, exact,
-     "Tiny and odd targets with triangles far beyond them; buffers before and after each attachment, in its own memory, keep every word.",
+     "Tiny and odd targets with triangles far beyond them; buffers before and after each attachment, in its own memory, keep every word, and so does what an image has beside the attachment.",
      {"cover.outside", "write.outside"}, ""},
     {"drawing outside the render area", not_spoken, not_spoken,
      "",

@@ -180,8 +180,7 @@ std::string_view undrawable_part(const cases::Case& c) {
         // What a shader reads of them is no code by itself (vk_harness/depth_codes.hpp).
         {t.has_depth && t.depth_format == cases::DepthFormat::d24_unorm && t.samples > 1,
          "several samples of D24"},
-        {t.depth_resolve != cases::Resolve::none || t.color_resolve != cases::Resolve::none,
-         "a resolve"},
+        {capture::resolves(t), "a resolve"},
         {c.draws.size() > kMaxDraws, "more than 32,767 draws"},
         {!has_shaders(c), "outputs for which no shader was made"},
     });

@@ -33,7 +33,8 @@ bool with_samples(Document& document, size_t samples) {
         locations->array.resize(samples);
     }
     if (samples == 1) {
-        for (const char* key : {"samples", "sample_locations", "resolve", "depth_resolve"}) {
+        for (const char* key :
+             {"samples", "sample_locations", "resolve", "depth_resolve", "stencil_resolve"}) {
             erase(*target, key);
         }
     }

@@ -51,6 +51,7 @@ capture::Capture render(const cases::Case& c, const Device& device) {
     if (device.fault == "resolve-early"_fault) {
         out.resolved_color = early.resolved_color;
         out.resolved_depth = early.resolved_depth;
+        out.resolved_stencil = early.resolved_stencil;
     }
     return out;
 }

@@ -55,9 +55,7 @@ constexpr CodeRun kCodeRuns[] = {
     {"discard-value-or-zero"_fault, "discard-value-at-centre"_fault,
      any_draw<[](const cases::Draw& d) { return cases::discards_by_value(d); }>},
     {"resolve-one-sample"_fault, "resolve-ignored"_fault,
-     [](const cases::Case& c) {
-         return capture::resolves_color(c.target) || capture::resolves_depth(c.target);
-     }},
+     [](const cases::Case& c) { return capture::resolves(c.target); }},
     {"distance-flipped"_fault, "distance-plane-never"_fault,
      any_draw<[](const cases::Draw& d) { return d.distances.clip_count != 0; }>},
     {"cull-distance-any"_fault, "cull-distance-provoking"_fault,

@@ -50,7 +50,9 @@ bool is_stored_as(const View& view, std::string_view) {
 template <auto... modes>
 bool is_resolved(const View& view, std::string_view) {
     const cases::Target& target = view.of().target;
-    return ((target.color_resolve == modes || target.depth_resolve == modes) || ...) &&
+    return ((target.color_resolve == modes || target.depth_resolve == modes ||
+             target.stencil_resolve == modes) ||
+            ...) &&
            is_written_by(view, [](uint32_t) { return true; });
 }
 

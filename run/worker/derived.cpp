@@ -182,8 +182,10 @@ std::vector<RenderedCase> render_with_derived(
             result.consistency.clear();
             return;
         }
-        own.stray_writes.insert(own.stray_writes.end(), derived.stray_writes.begin(),
-                                derived.stray_writes.end());
+        for (capture::StrayWrite& write : derived.stray_writes) {
+            write.attachment += ", " + derivation.name;
+            own.stray_writes.push_back(std::move(write));
+        }
         if (damage) {
             damage(origin.of, derived);
         }

@@ -67,16 +67,15 @@ bool is_possible(const CaseResult& result) {
     return c.attribute_count <= cases::kMaxAttributes &&
            result.consistency.size() <= kMaxDerivations &&
            r.stray_writes.size() <= kMaxStrayWrites &&
-           std::all_of(
-               result.consistency.begin(), result.consistency.end(),
-               [&c](const auto& found) {
-                   const bool resolves =
-                       capture::resolves_color(c.target) || capture::resolves_depth(c.target);
-                   const uint64_t samples = c.sample_count();
-                   return is_possible(found, samples,
-                                      resolves ? samples / std::max(c.target.samples, 1U) : 0,
-                                      c.counted.size());
-               }) &&
+           std::all_of(result.consistency.begin(), result.consistency.end(),
+                       [&c](const auto& found) {
+                           const uint64_t samples = c.sample_count();
+                           return is_possible(found, samples,
+                                              capture::resolves(c.target)
+                                                  ? samples / std::max(c.target.samples, 1U)
+                                                  : 0,
+                                              c.counted.size());
+                       }) &&
            (r.status != Rendered::Status::drawn || result.is_shared || capture::has_all_planes(c));
 }
 

@@ -125,6 +125,15 @@ constexpr std::array kTargetDoorFaults = {
         "Every view begins with mip level 0.",
         {.view =
              [](VkImageViewCreateInfo& v) { return change(v.subresourceRange.baseMipLevel, 0); }}},
+    Fault{"door-area-one-wider",
+          "A render area that ends before its images does so a column further right.",
+          {.rendering =
+               [](Rendering& r) {
+                   uint32_t& width = r.info.renderArea.extent.width;
+                   const uint32_t end = static_cast<uint32_t>(r.info.renderArea.offset.x) + width;
+                   return !r.images.empty() && r.images.front().levels == 1 &&
+                          end < r.images.front().extent.width && change(width, width + 1);
+               }}},
     Fault{"door-levels-resolved-into-nothing",
           "No colour is resolved into an image of several mip levels.",
           {.rendering =

@@ -4,6 +4,7 @@
 // What drawing one case takes: pipelines, attachments, queries, places in buffers.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <string>
@@ -14,6 +15,7 @@
 #include "vk_harness/commands/color_source.hpp"
 #include "vk_harness/commands/query.hpp"
 #include "vk_harness/door/feed.hpp"
+#include "vk_harness/memory/surroundings.hpp"
 #include "vk_harness/pipeline/output_state.hpp"
 #include "vk_harness/pipeline/pipeline_cache.hpp"
 #include "vk_harness/target/readback.hpp"
@@ -54,6 +56,11 @@ struct InputRead {
     VkDescriptorSet set = VK_NULL_HANDLE;  // null: nothing is read back
 };
 
+struct PlacedSurroundings {
+    size_t attachment = 0;
+    Surroundings of;
+};
+
 struct CasePlan {
     const cases::Case* test = nullptr;
     size_t slot = 0;           // among the renderings of the batch
@@ -73,10 +80,31 @@ struct CasePlan {
     bool pass_clears_resolved = false;  // PassKey::clears_resolved
     std::shared_ptr<Handle<VkFramebuffer>> framebuffer;
     ReadbackLayout readback;
+    std::vector<PlacedSurroundings> surroundings;  // that are looked at
+    // The image of attachment k has been filled with what surrounds it.
+    bool is_filled(size_t k) const {
+        return std::ranges::any_of(surroundings, [&](const PlacedSurroundings& s) {
+            return images[s.attachment] == images[k];
+        });
+    }
 };
 
 // Where a case's planes are guarded, and what the attachments are called.
 std::vector<std::pair<Guard*, std::string>> guards_of(const CasePlan& plan);
+
+// Has the surroundings of the case's own planes and of its hits read back from byte `begin` on;
+// returns the end. Those of other instruments are like them.
+VkDeviceSize place_surroundings(CasePlan& plan, VkDeviceSize begin);
+
+// Before the case is drawn: all images with surroundings are filled from `pattern`.
+void fill_surroundings(const Device& device, VkCommandBuffer commands, const CasePlan& plan,
+                       VkBuffer pattern);
+// Behind it, where the attachments are ready to be copied.
+void copy_surroundings(const Device& device, VkCommandBuffer commands, const CasePlan& plan,
+                       VkBuffer readback);
+// What was recorded has run.
+std::vector<capture::StrayWrite> changed_surroundings(const CasePlan& plan,
+                                                      std::span<const std::byte> memory);
 
 // Of the damage, what lies beside the case's attachments; `renderings`: drawn together with it.
 std::vector<capture::StrayWrite> stray_writes(const CasePlan& plan,

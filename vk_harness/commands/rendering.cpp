@@ -30,6 +30,10 @@ VkRenderingAttachmentInfo attachment(VkImageView view, VkImageLayout layout, VkC
     return info;
 }
 
+// Surroundings are copied to the image (fill_surroundings).
+constexpr ImageUse kFilled = {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                              VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL};
+
 // One barrier for all attachments of the case.
 void barrier(const Device& device, VkCommandBuffer commands, const CasePlan& plan,
              const ImageUse& color_before, const ImageUse& color_after,
@@ -40,8 +44,11 @@ void barrier(const Device& device, VkCommandBuffer commands, const CasePlan& pla
         sample_places(plan.test->target.sample_locations);
     const VkSampleLocationsInfoEXT locations = sample_locations_info(places);
     std::vector<VkImageMemoryBarrier2> barriers;
-    const auto add = [&](const Image& image, bool resolved, const ImageUse& before,
-                         const ImageUse& after) {
+    const auto add = [&](size_t k, const ImageUse& use, const ImageUse& after) {
+        const Image& image = *plan.images[k];
+        const bool resolved = plan.attachments[k].is_resolved();
+        const bool is_filled = use.layout == VK_IMAGE_LAYOUT_UNDEFINED && plan.is_filled(k);
+        const ImageUse& before = is_filled ? kFilled : use;
         VkImageMemoryBarrier2 b = image_barrier(image.get(), image.drawn(), before, after);
         if (!places.empty() && !resolved && (image.aspect() & VK_IMAGE_ASPECT_DEPTH_BIT) != 0) {
             b.pNext = &locations;
@@ -55,11 +62,10 @@ void barrier(const Device& device, VkCommandBuffer commands, const CasePlan& pla
         }
         const bool depth = attachment.is_depth_stencil();
         if (attachment.is_resolved() && after_resolve) {
-            add(*plan.images[k], true, depth ? depth_before : color_before, *after_resolve);
+            add(k, depth ? depth_before : color_before, *after_resolve);
             continue;
         }
-        add(*plan.images[k], attachment.is_resolved(), depth ? depth_before : color_before,
-            depth ? depth_after : color_after);
+        add(k, depth ? depth_before : color_before, depth ? depth_after : color_after);
     }
     record_barriers(device, commands, barriers);
 }
@@ -146,25 +152,28 @@ void clear_resolved(const Device& device, VkCommandBuffer commands, const CasePl
         return;
     }
     const VolkDeviceTable& vk = device.vk();
-    std::optional<VkRenderingAttachmentInfo> color, depth;
+    std::optional<VkRenderingAttachmentInfo> color, depth, stencil;
     for (size_t k = 0; k < plan.images.size(); ++k) {
         const Attachment& a = plan.attachments[k];
         if (a.is_resolved()) {
-            (a.is_depth() ? depth : color) =
+            (a.is_depth()     ? depth
+             : a.is_stencil() ? stencil
+                              : color) =
                 attachment(plan.images[k]->view(),
-                           a.is_depth() ? kDepthDrawn.layout : kColorDrawn.layout, a.clear);
+                           a.is_depth_stencil() ? kDepthDrawn.layout : kColorDrawn.layout, a.clear);
         }
     }
-    if (!color && !depth) {
+    if (!color && !depth && !stencil) {
         return;
     }
     VkRenderingInfo rendering = Typed{VK_STRUCTURE_TYPE_RENDERING_INFO};
     rendering.renderArea = render_area(*plan.test);
-    rendering.layerCount = 1;
+    rendering.layerCount = plan.test->target.layers;
     rendering.viewMask = view_mask(*plan.test);
     rendering.colorAttachmentCount = color ? 1 : 0;
     rendering.pColorAttachments = color ? &*color : nullptr;
     rendering.pDepthAttachment = depth ? &*depth : nullptr;
+    rendering.pStencilAttachment = stencil ? &*stencil : nullptr;
     vk.vkCmdBeginRendering(commands, &rendering);
     vk.vkCmdEndRendering(commands);
     const MemoryUse cleared{kDepthDrawn.stage, kDepthDrawn.access};
@@ -205,6 +214,11 @@ class Attached {
                 case Role::resolved_depth:
                     if (resolves) {
                         resolve_into(view, kDepthDrawn.layout, target.depth_resolve, *depth_);
+                    }
+                    break;
+                case Role::resolved_stencil:
+                    if (resolves) {
+                        resolve_into(view, kDepthDrawn.layout, target.stencil_resolve, *stencil_);
                     }
                     break;
                 default:

@@ -46,6 +46,16 @@ Buffer& Submission::readback(VkDeviceSize size) {
                 HostAccess::read);
 }
 
+VkBuffer Submission::pattern() {
+    if (pattern_.size() == 0) {
+        pattern_ = Buffer::create(*device_, kMostSurroundings, VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                  HostAccess::write);
+        std::ranges::fill(pattern_.bytes(), kSurrounding);
+        pattern_.flush();
+    }
+    return pattern_.get();
+}
+
 void Submission::trim(VkDeviceSize limit) {
     if (vertices_.size() > limit) {
         vertices_ = Buffer();

@@ -27,6 +27,9 @@ class Submission {
     // Ends recording, submits, and waits until the device has finished.
     void run();
 
+    // kMostSurroundings bytes of kSurrounding, to copy from.
+    VkBuffer pattern();
+
     // Descriptor sets for copying the samples of one case; they live until the next begin().
     std::vector<VkDescriptorSet> copy_sets(const PipelineCache& pipelines, const CasePlan& plan);
     // The same for reading its input attachments, into the plan.
@@ -55,6 +58,7 @@ class Submission {
     std::vector<Handle<VkDescriptorPool>> descriptor_pools_;
     Buffer vertices_;
     Buffer readback_;
+    Buffer pattern_;
 };
 
 }  // namespace vk_harness

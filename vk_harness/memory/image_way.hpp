@@ -33,6 +33,10 @@ struct ImageWay {
                    ? VkOffset2D{static_cast<int32_t>(more_columns), static_cast<int32_t>(more_rows)}
                    : VkOffset2D{0, 0};
     }
+    // Whether the image has texels that are not the attachment's.
+    bool has_neighbours() const {
+        return more_columns + more_rows + first_layer + more_layers + level > 0;
+    }
     uint32_t levels() const { return level > 0 ? level + 2 : 1; }
     // Size of level 0 in texels: an odd one, so that halves are rounded down.
     VkExtent2D extent(const VkExtent2D& attachment) const {

@@ -119,6 +119,16 @@ void add_usages(const Device& device, VkImageCreateInfo& info, bool is_depth) {
     }
 }
 
+// Whether the device has images like this that buffers are copied to and from.
+bool can_be_copied_to(const Device& device, const VkImageCreateInfo& info) {
+    VkImageFormatProperties limits{};
+    return has_features(device.capabilities(), info.format,
+                        VK_FORMAT_FEATURE_TRANSFER_DST_BIT | VK_FORMAT_FEATURE_TRANSFER_SRC_BIT) &&
+           vkGetPhysicalDeviceImageFormatProperties(
+               device.capabilities().physical, info.format, info.imageType, info.tiling,
+               info.usage | VK_IMAGE_USAGE_TRANSFER_DST_BIT, info.flags, &limits) == VK_SUCCESS;
+}
+
 // An image of colour, of as many texels as the other has samples in all, which is cleared by a
 // command; every device clears these formats ("Required Format Support").
 Handle<VkImage> make_alias(const Device& device, const VkImageCreateInfo& other) {
@@ -354,6 +364,12 @@ Image Image::create(const Device& device, VkFormat format, VkExtent2D extent, ui
         info.tiling = VK_IMAGE_TILING_LINEAR;
     }
     Image image;
+    image.whole_ = {
+        {info.extent.width, info.extent.height}, info.mipLevels, info.arrayLayers, way.origin()};
+    if (way.has_neighbours() && !multisampled && can_be_copied_to(device, info)) {
+        info.usage |= VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+        image.whole_.is_copied = true;
+    }
     image.is_linear_ = info.tiling == VK_IMAGE_TILING_LINEAR;
     image.image_ = make_image(device, info);
     const VkImage handle = image.get();

@@ -77,6 +77,15 @@ ImageMemory bind_guarded(const Device& device, VkImage image, bool is_dedicated 
 // sample, level and layer with linear tiling.
 bool has_linear(VkPhysicalDevice physical, const VkImageCreateInfo& info);
 
+// The image that an attachment is a part of.
+struct ImageWhole {
+    VkExtent2D extent{};  // of level 0
+    uint32_t levels = 1, layers = 1;
+    VkOffset2D origin{};  // of the attachment, in its level
+    bool is_copied =
+        false;  // it has more than the attachment, which buffers are copied to and from
+};
+
 // A colour or depth attachment.
 class Image {
   public:
@@ -105,6 +114,7 @@ class Image {
     const VkImageSubresourceRange& range() const { return range_; }
     // What of the image the view shows that is drawn to: with multiview more than that.
     const VkImageSubresourceRange& drawn() const { return drawn_; }
+    const ImageWhole& whole() const { return whole_; }
     VkDeviceSize memory_size() const { return memory_.size; }
     Guard* guard() const { return memory_.guard.get(); }  // may be null
     // Another image in the same memory, which vkCmdClearColorImage clears; null if there is none.
@@ -120,6 +130,7 @@ class Image {
     Handle<VkImageView> stencil_view_;
     VkImageSubresourceRange range_ = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
     VkImageSubresourceRange drawn_ = range_;
+    ImageWhole whole_;
 };
 
 // What all images have in common: two dimensions, one level, layer and sample, no contents.

@@ -17,21 +17,23 @@ constexpr VkImageLayout kColorLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
 constexpr VkImageLayout kDepthLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
 
 bool is_depth_stencil(Role role) {
-    return role == Role::depth || role == Role::stencil || role == Role::resolved_depth;
+    return role == Role::depth || role == Role::stencil || role == Role::resolved_depth ||
+           role == Role::resolved_stencil;
 }
 
 VkAttachmentDescription2 description_of(const PassKey::Part& part, const PassKey& key) {
     VkAttachmentDescription2 out = Typed{VK_STRUCTURE_TYPE_ATTACHMENT_DESCRIPTION_2};
-    const bool is_resolved = part.role == Role::resolved_color || part.role == Role::resolved_depth;
+    const bool is_resolved = part.role >= Role::resolved_color;
     const VkAttachmentLoadOp load = is_resolved && !key.clears_resolved
                                         ? VK_ATTACHMENT_LOAD_OP_LOAD
                                         : VK_ATTACHMENT_LOAD_OP_CLEAR;
     out.format = part.format;
     out.samples = static_cast<VkSampleCountFlagBits>(is_resolved ? 1 : key.samples);
-    const bool is_used = part.role != Role::stencil;
+    const bool is_stencil = part.role == Role::stencil || part.role == Role::resolved_stencil;
+    const bool is_used = !is_stencil;
     out.loadOp = is_used ? load : VK_ATTACHMENT_LOAD_OP_DONT_CARE;
     out.storeOp = is_used ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_DONT_CARE;
-    const bool has_stencil = part.has_stencil || part.role == Role::stencil;
+    const bool has_stencil = part.has_stencil || is_stencil;
     out.stencilLoadOp = has_stencil ? load : VK_ATTACHMENT_LOAD_OP_DONT_CARE;
     out.stencilStoreOp =
         has_stencil ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_DONT_CARE;
@@ -63,6 +65,7 @@ struct References {
                     depth = reference(k, kDepthLayout);
                     break;
                 case Role::resolved_depth:
+                case Role::resolved_stencil:
                     resolved_depth = reference(k, kDepthLayout);
                     break;
                 case Role::resolved_color:
@@ -90,7 +93,7 @@ struct References {
         }
         if (resolved_depth) {
             depth_resolve.depthResolveMode = resolve_mode(key.depth_resolve);
-            depth_resolve.stencilResolveMode = VK_RESOLVE_MODE_NONE;
+            depth_resolve.stencilResolveMode = resolve_mode(key.stencil_resolve);
             depth_resolve.pDepthStencilResolveAttachment = &*resolved_depth;
         }
     }
@@ -144,6 +147,7 @@ PassKey pass_key(const cases::Case& c, const TargetLayout& layout) {
     key.samples = c.target.samples;
     key.color_resolve = c.target.color_resolve;
     key.depth_resolve = c.target.depth_resolve;
+    key.stencil_resolve = c.target.stencil_resolve;
     key.clears_resolved = layout.has_pass;
     key.subpasses = c.variation.door == Door::subpasses ? 2 : 1;
     return key;

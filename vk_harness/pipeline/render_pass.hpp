@@ -24,7 +24,8 @@ struct PassKey {
     };
     std::vector<Part> parts;
     uint32_t samples = 1;
-    cases::Resolve color_resolve = cases::Resolve::none, depth_resolve = cases::Resolve::none;
+    cases::Resolve color_resolve = cases::Resolve::none, depth_resolve = cases::Resolve::none,
+                   stencil_resolve = cases::Resolve::none;
     uint32_t subpasses = 1;  // 1 or 2, which draw to the same attachments; the last one resolves
     bool clears_resolved = false;  // what is resolved into; else that has been cleared before
     // What one more subpass, which draws to none, reads as input attachments; empty: there is none.

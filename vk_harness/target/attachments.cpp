@@ -49,6 +49,7 @@ Attachment color_attachment(const cases::ColorTarget& target) {
 // one of the same case.
 void append_resolved(const cases::Target& target, std::vector<Attachment>& out) {
     constexpr float kNeverResolved = 0.8125F;
+    constexpr uint32_t kNeverStencil = 0x5a;
     if (capture::resolves_color(target)) {
         Attachment a = color_attachment(*target.color);
         a.role = Role::resolved_color;
@@ -59,13 +60,18 @@ void append_resolved(const cases::Target& target, std::vector<Attachment>& out) 
         }
         out.push_back(a);
     }
-    if (capture::resolves_depth(target)) {
-        const auto depth =
-            std::ranges::find_if(out, [](const auto& a) { return a.role == Role::depth; });
-        Attachment a = *depth;
-        a.role = Role::resolved_depth;
-        a.clear.depthStencil.depth = kNeverResolved;
+    const auto add_like = [&out](Role drawn, Role resolved) {
+        Attachment a = *std::ranges::find(out, drawn, &Attachment::role);
+        a.role = resolved;
+        a.clear.depthStencil = {kNeverResolved, a.clear.depthStencil.stencil ^ kNeverStencil};
         out.push_back(a);
+    };
+    if (capture::resolves_depth(target)) {
+        add_like(Role::depth, Role::resolved_depth);
+    }
+    if (capture::resolves_stencil(target)) {
+        add_like(Role::stencil, Role::resolved_stencil);
+        out.back().is_beside_depth = capture::resolves_depth(target);
     }
 }
 
@@ -157,10 +163,10 @@ uint32_t color_count(const std::vector<Attachment>& attachments) {
 std::string attachment_name(const std::vector<Attachment>& attachments, size_t k) {
     // In the order of Role.
     static constexpr std::array kNames = {
-        "writer and hits", "frag_coord", "writer",         "hits",          "frag_coord.xy",
-        "frag_coord.zw",   "attribute ", "attribute ",     "other color ",  "color",
-        "depth",           "stencil",    "resolved color", "resolved depth"};
-    static_assert(kNames.size() == static_cast<size_t>(Role::resolved_depth) + 1);
+        "writer and hits", "frag_coord", "writer",         "hits",           "frag_coord.xy",
+        "frag_coord.zw",   "attribute ", "attribute ",     "other color ",   "color",
+        "depth",           "stencil",    "resolved color", "resolved depth", "resolved stencil"};
+    static_assert(kNames.size() == static_cast<size_t>(Role::resolved_stencil) + 1);
     const Role role = attachments[k].role;
     std::string name = kNames.at(static_cast<size_t>(role));
     if (role == Role::attribute || role == Role::attribute_zw || role == Role::other_color) {

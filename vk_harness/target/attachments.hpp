@@ -27,8 +27,9 @@ enum class Role : uint8_t {
     color,
     depth,
     stencil,         // the other aspect of the depth attachment's image, if there is one
-    resolved_color,  // single-sampled: what `color` and `depth` are resolved into
-    resolved_depth
+    resolved_color,  // single-sampled: what `color`, `depth` and `stencil` are resolved into
+    resolved_depth,
+    resolved_stencil  // the other aspect of resolved_depth's image, if there is one
 };
 
 struct Attachment {
@@ -42,15 +43,14 @@ struct Attachment {
     bool is_beside_depth = false;  // a stencil in the image of the attachment before it
     bool is_input = false;         // read back as an input attachment, in whole words a sample
     bool is_depth() const { return role == Role::depth || role == Role::resolved_depth; }
-    bool is_depth_stencil() const { return is_depth() || role == Role::stencil; }
+    bool is_stencil() const { return role == Role::stencil || role == Role::resolved_stencil; }
+    bool is_depth_stencil() const { return is_depth() || is_stencil(); }
     VkImageAspectFlags aspect() const {
-        return role == Role::stencil ? VK_IMAGE_ASPECT_STENCIL_BIT
-               : is_depth()          ? VK_IMAGE_ASPECT_DEPTH_BIT
-                                     : VK_IMAGE_ASPECT_COLOR_BIT;
+        return is_stencil() ? VK_IMAGE_ASPECT_STENCIL_BIT
+               : is_depth() ? VK_IMAGE_ASPECT_DEPTH_BIT
+                            : VK_IMAGE_ASPECT_COLOR_BIT;
     }
-    bool is_resolved() const {
-        return role == Role::resolved_color || role == Role::resolved_depth;
-    }
+    bool is_resolved() const { return role >= Role::resolved_color; }
     // Its own sample count on a target of so many samples.
     uint32_t samples_of(const cases::Target& target) const {
         return is_resolved() ? 1 : target.samples;

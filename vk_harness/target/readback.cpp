@@ -382,6 +382,9 @@ void read_planes(const std::vector<Attachment>& attachments, const ReadbackLayou
             case Role::resolved_depth:
                 decode_depth(shape, has_words, from, to.resolved_depth.data());
                 break;
+            case Role::resolved_stencil:
+                decode_stencil(shape, has_words, from, to.resolved_stencil.data());
+                break;
             default:
                 decode_instrument(attachments, layout, memory, count, k, to);
                 break;

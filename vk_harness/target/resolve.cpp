@@ -65,7 +65,7 @@ void check_resolve_and_stencil(const Capabilities& c, const cases::Target& t) {
         throw unsupported(fmt::format("the device cannot resolve into the colour format {}",
                                       cases::name_of(t.color->format)));
     }
-    if (!capture::resolves_depth(t)) {
+    if (!capture::resolves_depth(t) && !capture::resolves_stencil(t)) {
         return;
     }
     if (!c.core.depth_resolve) {
@@ -74,14 +74,29 @@ void check_resolve_and_stencil(const Capabilities& c, const cases::Target& t) {
     VkPhysicalDeviceDepthStencilResolveProperties resolve =
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_STENCIL_RESOLVE_PROPERTIES};
     get_properties(c.physical, resolve);
-    const ResolveMode& mode = mode_of(t.depth_resolve);
-    if ((resolve.supportedDepthResolveModes & static_cast<VkResolveModeFlags>(mode.bit)) == 0) {
-        throw unsupported(fmt::format("the device does not resolve depth by {}", mode.name));
+    const auto check_mode = [&](cases::Resolve used, VkResolveModeFlags modes,
+                                std::string_view aspect) {
+        const ResolveMode& mode = mode_of(used);
+        const auto bit = static_cast<VkResolveModeFlags>(mode.bit);
+        if ((modes & bit) != bit) {
+            throw unsupported(
+                fmt::format("the device does not resolve {} by {}", aspect, mode.name));
+        }
+    };
+    check_mode(t.depth_resolve, resolve.supportedDepthResolveModes, "depth");
+    check_mode(t.stencil_resolve, resolve.supportedStencilResolveModes, "stencil");
+    // Of one image.
+    if (!t.has_stencil || t.depth_resolve == t.stencil_resolve ||
+        resolve.independentResolve == VK_TRUE) {
+        return;
     }
-    // A stencil beside it is not resolved: one of the two modes is NONE.
-    if (t.has_stencil && resolve.independentResolveNone != VK_TRUE) {
+    const bool one_is_none = !capture::resolves_depth(t) || !capture::resolves_stencil(t);
+    if (!one_is_none || resolve.independentResolveNone != VK_TRUE) {
         throw unsupported(
-            "the device does not resolve depth without stencil (independentResolveNone)");
+            one_is_none ? "the device does not resolve depth without stencil or stencil without "
+                          "depth (independentResolveNone)"
+                        : "the device does not resolve depth and stencil by different modes "
+                          "(independentResolve)");
     }
 }
 

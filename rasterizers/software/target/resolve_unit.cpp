@@ -104,7 +104,10 @@ size_t source_of(const cases::Target& target, size_t pixel, Fault fault) {
 
 bool is_left_out(const cases::Target& target, size_t pixel, Fault fault) {
     if (fault == "resolve-row-lost"_fault) {
-        return pixel / target.width + 1 == target.height;
+        return pixel / target.width % target.height + 1 == target.height;
+    }
+    if (fault == "resolve-first-layer"_fault) {
+        return pixel / target.width >= target.height;
     }
     return fault == "resolve-ignored"_fault;
 }
@@ -155,11 +158,13 @@ float resolve_depth(std::span<const float> samples, float clear, const cases::Ta
 
 void resolve(capture::Capture& capture, const Device& device) {
     const cases::Target& target = capture.target;
-    const size_t pixels = size_t{target.width} * target.height;
+    const size_t pixels = size_t{target.width} * target.rows();
     const bool has_color = capture::resolves_color(target);
     const bool has_depth = capture::resolves_depth(target);
+    const bool has_stencil = capture::resolves_stencil(target);
     capture.resolved_color.assign(has_color ? pixels : 0, {});
     capture.resolved_depth.assign(has_depth ? pixels : 0, 0);
+    capture.resolved_stencil.assign(has_stencil ? pixels : 0, 0);
     capture::ColorCodes clear{};
     if (has_color) {
         const BlendUnit unit(target.color->format, device);
@@ -178,6 +183,12 @@ void resolve(capture::Capture& capture, const Device& device) {
             capture.resolved_depth[pixel] =
                 resolve_depth(std::span(capture.depth).subspan(first, target.samples),
                               target.depth_clear, target, device);
+        }
+        if (has_stencil) {
+            const bool is_of_depth = device.fault == "stencil-resolve-of-depth"_fault && has_depth;
+            capture.resolved_stencil[pixel] =
+                select(std::span<const uint32_t>(capture.stencil).subspan(first, target.samples),
+                       is_of_depth ? target.depth_resolve : target.stencil_resolve, device.fault);
         }
     }
 }

@@ -62,8 +62,8 @@ std::vector<Change> target_changes() {
                                   sample_locations, color, other_colors,
                                   judged_color,  // not told
                                   instruments,   // no part of the picture
-                                  has_depth, depth_clear, color_resolve, depth_resolve, has_stencil,
-                                  stencil_clear] = cases::Target{};
+                                  has_depth, depth_clear, color_resolve, depth_resolve,
+                                  stencil_resolve, has_stencil, stencil_clear] = cases::Target{};
     [[maybe_unused]] const auto& [format, clear] = cases::ColorTarget{};
     return {
         {"width", [](Case& c) { ++c.target.width; }},
@@ -83,6 +83,7 @@ std::vector<Change> target_changes() {
         {"depth_clear", [](Case& c) { c.target.depth_clear = 0.5F; }},
         {"color_resolve", [](Case& c) { c.target.color_resolve = cases::Resolve::average; }},
         {"depth_resolve", [](Case& c) { c.target.depth_resolve = cases::Resolve::max; }},
+        {"stencil_resolve", [](Case& c) { c.target.stencil_resolve = cases::Resolve::min; }},
         {"has_stencil", [](Case& c) { c.target.has_stencil = true; }},
         {"stencil_clear", [](Case& c) { c.target.stencil_clear = 1; }},
     };

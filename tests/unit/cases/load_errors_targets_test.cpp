@@ -47,16 +47,17 @@ layers = 5)~"),
      R"~(f:5:8: error: the target has more than 2^24 samples; make it smaller)~"},
     {target(R"~(size = [8, 8]
 samples = 4
-layers = 2
-resolve = "average"
-[target.color]
-format = "rgba8-unorm")~"),
-     R"~(f:8:11: error: resolve does not go with several layers; leave out layers)~"},
+stencil_resolve = "min")~"),
+     R"~(f:7:19: error: stencil_resolve needs a stencil; write stencil = true)~"},
     {target(R"~(size = [8, 8]
 samples = 4
-layers = 2
-depth_resolve = "min")~"),
-     R"~(f:8:17: error: depth_resolve does not go with several layers; leave out layers)~"},
+stencil = true
+stencil_resolve = "average")~"),
+     R"~(f:8:19: error: Vulkan has no average of stencils; write sample-zero, min or max)~"},
+    {target(R"~(size = [8, 8]
+stencil = true
+stencil_resolve = "max")~"),
+     R"~(f:7:19: error: stencil_resolve needs several samples; write samples = 4)~"},
     {target(R"~(size = [8192, 8192]
 samples = 2)~"),
      R"~(f:5:8: error: the target has more than 2^24 samples; make it smaller)~"},

@@ -78,6 +78,7 @@ Case sample() {
     c.target.depth_clear = 0.75F;
     c.target.color_resolve = Resolve::average;
     c.target.depth_resolve = Resolve::max;
+    c.target.stencil_resolve = Resolve::min;
     c.target.has_stencil = true;
     c.target.stencil_clear = 77;
     c.target.other_colors = {{ColorFormat::r32_uint, {5, 0, 0, 0}}};

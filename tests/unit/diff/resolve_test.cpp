@@ -110,6 +110,11 @@ TEST(Resolve, NotCopiedIsAnError) {
     d.target.depth_resolve = Resolve::min;
     d.resolved_depth.assign(2, std::bit_cast<float>(capture::kPoison));
     EXPECT_NE(judge_dependent_planes(d, Profile::vulkan, [](const Finding&) {}), "");
+    capture::Capture e = make_capture(2);
+    e.target.has_stencil = true;
+    e.target.stencil_resolve = Resolve::min;
+    e.resolved_stencil.assign(2, capture::kPoison);
+    EXPECT_NE(judge_dependent_planes(e, Profile::vulkan, [](const Finding&) {}), "");
 }
 
 // Codes 10, 20, 20, 35: mean 21.25. From practice on 20.25..22.25 may be stored, that is 21 or 22;
@@ -233,6 +238,26 @@ TEST(Resolve, DepthByEachMode) {
                 c.resolved_depth[1] = stored(other);
                 EXPECT_EQ(judge(c).size(), std::equal_to<>()(other, right) ? 0U : 1U) << other;
             }
+        }
+    }
+}
+
+TEST(Resolve, StencilByEachMode) {
+    const std::vector<uint32_t> samples = {130, 3, 200, 127};
+    for (const auto& [mode, right] : {std::pair(Resolve::sample_zero, 130U),
+                                      std::pair(Resolve::min, 3U), std::pair(Resolve::max, 200U)}) {
+        capture::Capture c = make_capture(4);
+        c.target.has_stencil = true;
+        c.target.stencil_resolve = mode;
+        for (size_t k = 0; k < c.sample_count(); ++k) {
+            c.stencil.push_back(samples[k % 4]);
+        }
+        add_dependent_planes(c);
+        EXPECT_EQ(c.resolved_stencil[0], right);
+        EXPECT_TRUE(judge(c).empty());
+        for (const uint32_t other : {130U, 3U, 200U, 127U, 115U, 0U}) {
+            c.resolved_stencil[1] = other;
+            EXPECT_EQ(judge(c).size(), other == right ? 0U : 1U) << other;
         }
     }
 }

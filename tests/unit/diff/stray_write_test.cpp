@@ -43,6 +43,22 @@ TEST(StrayWrite, IsToldByItsMemoryAndBelongsToNoSample) {
     EXPECT_TRUE(after.of_case);
 }
 
+TEST(StrayWrite, OfTexelsTheFirstIsTold) {
+    Verdict verdict;
+    add_stray_writes({},
+                     std::vector<capture::StrayWrite>{{"depth, door image-level", false, 0, 0x3a3aU,
+                                                       7, 5, 1, "(3, 0) of layer 0, level 2"}},
+                     verdict);
+    ASSERT_EQ(verdict.findings.size(), 1U);
+    const Finding& finding = verdict.findings[0];
+    EXPECT_EQ(finding.rule, "write.outside");
+    EXPECT_EQ(finding.level, cases::Profile::vulkan);
+    EXPECT_EQ(finding.quantity, "image of depth, door image-level");
+    EXPECT_EQ(finding.expected, "0x00003a3a");
+    EXPECT_THAT(finding.why, HasSubstr("texel (3, 0) of layer 0, level 2"));
+    EXPECT_THAT(finding.why, HasSubstr("5 of those texels changed"));
+}
+
 TEST(StrayWrite, NothingIsNoFinding) {
     Verdict verdict;
     add_stray_writes({}, {}, verdict);

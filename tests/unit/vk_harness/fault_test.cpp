@@ -176,6 +176,44 @@ TEST(Fault, WhatIsWrittenBesideAnAttachmentIsSeen) {
     EXPECT_EQ(device.guards.size(), last + 1);
 }
 
+// A clear of one more column changes texels beside the attachment, in each image that is looked at
+// and not too large for it.
+TEST(Fault, TexelsBesideAnAttachmentAreSeen) {
+    using cases::Door;
+    Faulty faulty;
+    cases::Case c = half();
+    for (const Door door : {Door::target_larger, Door::target_last_tile, Door::image_layer,
+                            Door::image_level, Door::multiview}) {
+        c.variation.door = door;
+        const Rendered clean = faulty.render(c);
+        if (clean.status != Rendered::Status::unsupported) {
+            EXPECT_EQ(clean.status, Rendered::Status::drawn) << clean.reason;
+            EXPECT_TRUE(clean.stray_writes.empty());
+        }
+    }
+    c.variation.door = Door::target_larger;
+    static PFN_vkCmdBeginRendering begin;
+    begin = faulty.vk().vkCmdBeginRendering;
+    faulty.vk().vkCmdBeginRendering = [](VkCommandBuffer commands, const VkRenderingInfo* info) {
+        VkRenderingInfo wider = *info;
+        ++wider.renderArea.extent.width;
+        begin(commands, &wider);
+    };
+    const Rendered wider = faulty.render(c);
+    faulty.vk().vkCmdBeginRendering = begin;
+    ASSERT_EQ(wider.status, Rendered::Status::drawn) << wider.reason;
+    ASSERT_EQ(wider.stray_writes.size(), 2U);
+    EXPECT_EQ(wider.stray_writes[0].attachment, "hits");
+    EXPECT_EQ(wider.stray_writes[1].attachment, "depth");
+    for (const capture::StrayWrite& write : wider.stray_writes) {
+        EXPECT_EQ(write.texel, "(32, 0) of layer 0, level 0");
+        EXPECT_EQ(write.expected, 0x3a3a3a3aU);
+        EXPECT_NE(write.got, write.expected);
+        EXPECT_EQ(write.words, 32U);
+    }
+    EXPECT_TRUE(faulty.render(c).stray_writes.empty());
+}
+
 // Of several words the one next to the attachment is told, and how many there are.
 TEST(Fault, OfSeveralWordsTheNearestIsTold) {
     Faulty faulty;

@@ -77,6 +77,8 @@ TEST(Parts, AttributesAndColoursAreDivided) {
     c.target.color.emplace();
     c.target.color_resolve = cases::Resolve::average;
     c.target.depth_resolve = cases::Resolve::max;
+    c.target.has_stencil = true;
+    c.target.stencil_resolve = cases::Resolve::min;
     c.draws[0].color.attribute = 3;
     c.draws[0].query = cases::Query::occlusion;
     // Hits, and attributes 1 and 2.
@@ -94,6 +96,7 @@ TEST(Parts, AttributesAndColoursAreDivided) {
     EXPECT_FALSE(parts[0].test.target.color.has_value());
     EXPECT_EQ(parts[0].test.target.color_resolve, cases::Resolve::none);
     EXPECT_EQ(parts[0].test.target.depth_resolve, cases::Resolve::max);
+    EXPECT_EQ(parts[0].test.target.stencil_resolve, cases::Resolve::min);
     EXPECT_EQ(parts[0].test.draws[0].query, cases::Query::occlusion);
     EXPECT_EQ(parts[0].test.variation.masked,
               1U << capture::kHitsPlane | 1U << (capture::kAttributePlane + 1));
