@@ -85,9 +85,6 @@ bool no_resolve(Rendering& r) {
 bool resolve_no_depth(Rendering& r) {
     return r.depth && change(r.depth->resolveMode, VK_RESOLVE_MODE_NONE);
 }
-bool resolve_no_stencil(Rendering& r) {
-    return r.stencil && change(r.stencil->resolveMode, VK_RESOLVE_MODE_NONE);
-}
 bool swap_min_max(Rendering& r) {
     if (!r.depth) {
         return false;
@@ -145,7 +142,6 @@ constexpr std::array kMultisampleFaults = {
           {.pipeline = of_pipeline<move_locations>, .sample_locations = move_locations}},
     Fault{"resolve-off", "resolve-ignored"_fault, {.rendering = no_resolve}},
     Fault{"resolve-no-depth", "Depth is not resolved.", {.rendering = resolve_no_depth}},
-    Fault{"resolve-no-stencil", "The stencil is not resolved.", {.rendering = resolve_no_stencil}},
     Fault{"resolve-min-max-swapped",
           "Minimum and maximum are swapped in resolves of depth.",
           {.rendering = swap_min_max}},

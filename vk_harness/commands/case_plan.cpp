@@ -40,13 +40,24 @@ bool is_looked_around(Role role) {
 VkDeviceSize place_surroundings(CasePlan& plan, VkDeviceSize begin) {
     plan.surroundings.clear();
     const cases::Target& target = plan.test->target;
-    for (size_t k = 0; k < plan.images.size(); ++k) {
-        const Attachment& a = plan.attachments[k];
-        std::optional<Surroundings> around = Surroundings::of(
-            *plan.images[k], {target.width, target.height}, a.aspect(), a.texel_bytes);
-        if (around && is_looked_around(a.role)) {
+    const auto add = [&](size_t k, VkExtent2D size, VkImageAspectFlags aspect, uint32_t bytes) {
+        if (std::optional<Surroundings> around =
+                Surroundings::of(*plan.images[k], size, aspect, bytes)) {
             begin = around->place(begin);
             plan.surroundings.push_back({k, *around});
+        }
+    };
+    for (size_t k = 0; k < plan.images.size(); ++k) {
+        const Attachment& a = plan.attachments[k];
+        if (is_looked_around(a.role)) {
+            add(k, {target.width, target.height}, a.aspect(), a.texel_bytes);
+        }
+        // Of a resolve by VK_RESOLVE_MODE_NONE nothing comes. A render pass object has no such
+        // image whose contents it neither loads nor spoils.
+        if (a.is_resolved() && a.is_depth_stencil() && target.has_depth && plan.pass == nullptr &&
+            plan.images[k]->whole().has_spare_aspect) {
+            a.is_depth() ? add(k, {}, VK_IMAGE_ASPECT_STENCIL_BIT, 1)
+                         : add(k, {}, VK_IMAGE_ASPECT_DEPTH_BIT, row_of(target.depth_format).bytes);
         }
     }
     return begin;
@@ -94,7 +105,10 @@ std::vector<capture::StrayWrite> changed_surroundings(const CasePlan& plan,
         if (const std::optional<Surroundings::Change> change = s.of.read(memory)) {
             capture::StrayWrite write;
             write.attachment = attachment_name(plan.attachments, s.attachment);
-            write.expected = Surroundings::expected(plan.attachments[s.attachment].texel_bytes);
+            if (s.of.aspect() != plan.attachments[s.attachment].aspect()) {
+                write.attachment += ", the other aspect";
+            }
+            write.expected = s.of.expected();
             write.got = change->got;
             write.words = change->changed;
             write.texel = fmt::format("({}, {}) of layer {}, level {}", change->x, change->y,

@@ -21,8 +21,9 @@ struct ImageWay {
     uint32_t level = 0;                        // of the image; others lie before and behind it
     bool all_usages = false;
     bool is_dedicated = false;
-    bool is_linear = false;   // tiled so, where the device offers it
-    bool is_aliased = false;  // its memory is another image's, too
+    bool is_linear = false;         // tiled so, where the device offers it
+    bool is_aliased = false;        // its memory is another image's, too
+    bool has_spare_aspect = false;  // it is resolved into one aspect of two
     // The view shows all layers of the image, of which a view mask picks the last.
     bool is_multiview = false;
     friend auto operator<=>(const ImageWay&, const ImageWay&) = default;
@@ -35,7 +36,7 @@ struct ImageWay {
     }
     // Whether the image has texels that are not the attachment's.
     bool has_neighbours() const {
-        return more_columns + more_rows + first_layer + more_layers + level > 0;
+        return has_spare_aspect || more_columns + more_rows + first_layer + more_layers + level > 0;
     }
     uint32_t levels() const { return level > 0 ? level + 2 : 1; }
     // Size of level 0 in texels: an odd one, so that halves are rounded down.

@@ -364,8 +364,11 @@ Image Image::create(const Device& device, VkFormat format, VkExtent2D extent, ui
         info.tiling = VK_IMAGE_TILING_LINEAR;
     }
     Image image;
-    image.whole_ = {
-        {info.extent.width, info.extent.height}, info.mipLevels, info.arrayLayers, way.origin()};
+    image.whole_ = {{info.extent.width, info.extent.height},
+                    info.mipLevels,
+                    info.arrayLayers,
+                    way.has_spare_aspect,
+                    way.origin()};
     if (way.has_neighbours() && !multisampled && can_be_copied_to(device, info)) {
         info.usage |= VK_IMAGE_USAGE_TRANSFER_DST_BIT;
         image.whole_.is_copied = true;

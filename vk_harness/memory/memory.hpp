@@ -81,7 +81,8 @@ bool has_linear(VkPhysicalDevice physical, const VkImageCreateInfo& info);
 struct ImageWhole {
     VkExtent2D extent{};  // of level 0
     uint32_t levels = 1, layers = 1;
-    VkOffset2D origin{};  // of the attachment, in its level
+    bool has_spare_aspect = false;  // ImageWay
+    VkOffset2D origin{};            // of the attachment, in its level
     bool is_copied =
         false;  // it has more than the attachment, which buffers are copied to and from
 };

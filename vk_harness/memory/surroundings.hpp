@@ -25,8 +25,9 @@ inline constexpr std::byte kSurrounding{0x3a};
 // The texels beside one aspect of an attachment of `size` pixels, read back behind the drawing.
 class Surroundings {
   public:
-    // `texel_bytes` as they are copied. Nothing if the image is the attachment's alone, its texels
-    // cannot be copied from and to buffers, or there are too many.
+    // No size: of an aspect that is not drawn to. `texel_bytes` as they are copied. Nothing if the
+    // image is the attachment's alone, its texels cannot be copied from and to buffers, or there
+    // are too many.
     static std::optional<Surroundings> of(const Image& image, VkExtent2D size,
                                           VkImageAspectFlags aspect, uint32_t texel_bytes);
 
@@ -48,9 +49,8 @@ class Surroundings {
         uint64_t changed = 0;  // texels
     };
     // The first bytes of a texel that has not changed, up to four.
-    static uint32_t expected(uint32_t texel_bytes) {
-        return 0x3a3a3a3aU >> (32 - 8 * std::min(texel_bytes, 4U));
-    }
+    uint32_t expected() const { return 0x3a3a3a3aU >> (32 - 8 * std::min(texel_bytes_, 4U)); }
+    VkImageAspectFlags aspect() const { return aspect_; }
     // What was recorded has run.
     std::optional<Change> read(std::span<const std::byte> memory) const;
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "capture/capture.hpp"
 #include "vk_harness/memory/memory.hpp"
 #include "vk_harness/target/attachments.hpp"
 
@@ -58,6 +59,8 @@ ImageWay image_way(const cases::Case& c) {
 
 ImageWay resolved_way(const cases::Case& c) {
     ImageWay way = image_way(c);
+    way.has_spare_aspect = c.target.has_stencil &&
+                           capture::resolves_depth(c.target) != capture::resolves_stencil(c.target);
     if (c.variation.door == cases::Door::image_layer) {
         // The images have as many layers, so that a device that takes the layer of one for the
         // other stays within them.
