@@ -23,10 +23,14 @@ std::string_view raw(std::span<const T> v) {
 }  // namespace
 
 uint64_t capture_bits(const CaptureView& capture) {
-    // In older reports depth came before the attributes, so it does here.
+    // In older reports depth came before the attributes, so it does here, and no stencil was
+    // resolved.
     std::vector<uint64_t> sums;
     for_each_plane(
         [&sums](const Plane& plane, const auto& entries) {
+            if (plane.number == kResolvedStencilPlane && entries.empty()) {
+                return;
+            }
             const auto at =
                 plane.number == kDepthPlane ? sums.begin() + kAttributePlane : sums.end();
             sums.insert(at, cases::checksum(kResultSeed, raw(entries)));

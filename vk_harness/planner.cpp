@@ -9,6 +9,7 @@
 #include "cases/model/sample.hpp"
 #include "vk_harness/case_check.hpp"
 #include "vk_harness/commands/render_pass.hpp"
+#include "vk_harness/pipeline/object_state.hpp"
 #include "vk_harness/row_reader.hpp"
 #include "vk_harness/target/shader_interface.hpp"
 #include "vk_harness/target/target_way.hpp"
@@ -88,6 +89,9 @@ DrawPlan Planner::plan_draw(const cases::Case& test, const cases::Draw& draw,
     if (door == cases::Door::state_output) {
         item.outputs = output_state(own);
         own = without_outputs(own);
+    } else if (door == cases::Door::state_rasterization) {
+        item.rasterization = std::make_shared<PipelineKey>(own);
+        own = without_rasterization(own);
     }
     plan_shaders(item, own, door);
     if (door == cases::Door::state_after_static) {

@@ -59,6 +59,7 @@ enum class Door : uint8_t {
     state_static,
     state_after_static,
     state_output,
+    state_rasterization,
     state_unused,
     unoptimized,
     pipeline_library,

@@ -36,6 +36,7 @@ struct DrawPlan {
     bool is_split = false;                    // TargetLayout::split
     std::shared_ptr<Feed> feed;               // of a door that feeds vertices in another way
     std::optional<OutputState> outputs = {};  // of the door state_output: set before the draw
+    std::shared_ptr<const PipelineKey> rasterization;  // of the door state_rasterization
     // Of the door shader_objects, instead of a pipeline; the state is that of the key.
     std::shared_ptr<const PipelineKey> object_key;
     ShaderPair objects{};

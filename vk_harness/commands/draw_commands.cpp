@@ -198,6 +198,9 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
     if (plan.outputs) {
         set_outputs(device, commands, *plan.outputs);
     }
+    if (plan.rasterization) {
+        set_dynamic_rasterization(device, commands, *plan.rasterization);
+    }
     if (door == Door::state_stale) {
         const DrawState other =
             other_state(state, device.capabilities().core.dynamic_state ? Leaves::rasterization_off

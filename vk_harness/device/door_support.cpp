@@ -125,6 +125,9 @@ constexpr Need kNeeds[] = {
     {Door::state_output, &DoorSupport::dynamic_outputs,
      "the states of blending, logical operations, sample masks and alpha to coverage and to one of "
      "VK_EXT_extended_dynamic_state3, and extendedDynamicState2LogicOp"},
+    {Door::state_rasterization, &DoorSupport::dynamic_rasterization,
+     "the states of samples, sample masks, polygon modes, depth clamping and clipping and the "
+     "provoking vertex of VK_EXT_extended_dynamic_state3"},
     {Door::pipeline_library, &DoorSupport::library,
      "graphicsPipelineLibrary (VK_EXT_graphics_pipeline_library)"},
     {Door::shader_objects, &DoorSupport::shader_objects, "shaderObject (VK_EXT_shader_object)"},

@@ -13,22 +13,23 @@
 namespace vk_harness {
 
 struct DoorSupport {
-    bool index_8 = false;             // indexTypeUint8
-    bool indirect_count = false;      // drawIndirectCount
-    bool multi_indirect = false;      // multiDrawIndirect, with room for three draws
-    bool multi_draw = false;          // multiDraw, with room for three draws
-    bool dynamic_outputs = false;     // all that pipeline/output_state.hpp sets
-    bool library = false;             // graphicsPipelineLibrary
-    bool multiview = false;           // of two views at least
-    bool geometry = false;            // geometryShader
-    bool tessellation = false;        // tessellationShader
-    bool feedback = false;            // transformFeedback
-    bool shader_objects = false;      // shaderObject
-    bool divisor = false;             // vertexAttributeInstanceRateDivisor
-    bool divisor_zero = false;        // vertexAttributeInstanceRateZeroDivisor
-    bool mesh = false;                // meshShader
-    uint32_t mesh_layers = 0;         // maxMeshOutputLayers: a mesh shader names those below
-    bool fragment_stores = false;     // fragmentStoresAndAtomics
+    bool index_8 = false;                // indexTypeUint8
+    bool indirect_count = false;         // drawIndirectCount
+    bool multi_indirect = false;         // multiDrawIndirect, with room for three draws
+    bool multi_draw = false;             // multiDraw, with room for three draws
+    bool dynamic_outputs = false;        // all that pipeline/output_state.hpp sets
+    bool dynamic_rasterization = false;  // all that set_dynamic_rasterization() sets
+    bool library = false;                // graphicsPipelineLibrary
+    bool multiview = false;              // of two views at least
+    bool geometry = false;               // geometryShader
+    bool tessellation = false;           // tessellationShader
+    bool feedback = false;               // transformFeedback
+    bool shader_objects = false;         // shaderObject
+    bool divisor = false;                // vertexAttributeInstanceRateDivisor
+    bool divisor_zero = false;           // vertexAttributeInstanceRateZeroDivisor
+    bool mesh = false;                   // meshShader
+    uint32_t mesh_layers = 0;            // maxMeshOutputLayers: a mesh shader names those below
+    bool fragment_stores = false;        // fragmentStoresAndAtomics
     bool linear = false;              // linear attachments of some format that cases are drawn to
     bool host_import = false;         // of memory that vertices and indices are read from
     VkDeviceSize host_alignment = 1;  // minImportedHostPointerAlignment

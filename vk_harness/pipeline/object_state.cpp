@@ -41,6 +41,17 @@ void set_samples(const Device& device, VkCommandBuffer commands, const PipelineK
     }
 }
 
+bool clips_depth(const PipelineKey& key) {
+    // Without a word on it a pipeline clips where it does not clamp.
+    return key.depth_clip.value_or(!key.depth_clamp);
+}
+
+VkProvokingVertexModeEXT provoking_mode(const PipelineKey& key) {
+    return key.provoking == cases::ProvokingVertex::last
+               ? VK_PROVOKING_VERTEX_MODE_LAST_VERTEX_EXT
+               : VK_PROVOKING_VERTEX_MODE_FIRST_VERTEX_EXT;
+}
+
 void set_rasterization(const Device& device, VkCommandBuffer commands, const PipelineKey& key) {
     const VolkDeviceTable& vk = device.vk();
     const Capabilities& c = device.capabilities();
@@ -50,19 +61,14 @@ void set_rasterization(const Device& device, VkCommandBuffer commands, const Pip
         vk.vkCmdSetDepthClampEnableEXT(commands, own.info.depthClampEnable);
     }
     if (c.depth_clip_enable) {
-        // Without a word on it a pipeline clips where it does not clamp.
-        const bool clips = key.depth_clip.value_or(!key.depth_clamp);
-        vk.vkCmdSetDepthClipEnableEXT(commands, clips ? VK_TRUE : VK_FALSE);
+        vk.vkCmdSetDepthClipEnableEXT(commands, clips_depth(key) ? VK_TRUE : VK_FALSE);
     }
     if (c.clip.depth_clip_control) {
         vk.vkCmdSetDepthClipNegativeOneToOneEXT(commands,
                                                 key.negative_one_to_one ? VK_TRUE : VK_FALSE);
     }
     if (c.clip.last_provoking_vertex) {
-        vk.vkCmdSetProvokingVertexModeEXT(commands,
-                                          key.provoking == cases::ProvokingVertex::last
-                                              ? VK_PROVOKING_VERTEX_MODE_LAST_VERTEX_EXT
-                                              : VK_PROVOKING_VERTEX_MODE_FIRST_VERTEX_EXT);
+        vk.vkCmdSetProvokingVertexModeEXT(commands, provoking_mode(key));
     }
     if (c.has_conservative) {
         vk.vkCmdSetConservativeRasterizationModeEXT(commands,
@@ -90,6 +96,27 @@ void set_object_state(const Device& device, VkCommandBuffer commands, const Pipe
         vk.vkCmdSetDepthBoundsTestEnable(commands, VK_FALSE);
     }
     set_outputs(device, commands, output_state(key));
+}
+
+PipelineKey without_rasterization(PipelineKey key) {
+    key.depth_clamp = false;
+    key.depth_clip.reset();
+    key.provoking = cases::ProvokingVertex::first;
+    key.sample_mask = 0;
+    key.rasterization_is_dynamic = true;
+    return key;
+}
+
+void set_dynamic_rasterization(const Device& device, VkCommandBuffer commands,
+                               const PipelineKey& key) {
+    const VolkDeviceTable& vk = device.vk();
+    const auto samples = static_cast<VkSampleCountFlagBits>(key.samples);
+    vk.vkCmdSetRasterizationSamplesEXT(commands, samples);
+    vk.vkCmdSetSampleMaskEXT(commands, samples, &key.sample_mask);
+    vk.vkCmdSetPolygonModeEXT(commands, VK_POLYGON_MODE_FILL);
+    vk.vkCmdSetDepthClampEnableEXT(commands, key.depth_clamp ? VK_TRUE : VK_FALSE);
+    vk.vkCmdSetDepthClipEnableEXT(commands, clips_depth(key) ? VK_TRUE : VK_FALSE);
+    vk.vkCmdSetProvokingVertexModeEXT(commands, provoking_mode(key));
 }
 
 void set_counted_viewports(const Device& device, VkCommandBuffer commands, const DrawState& state) {

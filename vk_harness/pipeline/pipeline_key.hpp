@@ -94,8 +94,9 @@ struct PipelineKey {
     StageWay stages = StageWay::vertex;
     std::optional<PassKey> pass = {};  // nothing: dynamic rendering
     uint32_t subpass = 0;
-    uint32_t view_mask = 0;             // target_way.hpp
-    bool outputs_are_dynamic = false;   // output_state.hpp
+    uint32_t view_mask = 0;                 // target_way.hpp
+    bool outputs_are_dynamic = false;       // output_state.hpp
+    bool rasterization_is_dynamic = false;  // object_state.hpp
     std::vector<ColorKey> colors = {};  // by location, the first behind those of the instruments
     std::optional<cases::LogicOp> logic = {};
     bool alpha_to_one = false;

@@ -155,6 +155,9 @@ MultisampleState::MultisampleState(const PipelineKey& key) {
     if (key.outputs_are_dynamic) {
         sample_mask = 0;
     }
+    if (key.rasterization_is_dynamic && places.empty()) {
+        info.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+    }
 }
 
 VkPipelineDepthStencilStateCreateInfo depth_state(const PipelineKey& key) {
@@ -319,6 +322,11 @@ std::vector<VkDynamicState> dynamic_states(const PipelineKey& key) {
              VK_DYNAMIC_STATE_COLOR_WRITE_MASK_EXT, VK_DYNAMIC_STATE_LOGIC_OP_ENABLE_EXT,
              VK_DYNAMIC_STATE_LOGIC_OP_EXT, VK_DYNAMIC_STATE_ALPHA_TO_ONE_ENABLE_EXT,
              VK_DYNAMIC_STATE_ALPHA_TO_COVERAGE_ENABLE_EXT, VK_DYNAMIC_STATE_SAMPLE_MASK_EXT});
+    }
+    if (key.rasterization_is_dynamic) {
+        add({VK_DYNAMIC_STATE_RASTERIZATION_SAMPLES_EXT, VK_DYNAMIC_STATE_SAMPLE_MASK_EXT,
+             VK_DYNAMIC_STATE_POLYGON_MODE_EXT, VK_DYNAMIC_STATE_DEPTH_CLAMP_ENABLE_EXT,
+             VK_DYNAMIC_STATE_DEPTH_CLIP_ENABLE_EXT, VK_DYNAMIC_STATE_PROVOKING_VERTEX_MODE_EXT});
     }
     if (key.way.dynamic_stride) {
         out.push_back(VK_DYNAMIC_STATE_VERTEX_INPUT_BINDING_STRIDE);
