@@ -16,7 +16,8 @@ FILE = pathlib.Path(__file__).parent / "doors.json"
 # faces, depth tests and bias, queries, alpha to coverage, stencils, resolves. None of them has a relation of its own.
 SAMPLE = ["attributes/constant:value=1", "topology/restart-*", "coverage/bow-tie:*", "mesh/across-tiles", "topology/strip*",
           "order/draws", "scissor/changes", "depth-test/nearest-wins:*", "depth-bias/decal:*", "facing/*", "query/draws:*",
-          "alpha-to-coverage/ends:format=rgba8-unorm,*", "stencil/write-mask:*", "resolve/color:format=rgba8-unorm,*"]
+          "alpha-to-coverage/ends:format=rgba8-unorm,*", "stencil/write-mask:*", "resolve/color:format=rgba8-unorm,*",
+          "depth-clamp/bias:*,slope=-8,near=0.25", "provoking/facing:mode=last,*"]
 WORDS = ["--retries", "0", "--no-expect", "--html", "/dev/null", "--capture", "none", "--no-diagnosis"]
 # What lavapipe does wrong itself tells nothing of a fault (docs/findings).
 WRONG_DOORS = ["multi-draw-empty", "indirect-after-count"]
@@ -27,10 +28,10 @@ BROKEN_DOORS = ["query-first"]
 
 
 def is_known(door, case_id):
-    """lavapipe 22.3 forgets where the index buffer of an indirect draw is bound, and into which layer it resolves
+    """lavapipe 22.3 forgets where the index buffer of an indirect draw is bound, and into which layers it resolves
     (docs/findings)."""
     return (door == "indirect-count" and case_id.startswith(("mesh/", "topology/restart"))
-            or door == "image-layer" and case_id.startswith("resolve/"))
+            or door in ("image-layer", "multiview") and case_id.startswith("resolve/"))
 
 
 def names():

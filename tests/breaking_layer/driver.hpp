@@ -48,6 +48,8 @@ namespace breaking {
     X(CmdSetColorBlendEnableEXT) \
     X(CmdSetColorWriteMaskEXT) \
     X(CmdSetSampleMaskEXT) \
+    X(CmdSetDepthClampEnableEXT) \
+    X(CmdSetProvokingVertexModeEXT) \
     X(CmdSetAlphaToCoverageEnableEXT) \
     X(CmdSetStencilOp) \
     X(CmdSetStencilCompareMask) \

@@ -231,6 +231,8 @@ struct Hooks {
     bool (*write_masks)(std::span<VkColorComponentFlags>) = nullptr;
     bool (*sample_mask)(VkSampleMask&) = nullptr;
     bool (*alpha_to_coverage)(VkBool32&) = nullptr;
+    bool (*depth_clamp)(VkBool32&) = nullptr;
+    bool (*provoking_mode)(VkProvokingVertexModeEXT&) = nullptr;
     bool (*stencil_ops)(StencilOps&) = nullptr;
     bool (*stencil_compare_mask)(StencilValue&) = nullptr;
     bool (*stencil_write_mask)(StencilValue&) = nullptr;

@@ -119,6 +119,15 @@ constexpr std::array kRecordingDoorFaults = {
     Fault{"door-dynamic-alpha-to-coverage-off",
           "Dynamic alpha to coverage is off.",
           {.alpha_to_coverage = [](VkBool32& enable) { return change(enable, VK_FALSE); }}},
+    Fault{"door-dynamic-depth-clamp-off",
+          "Dynamic clamping of depth is off.",
+          {.depth_clamp = [](VkBool32& enable) { return change(enable, VK_FALSE); }}},
+    Fault{"door-dynamic-provoking-vertex-first",
+          "The dynamic provoking vertex is the first.",
+          {.provoking_mode =
+               [](VkProvokingVertexModeEXT& mode) {
+                   return change(mode, VK_PROVOKING_VERTEX_MODE_FIRST_VERTEX_EXT);
+               }}},
     Fault{"door-stencil-test-of-nothing-fails",
           "Where a stencil test is on and has no stencil, nothing is written.",
           {.pipeline =

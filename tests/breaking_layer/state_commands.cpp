@@ -166,6 +166,19 @@ VKAPI_ATTR void VKAPI_CALL set_sample_mask(VkCommandBuffer commands, VkSampleCou
                 [=] { driver_of_handle(commands).CmdSetSampleMaskEXT(commands, samples, &own); });
 }
 
+VKAPI_ATTR void VKAPI_CALL set_depth_clamp(VkCommandBuffer commands, VkBool32 enable) {
+    alter(hooks().depth_clamp, enable);
+    set_dynamic(commands, {"depth clamp", 0},
+                [=] { driver_of_handle(commands).CmdSetDepthClampEnableEXT(commands, enable); });
+}
+
+VKAPI_ATTR void VKAPI_CALL set_provoking_mode(VkCommandBuffer commands,
+                                              VkProvokingVertexModeEXT mode) {
+    alter(hooks().provoking_mode, mode);
+    set_dynamic(commands, {"provoking vertex", 0},
+                [=] { driver_of_handle(commands).CmdSetProvokingVertexModeEXT(commands, mode); });
+}
+
 VKAPI_ATTR void VKAPI_CALL set_alpha_to_coverage(VkCommandBuffer commands, VkBool32 enable) {
     alter(hooks().alpha_to_coverage, enable);
     set_dynamic(commands, {"alpha to coverage", 0}, [=] {
@@ -370,6 +383,8 @@ const OwnCommand kStateCommands[] = {
     BREAKING_OWN(CmdSetColorBlendEnableEXT, set_blend_enables),
     BREAKING_OWN(CmdSetColorWriteMaskEXT, set_write_masks),
     BREAKING_OWN(CmdSetSampleMaskEXT, set_sample_mask),
+    BREAKING_OWN(CmdSetDepthClampEnableEXT, set_depth_clamp),
+    BREAKING_OWN(CmdSetProvokingVertexModeEXT, set_provoking_mode),
     BREAKING_OWN(CmdSetAlphaToCoverageEnableEXT, set_alpha_to_coverage),
     BREAKING_OWN(CmdSetStencilOp, set_stencil_op),
     BREAKING_OWN(CmdSetStencilCompareMask, set_stencil_compare_mask),
