@@ -76,6 +76,7 @@ std::string_view missing_of(const cases::Draw& d) {
         }
     }
     return first_of({
+        {d.clear.has_value(), "a clear among the draws"},
         {d.viewport_index != 0, "several viewports"},
         {d.conservative != cases::Conservative::none, "conservative rasterization"},
         {cases::asks_shading_rate(d), "a fragment size"},

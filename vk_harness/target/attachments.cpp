@@ -34,6 +34,7 @@ Attachment color_attachment(const cases::ColorTarget& target) {
     out.format = to_vulkan(target.format);
     out.texel_bytes = bytes_of(target.format);
     out.sample_bytes = std::max(out.texel_bytes, 4U);
+    out.load = target.load;
     if (is_integer(target.format)) {
         for (int k = 0; k < 4; ++k) {
             out.clear.color.int32[k] = static_cast<int32_t>(target.clear[k]);
@@ -139,6 +140,12 @@ std::vector<Attachment> attachments_of(const cases::Case& c, const TargetLayout&
         VkClearValue clear{};
         clear.depthStencil.stencil = c.target.stencil_clear;
         out.push_back({Role::stencil, layout.stencil_format, clear, 1, 4});
+    }
+    for (Attachment& a : out) {
+        if (a.role == Role::depth || a.role == Role::stencil) {
+            a.load = a.is_depth() ? c.target.depth_load : c.target.stencil_load;
+            a.store = a.is_depth() ? c.target.depth_store : c.target.stencil_store;
+        }
     }
     append_resolved(c.target, out);
     if (c.variation.door == cases::Door::input_attachment) {

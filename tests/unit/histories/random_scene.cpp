@@ -92,6 +92,22 @@ void give_tests(const Scene& scene, Draw& draw, Random& random) {
     }
 }
 
+// At least one of what the scene has.
+void give_clear(const Scene& scene, Draw& draw, Random& random) {
+    draw.triangles.clear();
+    draw.clear.emplace();
+    Clear& clear = *draw.clear;
+    do {
+        clear.has_color = !scene.colors.empty() && random.chance(1, 2);
+        if (scene.has_depth() && random.chance(1, 2)) {
+            clear.depth = random.of<double>({0, 0.25, 0.375, 0.5, 1});
+        }
+        if (scene.has_stencil && random.chance(1, 2)) {
+            clear.stencil = random.of<uint32_t>({0, 1, 2, 3, 85, 255});
+        }
+    } while (!clear.has_color && !clear.depth && !clear.stencil);
+}
+
 void give_discard(const Scene& scene, Draw& draw, Random& random) {
     if (random.chance(1, 4)) {
         draw.discard = Discard::negative;
@@ -118,7 +134,8 @@ Draw random_draw(const Scene& scene, int number, Random& random) {
     Draw draw;
     draw.triangles = random_triangles(scene, number, random);
     if (!scene.draws.empty() && random.chance(1, 4)) {
-        draw.triangles = random.of(scene.draws).triangles;  // as after a depth prepass
+        const Draw& before = random.of(scene.draws);
+        draw.triangles = before.clear ? draw.triangles : before.triangles;  // a depth prepass
         for (Triangle& triangle : draw.triangles) {
             triangle.pair += triangle.pair < 0 ? 0 : 100 * (number + 1);
         }
@@ -131,6 +148,10 @@ Draw random_draw(const Scene& scene, int number, Random& random) {
     if (random.chance(1, 6)) {
         draw.scissor = {random.below(scene.width), random.below(scene.height),
                         1 + random.below(scene.width), 1 + random.below(scene.height)};
+    }
+    if (random.chance(1, 6) && (!scene.colors.empty() || scene.has_depth() || scene.has_stencil)) {
+        give_clear(scene, draw, random);
+        return draw;
     }
     give_tests(scene, draw, random);
     give_discard(scene, draw, random);
@@ -186,6 +207,9 @@ Scene random_scene(Random& random) {
             draw.scissor = {0, 0, scene.width - 1, scene.height};
         }
         (*draw.scissor)[2] = std::min((*draw.scissor)[2], scene.width - 1 - (*draw.scissor)[0]);
+        if (draw.clear && (*draw.scissor)[2] == 0) {  // no rectangle is empty
+            *draw.scissor = {0, 0, 1, scene.height};
+        }
     }
     scene.draws.insert(scene.draws.begin(), control);
     return scene;
