@@ -85,8 +85,8 @@ bool load_other_stencil(Target& t) {
 }
 bool load_other_color(Target& t) {
     constexpr float kOther = 0.75F;
-    return t.color && set(t.color->clear, is_integer(t.color->format) ? glm::vec4(1)
-                                                                      : glm::vec4(kOther));
+    return t.color &&
+           set(t.color->clear, is_integer(t.color->format) ? glm::vec4(1) : glm::vec4(kOther));
 }
 bool exchanges(const Target& t) {
     return t.has_depth && t.has_stencil && t.depth_load != t.stencil_load &&
@@ -127,8 +127,10 @@ const Body kClearBodies[] = {
     {"clear-rect-closed"_fault,
      [](Case& c) {
          return each_rect(c, [&c](Rect& r) {
-             const uint32_t right = std::min(r.width + 1, c.target.width - static_cast<uint32_t>(r.x));
-             const uint32_t low = std::min(r.height + 1, c.target.height - static_cast<uint32_t>(r.y));
+             const uint32_t right =
+                 std::min(r.width + 1, c.target.width - static_cast<uint32_t>(r.x));
+             const uint32_t low =
+                 std::min(r.height + 1, c.target.height - static_cast<uint32_t>(r.y));
              const bool is_wider = set(r.width, right);
              return set(r.height, low) || is_wider;
          });
@@ -146,9 +148,7 @@ const Body kClearBodies[] = {
          return each_clear(c, [](Clear& clear, uint32_t&) { return set(clear.layers, 1U); });
      }},
     {"clear-layer-zero"_fault,
-     [](Case& c) {
-         return each_clear(c, [](Clear&, uint32_t& layer) { return set(layer, 0U); });
-     }},
+     [](Case& c) { return each_clear(c, [](Clear&, uint32_t& layer) { return set(layer, 0U); }); }},
     {"clear-all-aspects"_fault,
      [](Case& c) {
          const bool has_both = c.target.has_depth && c.target.has_stencil;
@@ -159,7 +159,7 @@ const Body kClearBodies[] = {
                     return is_half;
                 });
      }},
-    {"clear-depth-lost"_fault,
+    {"clear-depth-beside-stencil-lost"_fault,
      [](Case& c) {
          return each_clear(c, [](Clear& clear, uint32_t&) {
              return clear.depth && clear.stencil && (clear.depth.reset(), true);

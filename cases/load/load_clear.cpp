@@ -90,9 +90,8 @@ Draw load_clear(LeafContext& context, const TomlValue& table, const TomlValue& v
         context.error(value.where, "the clear clears nothing; write color, depth or stencil");
     }
     if (uint64_t{named.layer} + clear.layers > target.layers) {
-        context.error(value.where,
-                      fmt::format("the clear reaches layer {}, and the target has {}",
-                                  named.layer + clear.layers - 1, target.layers));
+        context.error(value.where, fmt::format("the clear reaches layer {}, and the target has {}",
+                                               named.layer + clear.layers - 1, target.layers));
     }
     Draw out = clear_draw(target, std::move(clear), named.layer);
     out.where = table.where;

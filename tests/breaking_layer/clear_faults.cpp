@@ -27,7 +27,8 @@ bool drop_aspect(Clears& c, VkImageAspectFlags aspect) {
     constexpr VkImageAspectFlags kBoth = VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT;
     bool altered = false;
     for (VkClearAttachment& clear : c.attachments) {
-        altered = (clear.aspectMask == kBoth && change(clear.aspectMask, kBoth & ~aspect)) || altered;
+        altered =
+            (clear.aspectMask == kBoth && change(clear.aspectMask, kBoth & ~aspect)) || altered;
     }
     return altered;
 }
@@ -80,10 +81,10 @@ constexpr std::array kClearFaults = {
                [](Clears& c) {
                    return each_rect(c, [](VkClearRect& r) { return change(r.baseArrayLayer, 0); });
                }}},
-    Fault{"clear-depth-lost",
-          "clear-depth-lost"_fault,
-          {.clear_attachments =
-               [](Clears& c) { return drop_aspect(c, VK_IMAGE_ASPECT_DEPTH_BIT); }}},
+    Fault{
+        "clear-depth-lost",
+        "clear-depth-beside-stencil-lost"_fault,
+        {.clear_attachments = [](Clears& c) { return drop_aspect(c, VK_IMAGE_ASPECT_DEPTH_BIT); }}},
     Fault{"clear-stencil-lost",
           "The stencil is not cleared where depth is.",
           {.clear_attachments =
@@ -114,16 +115,14 @@ constexpr std::array kClearFaults = {
                    }
                    return altered;
                }}},
-    Fault{"load-stencil-as-depth",
-          "load-stencil-as-depth"_fault,
-          {.rendering = [](Rendering& r) {
-               return has_both(r) && as(*r.stencil, r.depth->loadOp);
-           }}},
-    Fault{"load-depth-as-stencil",
-          "load-depth-as-stencil"_fault,
-          {.rendering = [](Rendering& r) {
-               return has_both(r) && as(*r.depth, r.stencil->loadOp);
-           }}},
+    Fault{
+        "load-stencil-as-depth",
+        "load-stencil-as-depth"_fault,
+        {.rendering = [](Rendering& r) { return has_both(r) && as(*r.stencil, r.depth->loadOp); }}},
+    Fault{
+        "load-depth-as-stencil",
+        "load-depth-as-stencil"_fault,
+        {.rendering = [](Rendering& r) { return has_both(r) && as(*r.depth, r.stencil->loadOp); }}},
 };
 
 }  // namespace
