@@ -164,6 +164,9 @@ constexpr std::array kRows = {
         "the last fragment's draw does not write depth; no older one left this"},
     Row{depth_of_discarded, rule::discard_early_tests,
         "the depth is none of those that fragments stored, the discarded ones among them"},
+    Row{depth_of_cleared, rule::clear_attachments,
+        "neither a clear among the draws nor a triangle that may have stored its depth has this "
+        "depth here"},
     Row{depth_of_bounded, rule::depth_bounds,
         "the depth is none of those that fragments left where the stored depth was in their "
         "bounds"},

@@ -87,6 +87,7 @@ enum class ReasonKind : uint8_t {
     writer_none_last,    // by a draw whose provoking vertex is the first, or the last
     depth_unwritten,     // its depth is none of those that were written before
     depth_of_discarded,  // the same, where fragments are discarded once theirs is stored
+    depth_of_cleared,    // the same, where a clear among the draws may have stored it
     depth_of_bounded,    // the same, where fragments are tested by depth bounds
     depth_of_taken,      // its depth is that of a fragment that leaves no trace
     depth_of_none,       // its depth is none of the fragments' that its colour allows
