@@ -82,7 +82,7 @@ constexpr std::array kClearFaults = {
                    return each_rect(c, [](VkClearRect& r) { return change(r.baseArrayLayer, 0); });
                }}},
     Fault{
-        "clear-depth-lost",
+        "clear-depth-beside-stencil-lost",
         "clear-depth-beside-stencil-lost"_fault,
         {.clear_attachments = [](Clears& c) { return drop_aspect(c, VK_IMAGE_ASPECT_DEPTH_BIT); }}},
     Fault{"clear-stencil-lost",

@@ -64,8 +64,8 @@ TEST(Clear, ExpectationsAgreeWithTheOracle) {
     for (uint64_t seed = 1; seed <= 60; ++seed) {
         const cases::Case c = random_case(seed);
         for (const cases::Profile profile : cases::kProfiles) {
-            ASSERT_TRUE(
-                same_expectations(expect(c, Limits{}, profile), exact::expect(c, Limits{}, profile)))
+            ASSERT_TRUE(same_expectations(expect(c, Limits{}, profile),
+                                          exact::expect(c, Limits{}, profile)))
                 << "seed " << seed;
         }
     }
@@ -73,21 +73,25 @@ TEST(Clear, ExpectationsAgreeWithTheOracle) {
 
 cases::Case loaded(const std::string& target, const std::string& draws) {
     const auto cases = cases::load_text(
-        "format = 1\ndescription = \"d\"\nrules = [\"clear.attachments\"]\n[target]\nsize = [4, 1]\n" +
+        "format = 1\ndescription = \"d\"\nrules = [\"clear.attachments\"]\n[target]\nsize = [4, "
+        "1]\n" +
             target + draws,
         "f", "id");
     EXPECT_TRUE(cases) << (cases ? "" : to_string(cases.error().front()));
     return cases ? cases->front() : cases::Case();
 }
 
-const std::string kWhole = "[[draw]]\nvertices = [[-1,-1,\"1/2\"], [9,-1,\"1/2\"], [-1,9,\"1/2\"]]\n";
+const std::string kWhole =
+    "[[draw]]\nvertices = [[-1,-1,\"1/2\"], [9,-1,\"1/2\"], [-1,9,\"1/2\"]]\n";
 
 // One pixel before the rectangle, two in it, one behind: drawn, cleared, drawn to the left of 3.
 TEST(Clear, AreKnownByHand) {
     const cases::Case c = loaded(
         "stencil = true\nstencil_clear = 9\ndepth_clear = 1\ncolor = { format = \"rgba8-uint\" }\n",
-        kWhole + "stencil = { pass = \"replace\", reference = 5 }\ncolor = { value = [1,2,3,4] }\n" +
-            "[[draw]]\nclear = { rects = [[1,0,2,1]], color = [7,8,9,10], depth = 0.25, stencil = 6 }\n" +
+        kWhole +
+            "stencil = { pass = \"replace\", reference = 5 }\ncolor = { value = [1,2,3,4] }\n" +
+            "[[draw]]\nclear = { rects = [[1,0,2,1]], color = [7,8,9,10], depth = 0.25, stencil = "
+            "6 }\n" +
             kWhole +
             "scissor = [0,0,2,1]\ndepth = { compare = \"greater\" }\nstencil = { pass = "
             "\"increment-clamp\" }\ncolor = { value = [0,16,0,0], write_mask = \"g\" }\n");
@@ -116,11 +120,14 @@ TEST(Clear, AreKnownByHand) {
 // What is not cared for is any, until something replaces it.
 TEST(Clear, UnknownContentsAreFree) {
     const cases::Case c = loaded(
-        "stencil = true\nstencil_load = \"dont-care\"\ndepth_load = \"dont-care\"\ncolor = { format = "
+        "stencil = true\nstencil_load = \"dont-care\"\ndepth_load = \"dont-care\"\ncolor = { "
+        "format = "
         "\"rgba8-uint\", load = \"dont-care\" }\n",
-        "[[draw]]\nclear = { rects = [[1,0,1,1]], color = [7,8,9,10], depth = 0.25, stencil = 6 }\n" +
+        "[[draw]]\nclear = { rects = [[1,0,1,1]], color = [7,8,9,10], depth = 0.25, stencil = 6 "
+        "}\n" +
             kWhole +
-            "scissor = [0,0,2,1]\ndepth = { compare = \"greater\" }\nstencil = { compare = \"equal\", "
+            "scissor = [0,0,2,1]\ndepth = { compare = \"greater\" }\nstencil = { compare = "
+            "\"equal\", "
             "reference = 6 }\ncolor = { value = [0,16,0,0], write_mask = \"g\" }\n");
     const Expectation e = expect(c, Limits{}, cases::Profile::direct3d);
     ColorReference colors(c, e);
