@@ -132,6 +132,13 @@ std::string stored_depth_text(const cases::Case& c, const ref::Expectation& expe
     return report::wrapped(text + "\n", 100);
 }
 
+std::string clear_text(const ref::TriangleExplanation& t) {
+    return fmt::format("    rectangle {} of draw {}, a clear: {}\n        {}\n",
+                       t.triangle.primitive, t.triangle.draw,
+                       t.fate && !t.fate->is_absent ? "clears the sample" : "leaves the sample",
+                       t.sentence);
+}
+
 std::string triangle_text(const ref::TriangleExplanation& t) {
     std::string text =
         fmt::format("    triangle {} of draw {}, vertices {} {} {}: {}\n", t.triangle.primitive,
@@ -228,7 +235,9 @@ std::string color_text(const cases::Case& c, const ref::Expectation& expectation
         std::string name;
         if (step.triangle) {
             const cases::Triangle& t = expectation.triangles[*step.triangle];
-            name = fmt::format("triangle {} of draw {} ", t.primitive, t.draw);
+            name =
+                fmt::format("{} {} of draw {} ", c.draws[t.draw].clear ? "rectangle" : "triangle",
+                            t.primitive, t.draw);
         }
         text += report::wrapped(fmt::format("    {}{}\n", name, step.sentence), 100);
     }
@@ -393,7 +402,8 @@ std::string explain_text(const cases::Case& c, const ref::Limits& limits, cases:
     }
     const size_t index = cases::index_of(c.target, sample);
     for (size_t i = 0; i < std::min(order.size(), kShown); ++i) {
-        text += triangle_text(*order[i]);
+        text += c.draws[order[i]->triangle.draw].clear ? clear_text(*order[i])
+                                                       : triangle_text(*order[i]);
         if (order[i]->decision.coverage != ref::Coverage::must_not) {
             const uint32_t triangle = order[i]->index;
             text += values_text(

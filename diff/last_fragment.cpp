@@ -141,9 +141,11 @@ std::optional<Finding> LastFragment::judge_older_depth(cases::SampleId id,
     }
     finding.expected = fmt::format("{}", fmt::join(allowed, ", or "));
     finding.got = cases::number_text(device.depth);
-    tell(finding, cases::stores_discarded(case_) ? ref::ReasonKind::depth_of_discarded
-                  : cases::tests_bounds(case_)   ? ref::ReasonKind::depth_of_bounded
-                                                 : ref::ReasonKind::depth_unwritten);
+    const auto is_clear = [](const cases::Draw& draw) { return draw.clear.has_value(); };
+    tell(finding, std::ranges::any_of(case_.draws, is_clear) ? ref::ReasonKind::depth_of_cleared
+                  : cases::stores_discarded(case_)           ? ref::ReasonKind::depth_of_discarded
+                  : cases::tests_bounds(case_)               ? ref::ReasonKind::depth_of_bounded
+                                                             : ref::ReasonKind::depth_unwritten);
     return finding;
 }
 

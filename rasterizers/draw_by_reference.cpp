@@ -104,7 +104,11 @@ Event pick_event(const cases::Case& c, const ref::Expectation& expectation,
         out.passed = out.shown;
         for (const uint32_t m : path.discarded) {
             out.passed.push_back(question.fragments[m].triangle);
+            if (question.fragments[m].is_clear) {
+                out.shown.push_back(question.fragments[m].triangle);
+            }
         }
+        std::ranges::sort(out.shown);
         return out;
     };
     std::map<uint32_t, Writer> known;  // by triangle

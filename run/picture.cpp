@@ -67,7 +67,7 @@ Shape shape_of(const cases::Draw& draw, const cases::Triangle& t, const ref::Lim
     Shape shape;
     shape.draw = t.draw;
     shape.primitive = t.primitive;
-    shape.layer = draw.layer;
+    shape.layer = layer_of(draw, t);
     shape.vertex = t.vertex;
     shape.has_points = true;
     shape.is_exact = true;

@@ -94,9 +94,17 @@ void check_all(const Capabilities& capabilities, const cases::Case& c, bool read
             viewports, most);
     }
     const TargetLayout layout = target_layout(capabilities, c);
+    if (c.target.has_operations() && layout.has_pass) {
+        throw unsupported(
+            "the device lacks dynamicRendering, without which load and store operations are not "
+            "drawn here");
+    }
     for (const cases::Draw& draw : c.draws) {
         if (draw.layer >= c.target.layers) {
             throw invalid("a draw goes to layer {} of {}", draw.layer, c.target.layers);
+        }
+        if (draw.clear) {
+            continue;
         }
         const PipelineKey key = pipeline_key(c, draw, layout);
         refuse_without(key.discard_by == cases::DiscardBy::demote && !capabilities.discard.demote,

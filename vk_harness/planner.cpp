@@ -85,6 +85,9 @@ DrawPlan Planner::plan_draw(const cases::Case& test, const cases::Draw& draw,
     DrawPlan item;
     item.draw = &draw;
     item.is_split = layout.split;
+    if (draw.clear) {
+        return item;
+    }
     PipelineKey own = pipeline_key(test, draw, layout);
     if (door == cases::Door::state_output) {
         item.outputs = output_state(own);

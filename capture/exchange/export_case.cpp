@@ -267,6 +267,10 @@ class Needs {
         add(d.indices.has_value(), "indices");
         add(d.primitive_restart, "restart");
         add(d.primitive_restart && d.topology == cases::Topology::triangle_list, "restart-list");
+        if (d.clear) {
+            add(true, "clear");
+            return;
+        }
         add_positions(d);
         const cases::Viewport whole{0,
                                     0,

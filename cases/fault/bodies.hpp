@@ -13,9 +13,9 @@
 
 namespace cases::fault {
 
-// A change of a case: of the whole, or one by one of its draws, attributes, positions, depth
-// biases, faces of the stencil, blendings, equations of these. Each says whether it changed
-// anything.
+// A change of a case: of the whole, or one by one of its draws (clears are none), attributes,
+// positions, depth biases, faces of the stencil, blendings, equations of these. Each says whether
+// it changed anything.
 template <class Part>
 using ChangeOf = bool (*)(Part&);
 struct Body {
@@ -29,6 +29,7 @@ struct Body {
 std::span<const Body> geometry_bodies();  // viewport, scissor, draws and their vertices, facing
 std::span<const Body> input_bodies();     // inputs, samples, clip and cull distances
 std::span<const Body> depth_bodies();     // depth and stencil
+std::span<const Body> clear_bodies();     // clears among the draws
 std::span<const Body> target_bodies();    // colour, blits
 
 // Sets a field; true if it had another value.
@@ -56,6 +57,16 @@ bool any_of(List& list, const ChangeOne& change) {
     bool is_changed = false;
     for (auto& entry : list) {
         is_changed = change(entry) || is_changed;
+    }
+    return is_changed;
+}
+
+// The same of draws; clears are none.
+template <class ChangeOne>
+bool any_of(std::vector<Draw>& draws, const ChangeOne& change) {
+    bool is_changed = false;
+    for (Draw& draw : draws) {
+        is_changed = (!draw.clear && change(draw)) || is_changed;
     }
     return is_changed;
 }

@@ -13,8 +13,9 @@ namespace {
 const fault::Body* body_of(Fault of) {
     static const auto kBodies = [] {
         std::array<const fault::Body*, std::size(kFaults) + 1> bodies{};
-        for (const auto table : {fault::geometry_bodies(), fault::input_bodies(),
-                                 fault::depth_bodies(), fault::target_bodies()}) {
+        for (const auto table :
+             {fault::geometry_bodies(), fault::input_bodies(), fault::depth_bodies(),
+              fault::clear_bodies(), fault::target_bodies()}) {
             for (const fault::Body& body : table) {
                 bodies[static_cast<size_t>(body.fault)] = &body;
             }
@@ -28,7 +29,7 @@ const fault::Body* body_of(Fault of) {
 struct Changing {
     Case& c;
     bool operator()(fault::ChangeOf<Case> change) const { return change(c); }
-    bool operator()(fault::ChangeOf<Draw> change) const { return fault::any_of(c.draws, change); }
+    bool operator()(fault::ChangeOf<Draw> change) const { return each(change); }
     bool operator()(fault::ChangeOf<Attribute> change) const {
         return each([&](Draw& d) { return fault::any_of(d.attributes, change); });
     }

@@ -88,6 +88,10 @@ constexpr auto kTarget = std::to_array<Key>({
     word("stencil_resolve", kWords<Resolve>).near(kEquals).pipeline(),
     flag("stencil").pipeline(),
     whole("stencil_clear", 0, kStencilBits).tries(kStencils).plain("0"),
+    word("depth_load", kWords<LoadOp>),
+    word("stencil_load", kWords<LoadOp>),
+    word("depth_store", kWords<StoreOp>),
+    word("stencil_store", kWords<StoreOp>),
     word("attachments", kWords<Attachments>).near(kEquals).pipeline(),
     table("color", kTargetColorKeys).plain("none"),
     other("judged", 0, kMaxColorTargets - 1).as("judged_color").plain("0"),
@@ -101,9 +105,11 @@ constexpr auto kTargetColor = std::to_array<Key>({
         .silent()
         .pipeline(),
     other("clear").plain("0, 0, 0, 0"),
+    word("load", kWords<LoadOp>),
 });
 
 constexpr auto kDraw = std::to_array<Key>({
+    table("clear", kClearKeys).plain("none").silent().shape(),
     word("topology", kWords<Topology>).plain("list").pipeline(),
     word("space", kSpaces).plain("pixels, z = 1/2, w = 1"),
     other("vertices").silent().shape(),
@@ -149,6 +155,14 @@ constexpr auto kDraw = std::to_array<Key>({
     table("clip_distance", kDistanceKeys).plain("none"),
     table("cull_distance", kDistanceKeys).plain("none"),
     table("attribute", kAttributeKeys).as("attributes").plain("none"),
+});
+
+constexpr auto kClear = std::to_array<Key>({
+    other("rects").plain("the target").silent(),
+    whole("layers", 1, kMaxLayers).tries(kLayerCounts).plain("1"),
+    other("color").plain("stays"),
+    share("depth").tries(kDepths).plain("stays").advises(", which Vulkan does not allow"),
+    whole("stencil", 0, kStencilBits).tries(kStencils).plain("stays"),
 });
 
 constexpr auto kViewport = std::to_array<Key>({other("rect"), other("depth")});
@@ -268,6 +282,7 @@ constinit const KeyTable kFileKeys = {"a case file", kFile};
 constinit const KeyTable kTargetKeys = {"[target]", kTarget};
 constinit const KeyTable kTargetColorKeys = {"[target.color]", kTargetColor};
 constinit const KeyTable kDrawKeys = {"[[draw]]", kDraw};
+constinit const KeyTable kClearKeys = {"clear", kClear};
 constinit const KeyTable kViewportKeys = {"viewport", kViewport};
 constinit const KeyTable kDepthKeys = {"depth", kDepth};
 constinit const KeyTable kBiasKeys = {"bias", kBias};

@@ -95,10 +95,10 @@ struct KeyTable {
     const Key* find_field(std::string_view field) const;
 };
 
-extern const KeyTable kFileKeys, kTargetKeys, kTargetColorKeys, kDrawKeys, kViewportKeys,
-    kDepthKeys, kBiasKeys, kStencilKeys, kStencilFaceKeys, kFragDepthKeys, kColorKeys, kBlendKeys,
-    kBlendAlphaKeys, kAttributeKeys, kDistanceKeys, kBlitKeys, kExpectKeys, kRelationKeys,
-    kOpenRangeKeys;
+extern const KeyTable kFileKeys, kTargetKeys, kTargetColorKeys, kDrawKeys, kClearKeys,
+    kViewportKeys, kDepthKeys, kBiasKeys, kStencilKeys, kStencilFaceKeys, kFragDepthKeys,
+    kColorKeys, kBlendKeys, kBlendAlphaKeys, kAttributeKeys, kDistanceKeys, kBlitKeys, kExpectKeys,
+    kRelationKeys, kOpenRangeKeys;
 
 // Members that a row alone can read and write: enumerations, numbers, true or false.
 template <class T>

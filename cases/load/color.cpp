@@ -22,33 +22,6 @@ bool is_whole(float number, ColorFormat format, uint32_t k) {
     return number >= range.least && number <= range.most && !(std::floor(number) < number);
 }
 
-// Four numbers, and for integer formats whole ones that the format holds.
-std::optional<glm::vec4> read_color(LeafContext& context, const TomlValue& value,
-                                    const std::string& what, ColorFormat format) {
-    const std::optional<std::vector<Number>> numbers = context.numbers(value, what, 4);
-    if (!numbers) {
-        return std::nullopt;
-    }
-    glm::vec4 color{};
-    for (size_t k = 0; k < 4; ++k) {
-        const SourceLocation& where = value.array[k].where;
-        const std::optional<float> number = context.binary32((*numbers)[k], where, what);
-        if (!number) {
-            return std::nullopt;
-        }
-        if (is_integer(format) && !is_whole(*number, format, static_cast<uint32_t>(k))) {
-            const Whole range = whole_range(format, static_cast<uint32_t>(k));
-            context.error(where,
-                          fmt::format("{} is not a whole number from {} to {}, as the format "
-                                      "{} needs it",
-                                      what, range.least, range.most, name_of(format)));
-            return std::nullopt;
-        }
-        color[static_cast<int>(k)] = *number;
-    }
-    return color;
-}
-
 std::optional<Blend> read_blend(LeafContext& context, const TomlValue& value,
                                 const ColorTarget& target) {
     std::optional<Blend> out;
@@ -195,6 +168,32 @@ Blend blend_of_word(size_t index) {
          both(F::one, F::one, BlendOp::min),
          both(F::one, F::one, BlendOp::max)}};
     return presets.at(index);
+}
+
+std::optional<glm::vec4> read_color(LeafContext& context, const TomlValue& value,
+                                    const std::string& what, ColorFormat format) {
+    const std::optional<std::vector<Number>> numbers = context.numbers(value, what, 4);
+    if (!numbers) {
+        return std::nullopt;
+    }
+    glm::vec4 color{};
+    for (size_t k = 0; k < 4; ++k) {
+        const SourceLocation& where = value.array[k].where;
+        const std::optional<float> number = context.binary32((*numbers)[k], where, what);
+        if (!number) {
+            return std::nullopt;
+        }
+        if (is_integer(format) && !is_whole(*number, format, static_cast<uint32_t>(k))) {
+            const Whole range = whole_range(format, static_cast<uint32_t>(k));
+            context.error(where,
+                          fmt::format("{} is not a whole number from {} to {}, as the format "
+                                      "{} needs it",
+                                      what, range.least, range.most, name_of(format)));
+            return std::nullopt;
+        }
+        color[static_cast<int>(k)] = *number;
+    }
+    return color;
 }
 
 std::optional<ColorTarget> read_color_target(LeafContext& context, const TomlValue& value) {

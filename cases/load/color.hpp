@@ -15,6 +15,10 @@ namespace cases {
 // The equations of a word of kBlendWords, by its index from 1; the constants are 0.
 Blend blend_of_word(size_t index);
 
+// Four numbers, and for integer formats whole ones that the format holds.
+std::optional<glm::vec4> read_color(LeafContext& context, const TomlValue& value,
+                                    const std::string& what, ColorFormat format);
+
 // The table [target.color].
 std::optional<ColorTarget> read_color_target(LeafContext& context, const TomlValue& value);
 

@@ -35,6 +35,9 @@ class DrawLoader {
     // Once: what is loaded is moved out.
     Draw load(const std::string& name, std::vector<std::string>& notes) {
         context_.known_keys(table_, kDrawKeys);
+        if (const TomlValue* clear = table_.find("clear")) {
+            return load_clear(context_, table_, *clear, target_);
+        }
         draw_.where = table_.where;
         context_.read_all(table_, kDrawKeys, draw_);
         context_.read(table_, kDrawKeys, "space", space_);

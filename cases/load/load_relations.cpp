@@ -38,6 +38,13 @@ bool shades_samples(const Draw& draw) {
 std::string objection(const Relation& relation, const Case& c) {
     const auto any_draw = [&](auto&& has) { return std::ranges::any_of(c.draws, has); };
     const uint32_t attributes = attributes_of(c);
+    if (relation.kind != RelationKind::same_twice && relation.kind != RelationKind::door &&
+        (c.target.has_operations() ||
+         any_draw([](const Draw& draw) { return draw.clear.has_value(); }))) {
+        return "does not go with a clear among the draws, nor with load and store operations; "
+               "leave "
+               "it out";
+    }
     switch (relation.kind) {
         case RelationKind::same_twice:
             return {};

@@ -142,6 +142,13 @@ void check_resolves(LeafContext& context, const TomlValue& table, const Target& 
 }
 
 void check_stencil(LeafContext& context, const TomlValue& table, const Target& target) {
+    for (const char* key : {"depth_load", "depth_store", "stencil_load", "stencil_store"}) {
+        const TomlValue* value = table.find(key);
+        if (value != nullptr && !(key[0] == 'd' ? target.has_depth : target.has_stencil)) {
+            context.error(value->where,
+                          fmt::format("the target has no such attachment; leave out {}", key));
+        }
+    }
     if (const TomlValue* clear = table.find("stencil_clear"); clear && !target.has_stencil) {
         context.error(clear->where, "the target has no stencil; write stencil = true");
     }

@@ -196,8 +196,8 @@ class CaseLoader {
 
     // The shaders that write gl_Layer and gl_ViewportIndex have no clip and cull distances.
     void check_routes(const TomlValue& draws) {
-        const bool to_layers =
-            std::ranges::any_of(c_.draws, [](const Draw& draw) { return draw.layer > 0; });
+        const bool to_layers = std::ranges::any_of(
+            c_.draws, [](const Draw& draw) { return !draw.clear && draw.layer > 0; });
         const bool to_viewports =
             std::ranges::any_of(c_.draws, [](const Draw& draw) { return draw.viewport_index > 0; });
         for (const TomlValue& table : draws.array) {

@@ -26,6 +26,8 @@ void check_fragment_size(LeafContext& context, const TomlValue& table, const Dra
 
 // One [[draw]] table. `index` of the draw, from 0, stands in notes. Mistakes go to the context; the
 // result is then meaningless.
+Draw load_clear(LeafContext& context, const TomlValue& table, const TomlValue& value,
+                const Target& target);  // a [[draw]] with the key `clear`, its table
 Draw load_draw(LeafContext& context, const TomlValue& table, const Target& target, size_t index,
                std::vector<std::string>& notes);
 

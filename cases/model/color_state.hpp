@@ -134,13 +134,20 @@ struct ColorOutput {
 };
 inline constexpr uint32_t kMaxColorTargets = 4;  // every device has as many outputs
 
+// What a pass begins with (VkAttachmentLoadOp): the clear value, by a clear or as the contents that
+// an earlier pass has left; or what nobody knows. And whether it keeps what it ends with.
+enum class LoadOp : uint8_t { clear, load, dont_care };
+enum class StoreOp : uint8_t { store, dont_care };
+
 // One more colour attachment, judged by its stored bits.
 struct ColorTarget {
     ColorFormat format = ColorFormat::rgba8_unorm;
     glm::vec4 clear{};  // as the clear colour; whole numbers for integer formats
+    LoadOp load = LoadOp::clear;
     static void fields(auto&& visit, auto&... c) {
         visit("format", c.format...);
         visit("clear", c.clear...);
+        visit({"load", kNotExported}, c.load...);  // one that clears is right, too
     }
     friend bool operator==(const ColorTarget&, const ColorTarget&) = default;
 };

@@ -92,6 +92,27 @@ bool takes_depth_beside_stencil(const Target& target, DepthFormat beside_stencil
            target.depth_format == DepthFormat::d32_float && target.depth_format != beside_stencil;
 }
 
+Draw clear_draw(const Target& target, Clear clear, uint32_t layer) {
+    Draw out;
+    out.positions = {{-1, -1, 0.5, 1}, {-1, 3, 0.5, 1}, {3, -1, 0.5, 1}};
+    out.viewport.width = static_cast<float>(target.width);
+    out.viewport.height = static_cast<float>(target.height);
+    out.scissor = {0, 0, target.width, target.height};
+    out.layer = layer;
+    out.depth.write = clear.depth.has_value();
+    if (clear.depth) {
+        out.frag_depth.emplace().value = *clear.depth;
+    }
+    const StencilFace face{.pass = clear.stencil ? StencilOp::replace : StencilOp::keep,
+                           .reference = clear.stencil.value_or(0)};
+    out.stencil = {face, face};
+    out.color.value = clear.color.value_or(glm::vec4(0));
+    out.color.write_mask = clear.color ? 0xf : 0;
+    out.other_colors.resize(target.other_colors.size());
+    out.clear = std::move(clear);
+    return out;
+}
+
 uint32_t attributes_of(const Case& c) {
     size_t count = 0;
     for (const Draw& draw : c.draws) {

@@ -34,6 +34,10 @@ Case derive(const Case& c, const Derivation& derivation);
 // names no format. Vulkan asks of D24S8 and D32S8 for one alone ("Required Format Support").
 bool takes_depth_beside_stencil(const Target& target, DepthFormat beside_stencil);
 
+// What stands for a clear among the draws: a triangle over the target that passes every test, with
+// the depth, the stencil and the colour that the clear writes, and leaves alone what it does not.
+Draw clear_draw(const Target& target, Clear clear, uint32_t layer);
+
 // The largest number of attributes among the draws.
 uint32_t attributes_of(const Case& c);
 

@@ -303,6 +303,12 @@ std::vector<std::string> door_words() {
 }
 
 bool can_take(Door door, const Case& c) {
+    // Those that render otherwise have load and store operations of their own.
+    const DoorGroup group = row_of(door).group;
+    if (c.target.has_operations() &&
+        (group == DoorGroup::recording || group == DoorGroup::targets)) {
+        return false;
+    }
     return !c.blit && std::ranges::any_of(c.draws, [](const Draw& draw) {
         return !draw.positions.empty();
     }) && std::ranges::none_of(c.draws, [](const Draw& draw) {

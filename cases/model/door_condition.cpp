@@ -21,12 +21,12 @@ namespace {
 
 template <class Predicate>
 bool all_draws(const Case& c, Predicate holds) {
-    return std::ranges::all_of(c.draws, holds);
+    return std::ranges::all_of(c.draws, [&](const Draw& d) { return d.clear || holds(d); });
 }
 
 template <class Predicate>
 bool any_draw(const Case& c, Predicate holds) {
-    return std::ranges::any_of(c.draws, holds);
+    return std::ranges::any_of(c.draws, [&](const Draw& d) { return !d.clear && holds(d); });
 }
 
 bool is_one(float value) {
@@ -157,6 +157,9 @@ bool reaches_into_target(const Case& c) {
     return std::ranges::all_of(assemble(c), [&](const Triangle& t) {
         const Draw& draw = c.draws[t.draw];
         const Viewport& v = draw.viewport;
+        if (draw.clear) {
+            return true;
+        }
         double x = 0, y = 0;  // the largest, in pixels
         for (const uint32_t k : t.vertex) {
             const glm::vec4& p = draw.positions[k];

@@ -289,8 +289,29 @@ struct FragDepth {
     friend bool operator==(const FragDepth&, const FragDepth&) = default;
 };
 
+// vkCmdClearAttachments in place of a draw: what each named aspect holds in some rectangles inside
+// the target, and in `layers` layers from Draw::layer on. Nothing of a pipeline applies to it.
+struct Clear {
+    std::vector<Rect> rects;  // none is empty
+    uint32_t layers = 1;
+    std::optional<glm::vec4> color = {};   // of the judged colour target
+    std::optional<float> depth = {};       // 0..1
+    std::optional<uint32_t> stencil = {};  // 0..255
+    static void fields(auto&& visit, auto&... c) {
+        visit("rects", c.rects...);
+        visit("layers", c.layers...);
+        visit("color", c.color...);
+        visit("depth", c.depth...);
+        visit("stencil", c.stencil...);
+    }
+    friend bool operator==(const Clear&, const Clear&) = default;
+};
+
 // One draw command and the state it needs.
 struct Draw {
+    // Then there is no draw: the rest is a triangle over the target whose state stores what the
+    // clear does (clear_draw, derive.hpp).
+    std::optional<Clear> clear = {};
     Topology topology = Topology::triangle_list;
     std::vector<glm::vec4> positions;  // clip space, binary32, bits as they reach the device
     std::optional<std::vector<uint32_t>> indices;
@@ -324,6 +345,7 @@ struct Draw {
     uint32_t viewport_index = 0;  // below 16; gl_ViewportIndex of all its primitives
     SourceLocation where;
     static void fields(auto&& visit, auto&... d) {
+        visit({"clear", kLeftOutIfEmpty}, d.clear...);
         visit("topology", d.topology...);
         visit("positions", d.positions...);
         visit("indices", d.indices...);

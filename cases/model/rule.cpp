@@ -315,6 +315,19 @@ constexpr std::array kRules = {
          "converted, blended and masked as its own format and state say, whatever those of the "
          "others are. Blend constants and the logical operation are one for all of them.",
          "interfaces-fragmentoutput", "", "cases/fault/neighbour.hpp"},
+    Rule{rule::load_operation, Profile::vulkan,
+         "Each aspect begins with what its own load operation says",
+         "Cleared it has the clear value, loaded the contents that an earlier pass has left; depth "
+         "and stencil of one image have operations of their own. Of what is not cared for nothing "
+         "is claimed until something replaces it.",
+         "VkAttachmentLoadOp", "", "ref/expectation/narrowing.cpp"},
+    Rule{
+        rule::clear_attachments, Profile::vulkan,
+        "A clear among the draws replaces what it names in its rectangles, and nothing else",
+        "vkCmdClearAttachments replaces the named aspects in each rectangle and layer, between the "
+        "draws before and behind it. Scissor, viewport, masks, tests and blending of the draws do "
+        "not apply to it, and no query counts it.",
+        "clears-inside", "", "ref/expectation/narrowing.cpp"},
     Rule{rule::write_consistent, Profile::vulkan, "A fragment writes all its attachments, or none",
          "Different color attachments of one draw receive the same fragments, and additive "
          "blending of exactly representable values is exact. Hits, writer, values, stencil and "

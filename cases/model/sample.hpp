@@ -100,9 +100,10 @@ inline bool discards_by_value(const Case& c) {
 // Numbers nearer to 0 may be taken for 0 ("Denormalized values": a device may flush them).
 inline constexpr float kLeastNormal = 0x1p-126F;
 
-// Whether what a draw discards has been tested and stored before.
+// Whether what a draw discards has been tested and stored before. What a clear stores is no
+// fragment either.
 inline bool stores_discarded(const Draw& draw) {
-    return draw.early_tests && draw.discard != Discard::none;
+    return draw.clear || (draw.early_tests && draw.discard != Discard::none);
 }
 inline bool stores_discarded(const Case& c) {
     return std::ranges::any_of(c.draws, [](const Draw& draw) { return stores_discarded(draw); });

@@ -4,6 +4,7 @@
 // What a case is drawn to: size, samples, layers, depth, stencil and colour attachments.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -42,6 +43,8 @@ struct Target {
     bool has_instruments = true;
     bool has_depth = true;
     float depth_clear = kDepthClear;  // what the depth attachment is cleared to, 0..1
+    LoadOp depth_load = LoadOp::clear, stencil_load = LoadOp::clear;
+    StoreOp depth_store = StoreOp::store, stencil_store = StoreOp::store;  // else not judged
     // With several samples: average of numbers, sample_zero of integers; any of depth; of a stencil
     // any but average.
     Resolve color_resolve = Resolve::none, depth_resolve = Resolve::none,
@@ -52,6 +55,13 @@ struct Target {
         return has_instruments ? Attachments::all
                : color         ? (has_depth ? Attachments::color_depth : Attachments::color)
                                : (has_depth ? Attachments::depth : Attachments::stencil);
+    }
+    // Whether some aspect has other operations than to be cleared and stored.
+    bool has_operations() const {
+        const auto loads = [](const ColorTarget& t) { return t.load != LoadOp::clear; };
+        return depth_load != LoadOp::clear || stencil_load != LoadOp::clear ||
+               depth_store != StoreOp::store || stencil_store != StoreOp::store ||
+               (color && loads(*color)) || std::ranges::any_of(other_colors, loads);
     }
     // Rows of pixels of all layers, stacked: row y of layer k is row k * height + y of every plane.
     uint32_t rows() const { return height * layers; }
@@ -80,6 +90,10 @@ struct Target {
         visit({"judged_color", kNotExported}, t.judged_color...);
         visit("stencil", t.has_stencil...);
         visit("stencil_clear", t.stencil_clear...);
+        visit({"depth_load", kNotExported}, t.depth_load...);
+        visit({"stencil_load", kNotExported}, t.stencil_load...);
+        visit({"depth_store", kNotExported}, t.depth_store...);
+        visit({"stencil_store", kNotExported}, t.stencil_store...);
         visit("color_resolve", t.color_resolve...);
         visit("depth_resolve", t.depth_resolve...);
         visit("stencil_resolve", t.stencil_resolve...);

@@ -48,6 +48,13 @@ void assemble_run(const Draw& draw, uint32_t draw_index, std::span<const uint32_
 
 void assemble_draw(const Draw& draw, uint32_t draw_index, std::vector<Triangle>& out) {
     uint32_t primitive = 0;
+    const size_t cleared = draw.clear ? draw.clear->rects.size() * draw.clear->layers : 0;
+    while (primitive < cleared) {
+        out.push_back({draw_index, primitive++, {0, 1, 2}, 0});
+    }
+    if (draw.clear) {
+        return;
+    }
     if (!draw.indices) {
         std::vector<uint32_t> run(draw.positions.size());
         std::iota(run.begin(), run.end(), 0U);

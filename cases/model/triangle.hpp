@@ -23,6 +23,14 @@ struct Triangle {
     uint32_t provoking = 0;  // one of vertex[0..2]; vertex[0] with the first-vertex convention
 };
 
+// A clear has one triangle for each rectangle and layer, layers of a rectangle side by side.
+inline const Rect& rect_of(const Clear& clear, const Triangle& t) {
+    return clear.rects[t.primitive / clear.layers];
+}
+inline uint32_t layer_of(const Draw& draw, const Triangle& t) {
+    return draw.layer + (draw.clear ? t.primitive % draw.clear->layers : 0);
+}
+
 // All triangles of a case in drawing order. Incomplete ones at the end (or before a restart) are
 // dropped.
 std::vector<Triangle> assemble(const Case& c);

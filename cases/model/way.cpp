@@ -314,7 +314,9 @@ std::span<const WayRow> all_ways() {
 }
 
 std::optional<Case> by_way(const WayRow& way, const Case& c) {
-    if (c.draws.empty() || !split_way(c.id).way.empty()) {
+    const auto is_clear = [](const Draw& draw) { return draw.clear.has_value(); };
+    if (c.draws.empty() || c.target.has_operations() || std::ranges::any_of(c.draws, is_clear) ||
+        !split_way(c.id).way.empty()) {
         return std::nullopt;
     }
     std::optional<Case> out = way.make(c);

@@ -121,6 +121,10 @@ inline constexpr WordList<16> kWords<LogicOp> = {
 template <>
 inline constexpr auto kWords<ColorFormat> = detail::words_in(kColorFormats);
 template <>
+inline constexpr WordList<3> kWords<LoadOp> = {"clear", "load", "dont-care"};
+template <>
+inline constexpr WordList<2> kWords<StoreOp> = {"store", "dont-care"};
+template <>
 inline constexpr WordList<5> kWords<Resolve> = {"none", "sample-zero", "average", "min", "max"};
 template <>
 inline constexpr WordList<2> kWords<BlitFilter> = {"nearest", "linear"};

@@ -25,6 +25,14 @@ constexpr Statement kStatements[] = {
     {"attachment contents, write masks and clear values do not change coverage", exact, exact,
      "The same case over other clear values and under other write masks covers the same samples.",
      {"repeat.clears", "repeat.write-masks"}, ""},
+    {"load and store operations of each aspect", exact, exact,
+     "What is loaded or cleared is known before the first draw; what is not cared for is open until a fragment or a clear "
+     "replaces it, and not judged where it is not stored.",
+     {"load.operation"}, ""},
+    {"a clear among the draws of a pass", exact, exact,
+     "Each named aspect has exactly the clear's value in the rectangles and layers until a later fragment replaces it; what "
+     "is not named, or lies beside, stays.",
+     {"clear.attachments"}, ""},
     {"color attachments of one draw get the same fragments", exact, exact,
      "All attachments of a sample tell of the same fragments; with more or fewer attachments the picture is the same.",
      {"write.consistent", "repeat.attachments"}, ""},

@@ -104,6 +104,22 @@ void add_depth(TableTree& table, const DepthState& depth) {
     table.add_all(depth);
 }
 
+TableTree clear_tree(const Clear& clear, const Target& target) {
+    TableTree table(kClearKeys);
+    table.add_all(clear);
+    if (clear.rects != std::vector{Rect{0, 0, target.width, target.height}}) {
+        std::vector<TomlValue> rects;
+        for (const Rect& r : clear.rects) {
+            rects.push_back(whole_numbers({r.x, r.y, r.width, r.height}));
+        }
+        table.add("rects", tree::list(std::move(rects)));
+    }
+    if (clear.color) {
+        table.add("color", color_value(*clear.color));
+    }
+    return table;
+}
+
 TableTree frag_depth_tree(const FragDepth& d) {
     TableTree table(kFragDepthKeys);
     table.add_all(d);
@@ -254,6 +270,13 @@ TomlValue color_value(const glm::vec4& color) {
 
 TomlValue draw_tree(const Draw& draw, const Target& target) {
     TableTree table(kDrawKeys);
+    if (draw.clear) {
+        table.add("clear", clear_tree(*draw.clear, target));
+        if (draw.layer != 0) {
+            table.add("layer", tree::number(draw.layer));
+        }
+        return table.value();
+    }
     table.add_all(draw);
     VertexTree vertices = vertex_tree(draw);
     if (!vertices.is_pixels) {

@@ -61,6 +61,7 @@ TableTree head_tree(const Case& c) {
 TableTree color_target_tree(const ColorTarget& target) {
     TableTree color(kTargetColorKeys);
     color.add("format", tree::text(word_of(target.format)));
+    color.add_all(target);
     if (!same_color(target.clear, ColorTarget().clear)) {
         color.add("clear", color_value(target.clear));
     }

@@ -76,6 +76,7 @@ std::string_view missing_of(const cases::Draw& d) {
         }
     }
     return first_of({
+        {d.clear.has_value(), "a clear among the draws"},
         {d.viewport_index != 0, "several viewports"},
         {d.conservative != cases::Conservative::none, "conservative rasterization"},
         {cases::asks_shading_rate(d), "a fragment size"},
@@ -175,6 +176,7 @@ std::string_view undrawable_part(const cases::Case& c) {
         {t.color && !cases::can_be_blitted(t.color->format),
          "a colour of signed codes or of floats without a sign"},
         {!t.sample_locations.empty(), "sample locations of its own"},
+        {t.has_operations(), "load and store operations"},
         {t.has_stencil, "a stencil"},
         {!t.has_instruments && !t.color, "depth alone"},
         // What a shader reads of them is no code by itself (vk_harness/depth_codes.hpp).

@@ -167,6 +167,9 @@ std::string unsupported_reason(const cases::Case& c) {
             return "the algorithms have no depth state, clip distances, sample masks, layers, "
                    "provoking vertices and rasterizer discard";
         }
+        if (d.clear) {
+            return "the algorithms have no clears among the draws";
+        }
         if (d.query != cases::Query::none) {
             return "the algorithms have no queries";
         }

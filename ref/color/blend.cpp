@@ -145,7 +145,8 @@ Color Unit::cleared(const cases::ColorTarget& target) const {
     for (uint32_t k = 0; k < 4; ++k) {
         const Component component(cases::component_of(format, k));
         out[k] =
-            component.exists()
+            target.load == cases::LoadOp::dont_care && component.exists() ? Component::anything()
+            : component.exists()
                 ? component.stored(point(static_cast<double>(target.clear[static_cast<int>(k)])),
                                    profile, false)
                 : point(k == 3 ? 1 : 0);

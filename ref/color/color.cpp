@@ -362,7 +362,11 @@ ColorVerdict ColorReference::judge(size_t index, cases::SampleId id,
     const Sequence& most =
         *std::max_element(lists.begin(), lists.end(),
                           [](const auto& a, const auto& b) { return a.size() < b.size(); });
-    verdict.rule = is_of_neighbour(most, id, codes)
+    const auto is_clear = [&](uint32_t t) {
+        return case_.draws[expectation_.triangles[t].draw].clear.has_value();
+    };
+    verdict.rule = !most.empty() && is_clear(most.back()) ? cases::rule::clear_attachments
+                   : is_of_neighbour(most, id, codes)
                        ? cases::rule::color_location
                        : rule_of(most, unit_.allows(color_of(most, id, witness, false), codes));
     if (witness.knows_fragments) {
@@ -375,6 +379,10 @@ ColorVerdict ColorReference::judge(size_t index, cases::SampleId id,
         return verdict;
     }
     tell_coverage(most, id, codes, verdict);
+    if (verdict.triangle && is_clear(*verdict.triangle)) {
+        verdict.kind = ColorVerdict::Kind::value;
+        verdict.rule = cases::rule::clear_attachments;
+    }
     return verdict;
 }
 
@@ -397,7 +405,9 @@ std::array<uint32_t, 4> ColorReference::codes_after(std::span<const uint32_t> tr
 
 std::vector<ColorStep> ColorReference::steps(size_t index, cases::SampleId id) {
     std::vector<ColorStep> out = {
-        {std::nullopt, fmt::format("the target is cleared to {}", unit_.text_of(cleared_))}};
+        {std::nullopt, case_.target.color->load == cases::LoadOp::dont_care
+                           ? std::string("what the target holds at first is not cared for")
+                           : fmt::format("the target is cleared to {}", unit_.text_of(cleared_))}};
     color::Color before = cleared_;
     for (const uint32_t triangle : drawn(index)) {
         const cases::ColorOutput& output = output_of(triangle);

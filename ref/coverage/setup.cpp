@@ -317,6 +317,18 @@ TriangleSetup set_up(const cases::Case& c, const cases::Triangle& triangle, cons
     const cases::Draw& draw = c.draws[triangle.draw];
     TriangleSetup t;
     t.window = window;
+    if (draw.clear) {
+        const cases::Rect& r = rect_of(*draw.clear, triangle);
+        constexpr int64_t kFar = int64_t{1} << kPositionBits;
+        constexpr FixedRange kAll{-kFar, kFar};
+        t.window = {r.x, r.x + int64_t{r.width}, r.y, r.y + int64_t{r.height}, kAll, kAll, kAll,
+                    kAll};
+        t.kind = TriangleSetup::Kind::cleared;
+        t.can_be_front = true;
+        t.drawn_faces.front = true;
+        discard_by_state(draw, t);
+        return t;
+    }
     t.area = pixel_area_of(draw, limits, profile);
     widen_for(t.area, t.window);
     t.grid_step = int64_t{1} << (kFixedBits - limits.subpixel_bits);

@@ -135,6 +135,7 @@ struct TriangleSetup {
         nothing,   // culled or outside
         outlines,  // decided by the outlines
         anywhere,  // undefined position: any sample of the window, or none
+        cleared,   // every sample of the window, which is a rectangle of a clear
     };
     Kind kind = Kind::nothing;
     bool is_clipped = false;   // a vertex lies outside the clip volume

@@ -93,6 +93,9 @@ struct DepthTest::Impl {
         depth.plane = value::kPlaneDepth;
         depth.id = {};
         clear = {range_at<Ball>(c.target.depth_clear), range_at<mpq_class>(c.target.depth_clear)};
+        if (c.target.depth_load == cases::LoadOp::dont_care) {
+            clear = {DepthRange<Ball>{true, {}, {}}, DepthRange<mpq_class>{true, {}, {}}};
+        }
     }
 
     // What may stand for a number.
@@ -202,6 +205,9 @@ struct DepthTest::Impl {
         const cases::Triangle& b = triangles[next];
         const cases::Draw& da = c.draws[a.draw];
         const cases::Draw& db = c.draws[b.draw];
+        if (da.clear || db.clear) {
+            return {};
+        }
         for (size_t k = 0; k < 3; ++k) {
             if (!has_equal_bits(da.positions[a.vertex[k]], db.positions[b.vertex[k]])) {
                 return {};

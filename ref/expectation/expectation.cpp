@@ -154,13 +154,15 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
 
 stencil::Values stencils_at(const Expectation& e, const SampleExpectation& s,
                             std::optional<std::pair<uint32_t, uint32_t>> hits) {
-    return path::values_of(e.stencils_of(s), s.is_free, e.target.stencil_clear, hits);
+    const bool is_unknown =
+        s.stencils_count == 0 && e.target.stencil_load == cases::LoadOp::dont_care;
+    return path::values_of(e.stencils_of(s), s.is_free || is_unknown, e.target.stencil_clear, hits);
 }
 
 std::vector<uint32_t> shown_at(const Expectation& e, const SampleExpectation& s) {
     std::vector<uint32_t> out;
     for (const path::Fragment& f : e.fragments_of(s)) {
-        if (!f.is_discarded_front) {
+        if (!f.is_discarded_front || f.is_clear) {
             out.push_back(f.triangle);
         }
     }
@@ -170,6 +172,7 @@ std::vector<uint32_t> shown_at(const Expectation& e, const SampleExpectation& s)
 path::Question question_of(const Expectation& e, const cases::Case& c, const SampleExpectation& s) {
     path::Question out;
     out.clear = c.target.stencil_clear;
+    out.is_unknown = c.target.stencil_load == cases::LoadOp::dont_care;
     const auto fragments = e.fragments_of(s);
     out.fragments.assign(fragments.begin(), fragments.end());
     for (path::Fragment& f : out.fragments) {

@@ -37,8 +37,8 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
                 std::vector<Hit> hits;
                 for (uint32_t t = 0; t < out.triangles.size(); ++t) {
                     const cases::Draw& draw = c.draws[out.triangles[t].draw];
-                    if (draw.layer != layer || !setups[t].window.may_write(s) ||
-                        takes_away_pixel(draw, i, j)) {
+                    if (layer_of(draw, out.triangles[t]) != layer ||
+                        !setups[t].window.may_write(s) || takes_away_pixel(draw, i, j)) {
                         continue;
                     }
                     const Decision decision = decide(setups[t], p, false);

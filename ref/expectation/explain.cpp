@@ -165,7 +165,7 @@ Decision Explainer::decide(uint32_t t, const FixedPoint& p, cases::SampleId samp
     } else if (sign == Sign::open) {
         leave_open(out, ReasonKind::near_zero);
     }
-    if (draw.layer != sample.layer) {
+    if (layer_of(draw, scene_.triangles[t]) != sample.layer) {
         refuse(out, ReasonKind::other_layer);
     }
     // What might have taken it away, but must not have: culling by distance goes first.
@@ -180,6 +180,9 @@ Decision Explainer::decide(uint32_t t, const FixedPoint& p, cases::SampleId samp
 void Explainer::add_details(TriangleExplanation& e, const FixedPoint& p) {
     e.facing = scene_.setups[e.index].facing;
     const cases::Draw& draw = scene_.c.draws[e.triangle.draw];
+    if (draw.clear) {
+        return;
+    }
     std::array<std::optional<FixedPoint>, 3> snapped;
     for (size_t k = 0; k < 3; ++k) {
         const glm::vec4& clip = draw.positions[e.triangle.vertex[k]];
@@ -241,7 +244,7 @@ std::optional<ReasonKind> Explainer::reason_of_all(cases::SampleId sample,
     ReasonKind out = ReasonKind::other_layer;
     for (const cases::Draw& draw : scene_.c.draws) {
         const Window window = window_of(scene_.c, draw, scene_.profile);
-        if (draw.layer == sample.layer && window.may_touch(p)) {
+        if (draw.clear || (draw.layer == sample.layer && window.may_touch(p))) {
             return std::nullopt;
         }
         const ReasonKind why = draw.layer != sample.layer ? ReasonKind::other_layer
@@ -296,12 +299,15 @@ void Explainer::add_fate(TriangleExplanation& t, const path::Fate& fate, cases::
     const bool is_all = detail == Detail::all;
     const cases::Draw& draw = scene_.c.draws[t.triangle.draw];
     if (fate.is_discarded && !fate.passes) {
-        refuse(t.decision, ReasonKind::discarded_late);
+        refuse(t.decision, draw.clear ? ReasonKind::cleared : ReasonKind::discarded_late);
     } else if (fate.is_discarded && cases::discards_by_value(draw)) {
         leave_open(t.decision, ReasonKind::near_zero);
     }
     if (fate.is_discarded) {
         t.sentence = is_all ? sentence(t, sample) : std::string();
+    }
+    if (draw.clear) {
+        return;
     }
     if (is_all && scene_.c.target.has_depth && draw.depth.bounds) {
         t.bounds_text = bounds_sentence(t);
@@ -336,7 +342,7 @@ SampleExplanation Explainer::explain(cases::SampleId sample, Detail detail) {
         TriangleExplanation& t = out.triangles[explained[m]];
         const path::Fate& fate = reasons.fates[m];
         add_fate(t, fate, sample, detail);
-        if (scene_.depth && fate.gets_to_depth()) {
+        if (scene_.depth && fate.gets_to_depth() && !scene_.c.draws[t.triangle.draw].clear) {
             t.depth = fate.depth();
             t.depth_reason = *t.depth == DepthOutcome::open ? ReasonKind::depth_ranges
                                                             : reasons.depth_reasons[m];

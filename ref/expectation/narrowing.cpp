@@ -96,6 +96,7 @@ path::Question Narrowing::question(const FixedPoint& p, std::span<const Hit> hit
                                    const std::vector<FixedHits>& sets) {
     path::Question out;
     out.clear = case_.target.stencil_clear;
+    out.is_unknown = case_.target.stencil_load == cases::LoadOp::dont_care;
     for (size_t m = 0; m < hits.size(); ++m) {
         const uint32_t t = hits[m].triangle;
         const cases::Draw& draw = case_.draws[triangles_[t].draw];
@@ -107,7 +108,10 @@ path::Question Narrowing::question(const FixedPoint& p, std::span<const Hit> hit
         fragment.is_value_open = hits[m].is_value_open;
         fragment.is_sure_but_for_value = hits[m].is_sure_but_for_value;
         fragment.is_in_pieces = setups_[t].is_clipped || draw.distances.clip_count > 0;
-        if (stores_discarded(draw)) {
+        if (draw.clear) {
+            fragment.is_discarded_front = true;
+            fragment.is_clear = draw.clear->color.has_value();
+        } else if (stores_discarded(draw)) {
             const auto x = static_cast<uint32_t>(p.x >> kFixedBits);
             const auto y = static_cast<uint32_t>(p.y >> kFixedBits);
             const Sign sign = discards_by_value(draw) ? discards_.at(t, {x, y, sample_, draw.layer})
@@ -207,6 +211,7 @@ SampleExpectation Narrowing::judge_by_paths(const FixedPoint& p, std::span<const
     out.writers_count = static_cast<uint32_t>(lists.writers.size()) - out.writers_begin;
     out.depth_count = static_cast<uint32_t>(lists.depth_writers.size()) - out.depth_begin;
     out.depth_may_be_clear = depth_ != nullptr && resolution.may_be_clear;
+    out.is_open = asked.is_unknown;
     fates_ = std::move(resolution.fates);
     for (size_t m = 0; m < hits.size(); ++m) {
         const path::Fragment& f = asked.fragments[m];
@@ -253,6 +258,7 @@ void Narrowing::keep_passed(const path::Question& question, SampleExpectation& o
         if (fate.passes || fate.is_discarded) {
             path::Fragment& passed = lists.fragments.emplace_back(nullptr, true);
             passed.triangle = question.fragments[m].triangle;
+            passed.is_clear = question.fragments[m].is_clear;
             passed.is_discarded_front = passed.is_discarded_back = fate.is_discarded;
         }
     }

@@ -143,14 +143,14 @@ std::string masked(const std::string& number, const cases::StencilFace& face) {
 std::string sentence_of(Reason reason, const TriangleExplanation& t, const cases::Case& c,
                         cases::SampleId sample) {
     const cases::Draw& draw = c.draws[t.triangle.draw];
-    const cases::Rect& r = draw.scissor;
+    const cases::Rect& r = draw.clear ? rect_of(*draw.clear, t.triangle) : draw.scissor;
     const cases::Viewport& v = draw.viewport;
     const auto [left, right] = std::minmax({v.x, v.x + v.width});
     const auto [top, bottom] = std::minmax({v.y, v.y + v.height});
     const size_t plane = std::min<size_t>(reason.which, std::size(kPlanes) - 1);
     return fmt::format(
         fmt::runtime(text_of(reason.kind)), fmt::arg("ties", ties_text(t, reason.which)),
-        fmt::arg("inside", inside_text(t)), fmt::arg("layer", draw.layer),
+        fmt::arg("inside", inside_text(t)), fmt::arg("layer", layer_of(draw, t.triangle)),
         fmt::arg("mask",
                  draw.multisample.sample_mask & draw.multisample.shader_mask.value_or(0xffffffffU)),
         fmt::arg("sample", sample.sample), fmt::arg("alpha", draw.color.value.w),

@@ -17,7 +17,7 @@ std::vector<fast::Span> scan_all(const cases::Case& c,
         }
         const size_t first = spans.size();
         fast::scan(setups[t], t, c.target, spans);
-        const uint32_t down = c.draws[triangles[t].draw].layer * c.target.height;
+        const uint32_t down = layer_of(c.draws[triangles[t].draw], triangles[t]) * c.target.height;
         for (size_t k = first; down > 0 && k < spans.size(); ++k) {
             spans[k].y += down;
         }

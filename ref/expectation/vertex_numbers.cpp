@@ -19,7 +19,7 @@ std::array<uint32_t, 4> bits_of(const glm::vec4& v) {
 // All of a draw that tells its vertices from another's.
 std::array<uint32_t, 6> key_of(const cases::Draw& d) {
     const auto v = bits_of({d.viewport.x, d.viewport.y, d.viewport.width, d.viewport.height});
-    return {d.distances.clip_count, d.layer, v[0], v[1], v[2], v[3]};
+    return {d.clear ? ~0U : d.distances.clip_count, d.layer, v[0], v[1], v[2], v[3]};
 }
 
 uint64_t mixed(uint64_t hash, const std::array<uint32_t, 4>& words) {

@@ -11,6 +11,9 @@ namespace ref::path {
 using cases::kStencilBits;
 
 std::optional<Resolution> resolve_certain(const Question& question) {
+    if (question.is_unknown) {
+        return std::nullopt;
+    }
     const size_t count = question.fragments.size();
     std::vector<uint32_t> members(question.sets.size());
     for (const Fragment& f : question.fragments) {

@@ -129,7 +129,12 @@ class Walk {
     }
 
     Resolution run() {
-        follow(byte_value(question_.clear), kClearDepth);
+        for (uint32_t value = 0; question_.is_unknown && value < uint32_t{1} << kBits; ++value) {
+            follow(value, kClearDepth);
+        }
+        if (!question_.is_unknown) {
+            follow(byte_value(question_.clear), kClearDepth);
+        }
         if (out_.outcomes.empty()) {
             out_.is_free = true;
         }

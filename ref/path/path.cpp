@@ -117,6 +117,11 @@ class Search {
         first.past.hits = {0};
         first.past.stored.assign(keeps_stored_ ? 0 : 1, 0);
         layers_.push_back({std::move(first)});
+        for (uint32_t value = 0; question.is_unknown && value <= kStencilBits; ++value) {
+            Entry& entry = value == 0 ? layers_.back().front()
+                                      : layers_.back().emplace_back(layers_.back().front());
+            entry.state.value = value;
+        }
     }
 
     // Whether paths are left, and not too many.
@@ -348,6 +353,9 @@ class Search {
             fate(m, [](Fate& f) { f.is_discarded = true; });
             State discarded = next;
             discarded.counted += is_counted(m) && counts_discarded_ ? 1U : 0U;
+            if (fragment.is_clear) {
+                trace(discarded, m);
+            }
             go_on(std::move(discarded), from, parent, Deed::discarded);
             store_past(fragment, m);
         }
@@ -400,12 +408,16 @@ class Search {
         if (!state.is_last_right && m >= latest_) {
             return;
         }
+        trace(state, m);
+        go_on(std::move(state), from, parent, front ? Deed::front : Deed::back);
+    }
+
+    void trace(State& state, size_t m) {
         if (is_traced_) {
             const bool replaces = kinds_ != nullptr && kinds_->replaces[m];
             state.trace = trace_of(replaces ? 0 : state.trace,
                                    kinds_ != nullptr ? kinds_->kind[m] : static_cast<uint32_t>(m));
         }
-        go_on(std::move(state), from, parent, front ? Deed::front : Deed::back);
     }
 
     bool is_counted(size_t m) const { return counted_ != nullptr && (*counted_)[m]; }

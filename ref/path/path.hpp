@@ -40,6 +40,8 @@ struct Fragment {
     uint32_t triangle = 0;
     // Whether its shader discards it by a value is open; but for that it covers the sample.
     bool is_value_open = false, is_sure_but_for_value = false;
+    // Of a clear, which passes every test and is discarded then: its colour shows all the same.
+    bool is_clear = false;
     // Whether clipping may leave several pieces of the triangle, each with fragments of its own.
     bool is_in_pieces = false;
     friend bool operator==(const Fragment&, const Fragment&) = default;
@@ -56,7 +58,8 @@ struct FragmentSet {
 inline constexpr int kClearDepth = -1;  // instead of the number of the fragment that stored it
 
 struct Question {
-    uint32_t clear = 0;  // of the stencil
+    uint32_t clear = 0;       // of the stencil
+    bool is_unknown = false;  // the stencil may be any instead
     std::vector<Fragment> fragments;
     std::vector<FragmentSet> sets;
     // Whether the depth that another one stored, or the clear value, lies in the depth bounds of a
@@ -157,8 +160,8 @@ struct Observed {
     bool may_be_unhit = true, may_be_clear = true;
 };
 
-// What a colour tells of fragments: those of one kind look alike, and nothing is left of what one
-// that replaces has met.
+// What a colour tells of fragments, clears among them: those of one kind look alike, and nothing is
+// left of what one that replaces has met.
 struct Kinds {
     std::vector<uint32_t> kind;  // of each fragment: the first of its kind
     std::vector<bool> replaces;
@@ -189,8 +192,9 @@ struct Counted {
 std::optional<Counted> counted_by(const Question& question, const Observed& observed,
                                   const std::vector<bool>& of, bool with_discarded);
 
-// The fragments that show on the paths that satisfy what was observed, each list once. With `kinds`
-// a list begins with the last fragment that replaces, and has the first fragments of their kinds.
+// The fragments that show, and clears, on the paths that satisfy what was observed, each list once.
+// With `kinds` a list begins with the last fragment that replaces, and has the first fragments of
+// their kinds.
 struct Shown {
     bool is_free = false;
     std::vector<std::vector<uint32_t>> lists;

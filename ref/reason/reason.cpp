@@ -47,6 +47,7 @@ constexpr std::array kRows = {
     Row{degenerate_kept, rule::conservative_degenerate,
         "the triangle has no area after snapping, and meets the pixel; the device draws such "
         "triangles (degenerateTrianglesRasterized)"},
+    Row{cleared, rule::clear_attachments, "the pixel lies in the rectangle of a clear, {scissor}"},
     Row{other_layer,
         rule::layer_select,
         "the draw goes to layer {layer}",
@@ -56,6 +57,8 @@ constexpr std::array kRows = {
         "the sample mask {mask:#x} of the draw leaves sample {sample} out"},
     Row{no_alpha, rule::sample_alpha_to_coverage,
         "alpha to coverage leaves no sample of a fragment whose alpha is {alpha}"},
+    Row{beside_clear, rule::clear_attachments,
+        "the pixel lies outside the rectangle of a clear, {scissor}"},
     Row{scissor,
         rule::scissor_half_open,
         "the sample lies outside the scissor rectangle, {scissor}",
@@ -161,6 +164,9 @@ constexpr std::array kRows = {
         "the last fragment's draw does not write depth; no older one left this"},
     Row{depth_of_discarded, rule::discard_early_tests,
         "the depth is none of those that fragments stored, the discarded ones among them"},
+    Row{depth_of_cleared, rule::clear_attachments,
+        "neither a clear among the draws nor a triangle that may have stored its depth has this "
+        "depth here"},
     Row{depth_of_bounded, rule::depth_bounds,
         "the depth is none of those that fragments left where the stored depth was in their "
         "bounds"},

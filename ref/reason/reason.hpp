@@ -27,10 +27,12 @@ enum class ReasonKind : uint8_t {
     extra_reached,    // the extra size of the draw makes it do so
     fills_pixel,      // it holds the whole pixel
     degenerate_kept,  // it has no area once it is snapped, and meets the pixel
+    cleared,          // of a clear: the rectangle holds the pixel
     // A triangle must not cover the sample.
     other_layer,         // the draw goes to another layer
     masked,              // a sample mask of the draw leaves the sample out
     no_alpha,            // alpha to coverage leaves nothing of the fragment
+    beside_clear,        // of a clear: it lies outside the rectangle
     scissor,             // it lies outside the scissor rectangle or the target
     viewport,            // it lies outside the viewport
     discarded,           // the draw has rasterizer discard
@@ -85,6 +87,7 @@ enum class ReasonKind : uint8_t {
     writer_none_last,    // by a draw whose provoking vertex is the first, or the last
     depth_unwritten,     // its depth is none of those that were written before
     depth_of_discarded,  // the same, where fragments are discarded once theirs is stored
+    depth_of_cleared,    // the same, where a clear among the draws may have stored it
     depth_of_bounded,    // the same, where fragments are tested by depth bounds
     depth_of_taken,      // its depth is that of a fragment that leaves no trace
     depth_of_none,       // its depth is none of the fragments' that its colour allows

@@ -15,6 +15,7 @@ using cases::StencilOp;
 bool is_needed(const cases::Case& c) {
     return c.target.has_stencil &&
            (!c.target.has_instruments || c.target.stencil_clear != 0 ||
+            c.target.stencil_load == cases::LoadOp::dont_care ||
             std::any_of(c.draws.begin(), c.draws.end(), [](const cases::Draw& draw) {
                 return draw.stencil != cases::StencilState{} || stores_discarded(draw);
             }));

@@ -296,6 +296,7 @@ std::span<const Fault> assembly_faults();
 std::span<const Fault> depth_faults();
 std::span<const Fault> color_faults();
 std::span<const Fault> target_faults();
+std::span<const Fault> clear_faults();
 std::span<const Fault> multisample_faults();
 std::span<const Fault> shader_faults();
 std::span<const Fault> transfer_faults();

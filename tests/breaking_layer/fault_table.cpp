@@ -71,10 +71,11 @@ uint64_t parameter() {
 
 std::vector<const Fault*> all_faults() {
     std::vector<const Fault*> out;
-    for (const auto table : {viewport_faults(), draw_faults(), assembly_faults(), shader_faults(),
-                             multisample_faults(), depth_faults(), color_faults(), target_faults(),
-                             query_faults(), transfer_faults(), device_faults(), door_faults(),
-                             recording_door_faults(), target_door_faults(), bare_faults()}) {
+    for (const auto table :
+         {viewport_faults(), draw_faults(), assembly_faults(), shader_faults(),
+          multisample_faults(), depth_faults(), color_faults(), target_faults(), query_faults(),
+          transfer_faults(), device_faults(), door_faults(), recording_door_faults(),
+          target_door_faults(), clear_faults(), bare_faults()}) {
         for (const Fault& fault : table) {
             out.push_back(&fault);
         }

@@ -20,6 +20,7 @@ import broken
 FOCUS = [  # families that are about the faults whose names match
     ("bare-.*", ["bare/**", "facing/**", "topology/**", "depth-test/**"]),
     ("blend|write-mask", ["blend/**", "store/**", "order/**", "combination/**", "resolve/**"]),
+    ("^(clear|load)-", ["clear/**", "load/**"]),
     ("targets", ["color-targets/**", "combination/**"]),
     ("logic-op", ["logic/**", "combination/**"]),
     ("dual-source", ["dual-source/**", "combination/**"]),

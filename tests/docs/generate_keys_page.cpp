@@ -42,6 +42,7 @@ const std::map<std::string, const KeyTable*> kTables = {
     {"attribute", &cases::kAttributeKeys},
     {"distance", &cases::kDistanceKeys},
     {"blit", &cases::kBlitKeys},
+    {"clear", &cases::kClearKeys},
     {"viewport", &cases::kViewportKeys},
     {"range", &cases::kOpenRangeKeys},
 };

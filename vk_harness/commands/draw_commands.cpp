@@ -138,6 +138,41 @@ void reset_bias_representation(const Device& device, VkCommandBuffer commands,
     }
 }
 
+// vkCmdClearAttachments, of attachments of the case alone.
+void record_clear(const Device& device, VkCommandBuffer commands, const CasePlan& of,
+                  const cases::Draw& draw) {
+    const cases::Clear& clear = *draw.clear;
+    std::vector<VkClearAttachment> cleared;
+    VkClearAttachment beside{0, 0, {}};  // depth and stencil
+    uint32_t location = 0;
+    for (const Attachment& a : of.attachments) {
+        if (a.role == Role::depth && clear.depth) {
+            beside.aspectMask |= VK_IMAGE_ASPECT_DEPTH_BIT;
+            beside.clearValue.depthStencil.depth = *clear.depth;
+        } else if (a.role == Role::stencil && clear.stencil) {
+            beside.aspectMask |= VK_IMAGE_ASPECT_STENCIL_BIT;
+            beside.clearValue.depthStencil.stencil = *clear.stencil;
+        } else if (a.role == Role::color && clear.color) {
+            VkClearAttachment& color =
+                cleared.emplace_back(VkClearAttachment{VK_IMAGE_ASPECT_COLOR_BIT, location, {}});
+            write_bits(of.test->target.color->format, *clear.color, color.clearValue.color.uint32);
+        }
+        ++location;
+    }
+    if (beside.aspectMask != 0) {
+        cleared.push_back(beside);
+    }
+    std::vector<VkClearRect> rects;
+    for (const cases::Rect& rect : clear.rects) {
+        rects.push_back({moved(*of.test, to_vulkan(rect)), draw.layer, clear.layers});
+    }
+    if (!cleared.empty()) {
+        device.vk().vkCmdClearAttachments(commands, static_cast<uint32_t>(cleared.size()),
+                                          cleared.data(), static_cast<uint32_t>(rects.size()),
+                                          rects.data());
+    }
+}
+
 }  // namespace
 
 void record_draw(const Device& device, const PipelineCache& pipelines, VkCommandBuffer commands,
@@ -146,6 +181,10 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
     const cases::Case& test = *of.test;
     const DrawPlan& plan = of.draws[draw_index];
     const cases::Draw& draw = *plan.draw;
+    if (draw.clear) {
+        record_clear(device, commands, of, draw);
+        return;
+    }
     if (draw.indices ? draw.indices->empty() : draw.positions.empty()) {
         if (of.queries) {
             of.queries->begin(commands, draw_index);

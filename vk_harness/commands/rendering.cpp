@@ -180,26 +180,43 @@ void clear_resolved(const Device& device, VkCommandBuffer commands, const CasePl
     memory_barrier(device, commands, cleared, cleared);
 }
 
+// What is loaded is never cleared to what it holds.
 VkClearValue own_clear(const Attachment& a) {
-    return a.clear;
+    return a.load == cases::LoadOp::load ? other_clear(a) : a.clear;
 }
+// What an earlier pass leaves: what is loaded.
+VkClearValue earlier_clear(const Attachment& a) {
+    return a.load == cases::LoadOp::load ? a.clear : other_clear(a);
+}
+
+constexpr VkAttachmentLoadOp kLoadOps[] = {VK_ATTACHMENT_LOAD_OP_CLEAR, VK_ATTACHMENT_LOAD_OP_LOAD,
+                                           VK_ATTACHMENT_LOAD_OP_DONT_CARE};
+constexpr VkAttachmentStoreOp kStoreOps[] = {VK_ATTACHMENT_STORE_OP_STORE,
+                                             VK_ATTACHMENT_STORE_OP_DONT_CARE};
 
 // What a rendering begins with, with all that it points to: not to be moved.
 class Attached {
   public:
-    Attached(const CasePlan& plan, VkAttachmentLoadOp load, VkRenderingFlags flags,
+    // `load`: of all attachments, which are stored then; nothing: each has its own operations.
+    Attached(const CasePlan& plan, std::optional<VkAttachmentLoadOp> load, VkRenderingFlags flags,
              bool resolves = true, VkClearValue (*clear_of)(const Attachment&) = own_clear) {
         const cases::Target& target = plan.test->target;
+        const auto begun = [&](const Attachment& a, VkImageView view, VkImageLayout layout) {
+            VkRenderingAttachmentInfo info = attachment(
+                view, layout, clear_of(a), load.value_or(kLoadOps[static_cast<size_t>(a.load)]));
+            info.storeOp = load ? info.storeOp : kStoreOps[static_cast<size_t>(a.store)];
+            return info;
+        };
         size_t judged = 0;  // among the colour attachments
         for (size_t k = 0; k < plan.images.size(); ++k) {
             const Attachment& a = plan.attachments[k];
             VkImageView view = plan.images[k]->view();
             switch (a.role) {
                 case Role::depth:
-                    depth_ = attachment(view, kDepthDrawn.layout, clear_of(a), load);
+                    depth_ = begun(a, view, kDepthDrawn.layout);
                     break;
                 case Role::stencil:
-                    stencil_ = attachment(view, kDepthDrawn.layout, clear_of(a), load);
+                    stencil_ = begun(a, view, kDepthDrawn.layout);
                     break;
                 case Role::resolved_color:
                     if (resolves) {
@@ -209,7 +226,7 @@ class Attached {
                     break;
                 case Role::color:
                     judged = colors_.size();
-                    colors_.push_back(attachment(view, kColorDrawn.layout, clear_of(a), load));
+                    colors_.push_back(begun(a, view, kColorDrawn.layout));
                     break;
                 case Role::resolved_depth:
                     if (resolves) {
@@ -222,7 +239,7 @@ class Attached {
                     }
                     break;
                 default:
-                    colors_.push_back(attachment(view, kColorDrawn.layout, clear_of(a), load));
+                    colors_.push_back(begun(a, view, kColorDrawn.layout));
                     break;
             }
         }
@@ -395,15 +412,16 @@ void render_at_once(const Device& device, const PipelineCache& pipelines, VkComm
                     const CasePlan& plan, VkBuffer vertices) {
     const Door door = plan.test->variation.door;
     const bool clears = door == Door::clear_commands || door == Door::clear_draw;
-    if (clears) {
-        // Contents are undefined, and shall not be by chance those of the plain picture.
-        const Attached other(plan, VK_ATTACHMENT_LOAD_OP_CLEAR, 0, false, other_clear);
+    if (clears || plan.test->target.has_operations()) {
+        // Contents that are undefined shall not be by chance those of the plain picture.
+        const Attached other(plan, VK_ATTACHMENT_LOAD_OP_CLEAR, 0, false,
+                             clears ? other_clear : earlier_clear);
         device.vk().vkCmdBeginRendering(commands, &other.info());
         device.vk().vkCmdEndRendering(commands);
         barrier(device, commands, plan, kColorDrawn, kColorDrawn, kDepthDrawn, kDepthDrawn);
     }
     const Attached attached(
-        plan, clears ? VK_ATTACHMENT_LOAD_OP_DONT_CARE : VK_ATTACHMENT_LOAD_OP_CLEAR, 0);
+        plan, clears ? std::optional(VK_ATTACHMENT_LOAD_OP_DONT_CARE) : std::nullopt, 0);
     device.vk().vkCmdBeginRendering(commands, &attached.info());
     if (door == Door::clear_commands) {
         clear_by_command(device, commands, plan);

@@ -34,6 +34,7 @@ Attachment color_attachment(const cases::ColorTarget& target) {
     out.format = to_vulkan(target.format);
     out.texel_bytes = bytes_of(target.format);
     out.sample_bytes = std::max(out.texel_bytes, 4U);
+    out.load = target.load;
     if (is_integer(target.format)) {
         for (int k = 0; k < 4; ++k) {
             out.clear.color.int32[k] = static_cast<int32_t>(target.clear[k]);
@@ -63,6 +64,8 @@ void append_resolved(const cases::Target& target, std::vector<Attachment>& out) 
     const auto add_like = [&out](Role drawn, Role resolved) {
         Attachment a = *std::ranges::find(out, drawn, &Attachment::role);
         a.role = resolved;
+        a.load = cases::LoadOp::clear;
+        a.store = cases::StoreOp::store;
         a.clear.depthStencil = {kNeverResolved, a.clear.depthStencil.stencil ^ kNeverStencil};
         out.push_back(a);
     };
@@ -145,6 +148,12 @@ std::vector<Attachment> attachments_of(const cases::Case& c, const TargetLayout&
         VkClearValue clear{};
         clear.depthStencil.stencil = c.target.stencil_clear;
         out.push_back({Role::stencil, layout.stencil_format, clear, 1, 4});
+    }
+    for (Attachment& a : out) {
+        if (a.role == Role::depth || a.role == Role::stencil) {
+            a.load = a.is_depth() ? c.target.depth_load : c.target.stencil_load;
+            a.store = a.is_depth() ? c.target.depth_store : c.target.stencil_store;
+        }
     }
     append_resolved(c.target, out);
     if (c.variation.door == cases::Door::input_attachment) {

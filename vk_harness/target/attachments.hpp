@@ -41,7 +41,9 @@ struct Attachment {
     uint32_t draws = 1;            // of the case: what packed_id goes by
     bool halves = false;           // hits, and ids beside them, are binary16
     bool is_beside_depth = false;  // a stencil in the image of the attachment before it
-    bool is_input = false;         // read back as an input attachment, in whole words a sample
+    cases::LoadOp load = cases::LoadOp::clear;
+    cases::StoreOp store = cases::StoreOp::store;
+    bool is_input = false;  // read back as an input attachment, in whole words a sample
     bool is_depth() const { return role == Role::depth || role == Role::resolved_depth; }
     bool is_stencil() const { return role == Role::stencil || role == Role::resolved_stencil; }
     bool is_depth_stencil() const { return is_depth() || is_stencil(); }

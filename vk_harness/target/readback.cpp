@@ -372,9 +372,15 @@ void read_planes(const std::vector<Attachment>& attachments, const ReadbackLayou
                 break;
             case Role::depth:
                 decode_depth(shape, has_words, from, to.depth.data());
+                if (attachment.store != cases::StoreOp::store) {  // each copy has other bits
+                    std::ranges::fill(to.depth, to.target.depth_clear);
+                }
                 break;
             case Role::stencil:
                 decode_stencil(shape, has_words, from, to.stencil.data());
+                if (attachment.store != cases::StoreOp::store) {
+                    std::ranges::fill(to.stencil, to.target.stencil_clear);
+                }
                 break;
             case Role::resolved_color:
                 decode_color(shape, attachment, from.data(), to.resolved_color.data());

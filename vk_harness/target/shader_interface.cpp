@@ -63,7 +63,8 @@ uint32_t viewport_count(const cases::Case& c) {
 }
 
 bool names_layers(const cases::Case& c) {
-    return std::ranges::any_of(c.draws, [](const cases::Draw& draw) { return draw.layer > 0; });
+    return std::ranges::any_of(
+        c.draws, [](const cases::Draw& draw) { return !draw.clear && draw.layer > 0; });
 }
 
 }  // namespace vk_harness

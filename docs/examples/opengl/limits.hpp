@@ -29,6 +29,7 @@ inline std::string draw_refusal(const Json& draw, GLint samples) {
 inline std::string refusal(const Context& gl, const Json& c) {
     static const std::map<std::string, std::string> never = {
         {"barycentrics", "OpenGL has no barycentric coordinates"},
+        {"clear", "this program clears before all draws alone"},
         {"alpha-to-coverage", "this program does not turn it on"},
         {"alpha-to-one", "OpenGL has it with several samples alone"},
         {"conservative-rasterization", "OpenGL has no conservative rasterization"},

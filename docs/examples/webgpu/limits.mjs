@@ -31,6 +31,7 @@ const NEVER = {
   'depth-bounds': 'WebGPU has no depth bounds',
   'depth-volume': 'WebGPU has no view volume from -w',
   'cull-distance': 'WebGPU has no cull distances',
+  clear: 'WebGPU has no clears among draws',
   'rasterizer-discard': 'WebGPU has no rasterizer discard',
   'conservative-rasterization': 'WebGPU has no conservative rasterization',
   'fragment-size': 'WebGPU has fragments of one pixel',

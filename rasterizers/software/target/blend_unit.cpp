@@ -224,6 +224,14 @@ Texel BlendUnit::write(const cases::ColorOutput& output, const glm::vec4& writte
     return out;
 }
 
+void ColorAttachment::clear(size_t sample, uint32_t draw) {
+    Device plain = device_;  // clears take another path
+    plain.fault = kNoFault;
+    const cases::ColorOutput& output = case_.draws[draw].color;
+    texels_[sample] =
+        BlendUnit(case_.target.color->format, plain).write(output, output.value, texels_[sample]);
+}
+
 ColorAttachment::ColorAttachment(const cases::Case& c, const Device& device)
     : case_(c),
       device_(device),

@@ -56,6 +56,8 @@ class ColorAttachment {
 
     // A fragment of a primitive that has passed all tests, at one sample.
     void write(size_t sample, uint32_t draw, uint32_t primitive, const glm::vec4& value);
+    // What a clear among the draws, which is their number `draw`, leaves.
+    void clear(size_t sample, uint32_t draw);
     // What other attachments hold of `value`: the value itself.
     glm::vec4 beside(uint32_t draw, const glm::vec4& value, const glm::vec4& before) const;
     // What is read back; empty if the case has no colour target.

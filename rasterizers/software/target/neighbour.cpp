@@ -35,7 +35,9 @@ glm::vec4 clear_of(const cases::Target& target, const Device& device) {
     const cases::ColorTarget& first = target.color_at(0);
     const bool is_first = device.fault == "targets-clear-of-first"_fault &&
                           is_integer(first.format) == is_integer(own.format);
-    return is_first ? first.clear : own.clear;
+    return own.load == cases::LoadOp::dont_care ? glm::vec4(1) - own.clear
+           : is_first                           ? first.clear
+                                                : own.clear;
 }
 
 cases::ColorOutput output_beside(const cases::Case& c, const cases::Draw& draw,

@@ -15,7 +15,10 @@ StencilAttachment::StencilAttachment(const cases::Case& c, const Device& device)
     if (c.target.has_stencil) {
         const bool is_lost = device.fault == "stencil-clear-ignored"_fault;
         values_.assign(size_t{c.target.width} * c.target.rows() * c.target.samples,
-                       is_lost ? 0 : c.target.stencil_clear);
+                       is_lost ? 0
+                       : c.target.stencil_load == cases::LoadOp::dont_care
+                           ? c.target.stencil_clear ^ 0xffU
+                           : c.target.stencil_clear);
     }
 }
 

@@ -20,6 +20,7 @@ class StencilAttachment {
     // Tests and updates a sample for a fragment of a draw; `passes`: the depth test would. False if
     // the fragment fails the stencil test.
     bool test(size_t index, uint32_t draw, bool front, bool passes);
+    void clear(size_t index, uint32_t value) { values_[index] = value; }
     const std::vector<uint32_t>& values() const { return values_; }
 
   private:

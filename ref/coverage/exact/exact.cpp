@@ -244,6 +244,8 @@ Decision decide(const TriangleSetup& setup, const FixedPoint& sample, bool is_to
     if (setup.kind == TriangleSetup::Kind::anywhere) {
         out.coverage = Coverage::either;
         out.further = further_if_undefined(setup.area);
+    } else if (setup.kind == TriangleSetup::Kind::cleared) {
+        out.coverage = Coverage::must;
     } else {
         const OutlineList outlines = setup.outlines();
         const size_t count = outlines.size();

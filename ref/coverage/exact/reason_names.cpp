@@ -332,9 +332,13 @@ void name_setup_reasons(const TriangleSetup& setup, const FixedPoint& p, Decisio
             add_reason(reasons, r);
         }
     }
+    const bool is_clear = setup.kind == TriangleSetup::Kind::cleared;
+    if (is_clear && out.coverage == Coverage::must) {
+        add_reason(reasons, {ReasonKind::cleared});
+    }
     if (out.coverage == Coverage::must_not) {
         if (!w.is_in_scissor(p)) {
-            add_reason(reasons, {ReasonKind::scissor});
+            add_reason(reasons, {is_clear ? ReasonKind::beside_clear : ReasonKind::scissor});
         }
         if (!w.is_in_zone(p)) {
             add_reason(reasons, {ReasonKind::viewport});

@@ -224,7 +224,7 @@ void scan_by_sets(const TriangleSetup& setup, uint32_t triangle, const cases::Ta
         is_wide = !is_narrow(setup);
     } else {
         constexpr int64_t kFar = int64_t{1} << kPositionBits;
-        sets.has_must = false;
+        sets.has_must = setup.kind == TriangleSetup::Kind::cleared;
         sets.may.push_back({{}, {-kFar, -kFar, kFar, kFar}});
         sets.further.assign(further_if_undefined(setup.area), sets.may);
     }
@@ -254,8 +254,8 @@ Coverage classify(const TriangleSetup& setup, const FixedPoint& sample) {
     if (setup.kind == TriangleSetup::Kind::nothing || !setup.window.may_touch(p)) {
         return Coverage::must_not;
     }
-    if (setup.kind == TriangleSetup::Kind::anywhere) {
-        return Coverage::either;
+    if (setup.kind != TriangleSetup::Kind::outlines) {
+        return setup.kind == TriangleSetup::Kind::cleared ? Coverage::must : Coverage::either;
     }
     const CoverageSets sets = coverage_sets(setup);
     if (std::none_of(sets.may.begin(), sets.may.end(),

@@ -10,6 +10,25 @@ namespace {
 
 // clang-format off
 const Row kDrawsRows[] = {
+    {draw(R"~(clear = {})~"),
+     R"~(f:7:9: error: the clear clears nothing; write color, depth or stencil)~"},
+    {draw(R"~(clear = { depth = 0.5, rects = [] })~"),
+     R"~(f:7:32: error: a clear has 1 to 256 rectangles, not 0)~"},
+    {draw(R"~(clear = { depth = 0.5, rects = [[0,0,0,8]] })~"),
+     R"~(f:7:38: error: a rectangle is not an integer from 1 to 8)~"},
+    {draw(R"~(clear = { depth = 0.5, rects = [[4,0,5,8]] })~"),
+     R"~(f:7:33: error: a rectangle reaches beyond the target, which Vulkan forbids)~"},
+    {draw(R"~(clear = { depth = 0.5, layers = 2 })~"),
+     R"~(f:7:9: error: the clear reaches layer 1, and the target has 1)~"},
+    {draw(R"~(clear = { depth = 1.5 })~"),
+     R"~(f:7:19: error: depth is outside 0..1, which Vulkan does not allow)~"},
+    {draw(R"~(clear = { stencil = 3 })~"),
+     R"~(f:7:21: error: the target has no stencil; leave it out of the clear)~"},
+    {draw(R"~(clear = { color = [0,0,0,0] })~"),
+     R"~(f:7:19: error: the target has no color; leave it out of the clear)~"},
+    {draw(R"~(clear = { depth = 0.5 }
+scissor = [0,0,1,1])~"),
+     R"~(f:8:1: error: a [[draw]] with clear has no key "scissor"; its keys are clear, layer)~"},
     {draw(R"~(vertexes = 1)~"),
      R"~(f:7:1: error: [[draw]] has no key "vertexes"; did you mean "vertices"?)~"},
     {draw(R"~(topology = "triangle-list")~"),

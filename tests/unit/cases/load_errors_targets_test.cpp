@@ -10,6 +10,17 @@ namespace {
 
 // clang-format off
 const Row kTargetsRows[] = {
+    {target(R"~(size = [8, 8]
+stencil_load = "load")~"),
+     R"~(f:6:16: error: the target has no such attachment; leave out stencil_load)~"},
+    {target(R"~(size = [8, 8]
+depth_load = "lode")~"),
+     R"~(f:6:14: error: depth_load is "lode"; write "clear", "load" or "dont-care")~"},
+    {target(R"~(size = [8, 8]
+attachments = "color"
+color = { format = "rgba8-unorm" }
+depth_store = "dont-care")~"),
+     R"~(f:8:15: error: the target has no such attachment; leave out depth_store)~"},
     {target(R"~(samples = 1)~"),
      R"~(f:4:1: error: [target] has no size; write size = [width, height])~"},
     {target(R"~(size = 8)~"),

@@ -85,6 +85,9 @@ class Sample {
     }
 
     void draw(size_t number) {
+        if (scene_.draws[number].clear && !is_wrong(Wrong::is_lost, number)) {
+            clear(number);
+        }
         for (size_t t = 0; t < scene_.draws[number].triangles.size(); ++t) {
             draw_triangle(number, t);
         }
@@ -298,11 +301,8 @@ class Sample {
         if (!covers(number, triangle)) {
             return;
         }
-        if (draw.scissor) {
-            const auto& [x, y, width, height] = *draw.scissor;
-            if (place_.x < x || place_.x >= x + width || place_.y < y || place_.y >= y + height) {
-                return;
-            }
+        if (!is_in_scissor(draw)) {
+            return;
         }
         const bool has_masks = !is_wrong(Wrong::mask_ignored, number);
         if (has_masks && (draw.sample_mask >> place_.sample & 1) == 0) {
@@ -329,6 +329,31 @@ class Sample {
                 write(number, t);
             }
         }
+    }
+
+    // No test, mask or blending applies, and nothing counts it.
+    void clear(size_t number) {
+        const Draw& draw = scene_.draws[number];
+        if (draw.layer != place_.layer || !is_in_scissor(draw)) {
+            return;
+        }
+        if (draw.clear->has_color) {
+            seen_.color = clear_codes(
+                {scene_.colors[scene_.judged].format, draw.colors[scene_.judged].value});
+        }
+        if (draw.clear->depth) {
+            depth_ = {*draw.clear->depth, stored_depth(scene_, *draw.clear->depth), true, nullptr,
+                      nullptr};
+        }
+        seen_.stencil = draw.clear->stencil.value_or(seen_.stencil);
+    }
+
+    bool is_in_scissor(const Draw& draw) const {
+        if (!draw.scissor) {
+            return true;
+        }
+        const auto& [x, y, width, height] = *draw.scissor;
+        return place_.x >= x && place_.x < x + width && place_.y >= y && place_.y < y + height;
     }
 
     void write(size_t number, size_t t) {

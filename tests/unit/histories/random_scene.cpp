@@ -161,9 +161,29 @@ Scene random_target(Random& random) {
     return scene;
 }
 
-}  // namespace
+// A clear of at least one of what the scene has, of the columns below `columns`.
+Draw random_clear(const Scene& scene, uint32_t columns, Random& random) {
+    Draw draw;
+    draw.clear.emplace();
+    Clear& clear = *draw.clear;
+    do {
+        clear.has_color = !scene.colors.empty() && random.chance(1, 2);
+        if (scene.has_depth() && random.chance(1, 2)) {
+            clear.depth = random.of<double>({0, 0.25, 0.375, 0.5, 1});
+        }
+        if (scene.has_stencil && random.chance(1, 2)) {
+            clear.stencil = random.of<uint32_t>({0, 1, 2, 3, 85, 255});
+        }
+    } while (!clear.has_color && !clear.depth && !clear.stencil);
+    const uint32_t x = random.below(columns), y = random.below(scene.height);
+    draw.scissor = {x, y, 1 + random.below(columns - x), 1 + random.below(scene.height - y)};
+    draw.layer = random.below(scene.layers);
+    give_colors(scene, draw, random);
+    return draw;
+}
 
-Scene random_scene(Random& random) {
+// `is_control_first`: the draws behind it leave its column, the last one, alone.
+Scene scene_of_draws(Random& random, bool& is_control_first) {
     Scene scene = random_target(random);
     give_targets(scene, random);
     const uint32_t count = 1 + random.below(4);
@@ -177,7 +197,8 @@ Scene random_scene(Random& random) {
     control.triangles[0].z0 = 0.875;
     control.scissor = {scene.width - 1, 0, 1, scene.height};
     give_control_colors(scene, control);
-    if (random.chance(1, 2)) {
+    is_control_first = !random.chance(1, 2);
+    if (!is_control_first) {
         scene.draws.push_back(control);
         return scene;
     }
@@ -188,6 +209,22 @@ Scene random_scene(Random& random) {
         (*draw.scissor)[2] = std::min((*draw.scissor)[2], scene.width - 1 - (*draw.scissor)[0]);
     }
     scene.draws.insert(scene.draws.begin(), control);
+    return scene;
+}
+
+}  // namespace
+
+Scene random_scene(Random& random) {
+    bool is_control_first = false;
+    Scene scene = scene_of_draws(random, is_control_first);
+    Random clears = random;  // numbers of their own, so that draws and pictures keep theirs
+    while (scene.draws.size() < kMaxDraws && clears.chance(1, 3)) {
+        const auto draws = static_cast<uint32_t>(scene.draws.size());
+        const Draw clear = random_clear(scene, scene.width - (is_control_first ? 1 : 0), clears);
+        // Behind a control that comes first, before one that comes last.
+        const uint32_t at = (is_control_first ? 1 : 0) + clears.below(draws);
+        scene.draws.insert(scene.draws.begin() + at, clear);
+    }
     return scene;
 }
 

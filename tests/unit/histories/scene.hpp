@@ -91,8 +91,17 @@ struct FragDepth {
 
 enum class Query : uint8_t { none, occlusion, precise };
 
+// Instead of a draw: what it names holds the color's value, this depth, this stencil in the
+// scissor.
+struct Clear {
+    bool has_color = false;
+    std::optional<double> depth;
+    std::optional<uint32_t> stencil;
+};
+
 struct Draw {
-    std::vector<Triangle> triangles;
+    std::optional<Clear> clear;
+    std::vector<Triangle> triangles;                 // none of a clear
     std::optional<std::array<uint32_t, 4>> scissor;  // x, y, width, height
     bool has_wide_viewport = false;  // 32 x 32 pixels about (0, 0), so that nothing is clipped
     bool culls_front = false, culls_back = false;

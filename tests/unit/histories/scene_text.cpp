@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace histories {
@@ -163,8 +164,25 @@ std::string tests_text(const Scene& scene, const Draw& draw) {
     return out;
 }
 
+std::string clear_text(const Scene& scene, const Draw& draw) {
+    std::string out = "[[draw]]\nclear = { ";
+    const auto [x, y, width, height] =
+        draw.scissor.value_or(std::array<uint32_t, 4>{0, 0, scene.width, scene.height});
+    out += fmt::format("rects = [[{}, {}, {}, {}]]", x, y, std::min(width, scene.width - x),
+                       std::min(height, scene.height - y));
+    if (draw.clear->has_color) {
+        out += ", color = " + numbers(draw.colors[scene.judged].value);
+    }
+    out += draw.clear->depth ? fmt::format(", depth = {}", *draw.clear->depth) : "";
+    out += draw.clear->stencil ? fmt::format(", stencil = {}", *draw.clear->stencil) : "";
+    return out + fmt::format(" }}\nlayer = {}\n", draw.layer);
+}
+
 std::string draw_text(const Scene& scene, size_t number) {
     const Draw& draw = scene.draws[number];
+    if (draw.clear) {
+        return clear_text(scene, draw);
+    }
     std::vector<std::string> vertices, values;
     for (size_t t = 0; t < draw.triangles.size(); ++t) {
         const Triangle& triangle = draw.triangles[t];

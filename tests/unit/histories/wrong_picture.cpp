@@ -33,7 +33,10 @@ std::string change(const Scene& scene, const Planes& planes, Shown& sample, cons
         plane = static_cast<PlaneNumber>(random.below(kPlaneCount));
     }
     Seen& seen = sample[plane];
-    const size_t draw = random.below(static_cast<uint32_t>(scene.draws.size()));
+    size_t draw = random.below(static_cast<uint32_t>(scene.draws.size()));
+    while (scene.draws[draw].clear) {  // one at least is none
+        draw = random.below(static_cast<uint32_t>(scene.draws.size()));
+    }
     const auto triangle = random.below(static_cast<uint32_t>(scene.draws[draw].triangles.size()));
     if (random.chance(1, 2)) {
         seen = other;

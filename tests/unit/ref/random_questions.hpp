@@ -38,6 +38,7 @@ class RandomQuestions : public value_test::Random {
     path::Question question(std::vector<cases::StencilState>& states) {
         path::Question out;
         out.clear = value();
+        out.is_unknown = one_in(24);
         const uint32_t count = 1 + below(7);
         states.resize(count);
         for (uint32_t m = 0; m < count; ++m) {
@@ -46,6 +47,7 @@ class RandomQuestions : public value_test::Random {
             fragment.can_be_back = !fragment.can_be_front || one_in(3);
             fragment.is_discarded_front = one_in(6);
             fragment.is_discard_open = one_in(6);
+            fragment.is_clear = fragment.is_discarded_front && one_in(2);
             if (m > 0 && one_in(5)) {
                 fragment.twin = static_cast<int>(below(m));
                 fragment.is_sure = out.fragments[static_cast<size_t>(fragment.twin)].is_sure;
