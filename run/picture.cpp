@@ -206,6 +206,9 @@ Geometry geometry_of(const PictureWindow& window, const cases::Case& c, const re
         if (g.triangles.size() == most) {
             break;
         }
+        if (c.draws[t.draw].clear) {
+            continue;  // it has no outline
+        }
         Shape shape = shape_of(c.draws[t.draw], t, limits, expectation.profile);
         const int64_t down = int64_t{shape.layer} * c.target.height * ref::kFixedOne;
         const auto& p = shape.points;

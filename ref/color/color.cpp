@@ -379,7 +379,9 @@ ColorVerdict ColorReference::judge(size_t index, cases::SampleId id,
         return verdict;
     }
     tell_coverage(most, id, codes, verdict);
-    if (verdict.triangle && is_clear(*verdict.triangle)) {
+    const bool is_turned =
+        verdict.kind == ColorVerdict::Kind::order && std::ranges::any_of(most, is_clear);
+    if (is_turned || (verdict.triangle && is_clear(*verdict.triangle))) {
         verdict.kind = ColorVerdict::Kind::value;
         verdict.rule = cases::rule::clear_attachments;
     }

@@ -310,7 +310,8 @@ std::string also_allowed(const Fragment& f, const Quantity& q, Profile profile) 
 
 std::string allowed_text(const Fragment& f, const Quantity& q, Profile profile) {
     if (q.kind == Kind::written_depth) {
-        return stored_of(f).text() + ", which the fragment shader wrote";
+        return stored_of(f).text() +
+               (f.draw->clear ? ", which a clear stores" : ", which the fragment shader wrote");
     }
     const std::string also = also_allowed(f, q, profile);
     if (!also.empty()) {

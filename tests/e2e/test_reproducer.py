@@ -228,7 +228,7 @@ class Refused(Reproducer):
                 "combination/sampled-states:topology=triangle-fan,auxiliary=sample,depth=d24-unorm,cull=back,mode=smooth,beyond=0,"
                 "provoking=first,volume=zero-to-one,slope=0,clamp=false": "several samples of D24",
                 "resolve/depth:mode=sample-zero,samples=2": "a resolve",
-                "clear/logic": "a clear among the draws",
+                "clear/whole:attachments=all,samples=1": "a clear among the draws",
                 "load/depth:format=d32-float,samples=1,attachments=all": "load and store operations",
                 "multisample/locations-mesh:seed=1": "sample locations of its own",
                 "viewport/several:a=0,last=4": "several viewports",

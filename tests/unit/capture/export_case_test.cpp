@@ -62,9 +62,11 @@ std::vector<Change> target_changes() {
                                   sample_locations, color, other_colors,
                                   judged_color,  // not told
                                   instruments,   // no part of the picture
-                                  has_depth, depth_clear, color_resolve, depth_resolve,
-                                  stencil_resolve, has_stencil, stencil_clear] = cases::Target{};
-    [[maybe_unused]] const auto& [format, clear] = cases::ColorTarget{};
+                                  has_depth, depth_clear, depth_load, stencil_load, depth_store,
+                                  stencil_store,  // not told
+                                  color_resolve, depth_resolve, stencil_resolve, has_stencil,
+                                  stencil_clear] = cases::Target{};
+    [[maybe_unused]] const auto& [format, clear, load] = cases::ColorTarget{};
     return {
         {"width", [](Case& c) { ++c.target.width; }},
         {"height", [](Case& c) { ++c.target.height; }},
@@ -90,8 +92,8 @@ std::vector<Change> target_changes() {
 }
 
 std::vector<Change> draw_changes() {
-    [[maybe_unused]] const auto& [topology, positions, indices, primitive_restart, attributes,
-                                  viewport, scissor, cull, front_face, provoking,
+    [[maybe_unused]] const auto& [cleared, topology, positions, indices, primitive_restart,
+                                  attributes, viewport, scissor, cull, front_face, provoking,
                                   rasterizer_discard, conservative, conservative_extra,
                                   fragment_size, discard, discard_attribute, discard_by,
                                   early_tests, frag_depth, query, depth, stencil, distances,
@@ -103,6 +105,7 @@ std::vector<Change> draw_changes() {
     [[maybe_unused]] const auto& [sample_mask, shader_mask, min_sample_shading] =
         cases::Multisample{};
     return {
+        {"clear", [](Case& c) { draw(c).clear.emplace(); }},
         {"topology", [](Case& c) { draw(c).topology = cases::Topology::triangle_strip; }},
         {"positions", [](Case& c) { draw(c).positions[3].w = 2; }},
         {"indices", [](Case& c) { draw(c).indices->back() = 3; }},
