@@ -88,6 +88,7 @@ constexpr auto kTarget = std::to_array<Key>({
     flag("stencil").pipeline(),
     whole("stencil_clear", 0, kStencilBits).tries(kStencils).plain("0"),
     word("attachments", kWords<Attachments>).near(kEquals).pipeline(),
+    word("frame", kWords<Frame>).near(kEquals),
     table("color", kTargetColorKeys).plain("none"),
     other("judged", 0, kMaxColorTargets - 1).as("judged_color").plain("0"),
 });
@@ -108,6 +109,7 @@ constexpr auto kDraw = std::to_array<Key>({
     other("vertices").silent().shape(),
     other("generate").shape(),
     other("indices").plain("none").shape(),
+    flag("matrix").pipeline(),
     table("viewport", kViewportKeys).plain("the target"),
     other("scissor").plain("the target"),
     whole("viewport_index", 0, kLastViewport).tries(kFew).plain("0").pipeline(),

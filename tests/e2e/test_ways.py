@@ -54,7 +54,9 @@ class Ways(ProgramTest):
 
     def test_selectors_name_ways(self):
         _, cases = self.run_ways("a/one@bare-*s*", "b/two")
-        self.assertEqual(sorted(cases), sorted(["a/one@bare-color-constant", "a/one@bare-color-offset", "a/one@bare-color-push", "a/one@bare-color-smooth", "a/one@bare-color-storage", "a/one@bare-stencil", "b/two"]))
+        self.assertEqual(sorted(cases), sorted(["b/two"] + ["a/one@bare-" + way for way in (
+            "color-constant", "color-mask", "color-offset", "color-push", "color-sampled", "color-second", "color-smooth", "color-storage",
+            "color-texels", "depth-sampled", "stencil")]))
         done = self.edgecase("explain", "--suite", "own", "a/one@bare-depth", "--pixel", "0,0", check=0).stdout
         self.assertIn("a/one@bare-depth\n", done)
         self.assertIn("must be covered", done)
@@ -179,12 +181,24 @@ class Files(ProgramTest):
     def test_wrong_sources_and_attachments(self):
         bare = COLOUR.replace("size = [8, 8]", 'size = [8, 8]\nattachments = "color"')
         self.lint(bare.replace("value = [1, 0, 1, 1]", 'value = [1, 0, 1, 1], from = "uniform"'), 0)
+        mapped = "[[draw.attribute]]\nvalues = [[-1,0], [1,0], [1,1],  [1,1], [-1,1], [1,0]]\n"
+        negative = '[[draw]]\ndiscard = "negative"'
+        self.lint(bare.replace("value = [1, 0, 1, 1]", 'value = [1, 0, 1, 1], from = "mask"').replace("[[draw]]", negative) + mapped, 0)
         for words, told in (
                 (COLOUR.replace("value = [1, 0, 1, 1]", 'value = [1, 0, 1, 1], from = "uniform"'), "from is of one colour of numbers alone"),
                 (bare.replace("value = [1, 0, 1, 1]", 'value = [1, 0, 1, 1], from = "texture"'), "a texture is read at the draw's first attribute"),
                 (bare.replace("value = [1, 0, 1, 1]", 'value = [1, 0, 1, 1], from = "unform"'), 'did you mean "uniform"?'),
                 (bare.replace("value = [1, 0, 1, 1]", 'value = [1, 0, 1, 1], from = "storage"').replace("[[draw]]", '[[draw]]\ndiscard = "checker"'),
                  "does nothing else; leave out discard"),
+                (bare.replace("value = [1, 0, 1, 1]", 'value = [1, 0, 1, 1], from = "texels"'), "the first attribute says which"),
+                (bare.replace("value = [1, 0, 1, 1]", 'value = [1, 0, 1, 1], from = "mask"') + mapped, 'write discard = "negative"'),
+                (bare.replace("value = [1, 0, 1, 1]", 'value = [1, 0, 1, "1/4"], from = "mask"').replace("[[draw]]", negative) + mapped, "write 3/4 or more"),
+                (bare.replace("[[draw]]", "[[draw]]\nmatrix = true"), "matrix needs a colour from elsewhere"),
+                (bare.replace("value = [1, 0, 1, 1]", 'value = [1, 0, 1, 1], from = "constant"').replace(
+                    "[[draw]]", '[[draw]]\nmatrix = true\nspace = "clip"').replace("[8,0]]", '["0x1p-120",1]]'), "a product with 8 or 1/4 keeps"),
+                (CASE.replace("size = [8, 8]", 'size = [8, 8]\nframe = "second"'), "without what counts hits"),
+                (bare.replace('"rgba8-unorm"', '"rgba32-float"').replace("size = [8, 8]", 'size = [8, 8]\nframe = "sampled"'), "one rgba8-unorm"),
+                (CASE.replace("size = [8, 8]", 'size = [8, 8]\nattachments = "depth"\nsamples = 4\nframe = "sampled"'), "of one sample"),
                 (CASE.replace("size = [8, 8]", 'size = [8, 8]\nattachments = "stencil"'), "write stencil = true"),
                 (COLOUR.replace("size = [8, 8]", 'size = [8, 8]\nattachments = "depth"'), "leaves no place for a colour")):
             self.assertIn(told, self.lint(words, 3), words)

@@ -63,7 +63,8 @@ std::vector<Change> target_changes() {
                                   judged_color,  // not told
                                   instruments,   // no part of the picture
                                   has_depth, depth_clear, color_resolve, depth_resolve, has_stencil,
-                                  stencil_clear] = cases::Target{};
+                                  stencil_clear, frame] =
+        cases::Target{};  // the last: how it is looked at
     [[maybe_unused]] const auto& [format, clear] = cases::ColorTarget{};
     return {
         {"width", [](Case& c) { ++c.target.width; }},
@@ -89,8 +90,8 @@ std::vector<Change> target_changes() {
 }
 
 std::vector<Change> draw_changes() {
-    [[maybe_unused]] const auto& [topology, positions, indices, primitive_restart, attributes,
-                                  viewport, scissor, cull, front_face, provoking,
+    [[maybe_unused]] const auto& [topology, positions, matrix, indices, primitive_restart,
+                                  attributes, viewport, scissor, cull, front_face, provoking,
                                   rasterizer_discard, conservative, conservative_extra,
                                   fragment_size, discard, discard_attribute, discard_by,
                                   early_tests, frag_depth, query, depth, stencil, distances,
@@ -207,6 +208,7 @@ std::vector<Change> color_changes() {
         {"blend.alpha.op", [](Case& c) { draw(c).color.blend->alpha.op = cases::BlendOp::max; }},
         {"blend.second", [](Case& c) { draw(c).color.blend->second.w = 1; }},
         {"alpha_to_one", [](Case& c) { draw(c).color.alpha_to_one = true; }},
+        {"texels", [](Case& c) { draw(c).color.from = cases::ColorFrom::texels; }},
         {"alpha_to_coverage", [](Case& c) { draw(c).color.alpha_to_coverage = true; }},
         {"blend.constants", [](Case& c) { draw(c).color.blend->constants.w = 1; }},
         {"write_mask", [](Case& c) { draw(c).color.write_mask = 7; }},
