@@ -4,8 +4,8 @@
 // Which texel a coordinate chooses where nothing is filtered.
 //
 // The formula (Vulkan, "(s,t,r,q,a) to (u,v,w,a) Transformation" and "(u,v,w,a) to (i,j,k,l,n)
-// Transformation And Array Layer Selection"): u = s * width, i = floor(u), then clamped to the edge.
-// Sizes here are powers of two, so that a product in binary32 loses nothing. The text has no
+// Transformation And Array Layer Selection"): u = s * width, i = floor(u), then clamped to the
+// edge. Sizes here are powers of two, so that a product in binary32 loses nothing. The text has no
 // precision of u, but devices take it in fixed point, with at least subTexelPrecisionBits of
 // fraction where they filter: 4 ("Limits, Required"), of Direct3D 8
 // (D3D12_SUBTEXEL_FRACTIONAL_BIT_COUNT), and so of common devices (practice). A number that is

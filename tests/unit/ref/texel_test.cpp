@@ -127,8 +127,10 @@ TEST(Texel, MayBeReadBesideItsNumber) {
     ColorReference reference(c, expectation);
     const cases::SampleId id{3, 2, 0};
     const auto bits = [](float v) { return std::bit_cast<uint32_t>(v); };
-    const float red = static_cast<float>(cases::texel_code(texel_by_hand(3, 2, &Corner::s, true))) / 255;
-    const float green = static_cast<float>(cases::texel_code(texel_by_hand(3, 2, &Corner::t, true))) / 255;
+    const float red =
+        static_cast<float>(cases::texel_code(texel_by_hand(3, 2, &Corner::s, true))) / 255;
+    const float green =
+        static_cast<float>(cases::texel_code(texel_by_hand(3, 2, &Corner::t, true))) / 255;
     const auto explains = [&](float r) {
         return reference.explains(cases::index_of(c.target, id), id,
                                   {bits(r), bits(green), bits(1), bits(1)});
