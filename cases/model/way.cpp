@@ -258,7 +258,9 @@ std::optional<Case> prepass(const Case& c) {
     size_t triangles = 0;
     for (const Draw& draw : c.draws) {
         const size_t corners = draw.indices ? draw.indices->size() : draw.positions.size();
-        triangles += draw.topology == Topology::triangle_list ? corners / 3 : corners;
+        triangles += draw.topology == Topology::triangle_list ? corners / 3
+                     : corners < 3                            ? 0
+                                                              : corners - 2;
     }
     if (!is_colorless(c) || !c.target.has_depth || c.target.has_stencil || tests_depth(c) ||
         triangles > kMostTriangles || !std::ranges::all_of(c.draws, is_simple)) {

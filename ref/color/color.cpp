@@ -147,7 +147,14 @@ color::Source ColorReference::source_of(uint32_t triangle, cases::SampleId id,
         attribute < 0 ? nullptr : witness.written.at(static_cast<size_t>(attribute));
     const bool is_captured =
         written != nullptr && !glm::any(glm::isnan(*written)) && !glm::any(glm::isinf(*written));
-    return is_captured ? point_source(*written) : source_of(triangle, id);
+    if (!is_captured) {
+        return source_of(triangle, id);
+    }
+    color::Source out = point_source(*written);
+    if (output_of(triangle).from == cases::ColorFrom::texels) {
+        take_texels(out, unit_.profile);
+    }
+    return out;
 }
 
 bool ColorReference::is_flat(uint32_t triangle) const {
