@@ -34,7 +34,7 @@ function(edgecase_compile_shader source output variants)
 endfunction()
 
 edgecase_compile_shader(copy_samples.comp copy
-    "copy_depth 1.1 DEPTH=1;copy_codes 1.1 DEPTH=2;copy_1 1.1 DEPTH=0 WORDS=1;copy_2 1.1 DEPTH=0 WORDS=2;copy_4 1.1 DEPTH=0 WORDS=4")
+    "copy_depth 1.1 DEPTH=1;copy_codes 1.1 DEPTH=2;copy_1 1.1 DEPTH=0 WORDS=1;copy_2 1.1 DEPTH=0 WORDS=2;copy_4 1.1 DEPTH=0 WORDS=4;copy_unorm 1.1 DEPTH=0 WORDS=1 UNORM=1")
 
 # A triangle that clears, one shader for each place that it clears: KIND 0 depth, 1 a colour of numbers, 2 one of integers, 3 one
 # of signed ones.
@@ -50,7 +50,7 @@ edgecase_compile_shader(clear.frag clear_fragment "${clear_variants}")
 list(JOIN clear_colors ", " clear_colors)
 
 edgecase_compile_shader(bare.frag bare
-    "bare_constant 1.1 FROM=1;bare_uniform 1.1 FROM=2;bare_offset 1.1 FROM=3;bare_storage 1.1 FROM=4;bare_texture 1.1 FROM=5")
+    "bare_constant 1.1 FROM=1;bare_uniform 1.1 FROM=2;bare_offset 1.1 FROM=3;bare_storage 1.1 FROM=4;bare_texture 1.1 FROM=5;bare_mask 1.1 FROM=6")
 
 # Vertex shaders: attributes x (clip x cull distances without routing, and routing without distances).
 # Each row of a table is a variant: what it was compiled for, then its words.
@@ -88,6 +88,11 @@ foreach(count RANGE 4)
     endforeach()
     edgecase_compile_shader(capture.vert vertex_routed_${count} "${variants}")
 endforeach()
+
+# Positions that are multiplied by a matrix, for fragment shaders of bare.frag.
+set(matrix_keys "CLIP=0 CULL=0 LAYER=0 VIEWPORT=0 PULLED=0 INSTANCED=0 MATRIX=1")
+edgecase_compile_shader(capture.vert vertex_matrix
+    "vertex_matrix_0 1.1 ATTRIBUTES=0 ${matrix_keys};vertex_matrix_1 1.1 ATTRIBUTES=1 ${matrix_keys}")
 
 # Input attachments that are read: of integers or not, of several samples or one.
 edgecase_compile_shader(input.frag input
@@ -221,8 +226,9 @@ constexpr std::span<const uint32_t> kEvaluation[] = {${evaluation_names}};
 constexpr std::span<const uint32_t> kFeedback[] = {${feedback_names}};
 constexpr std::span<const uint32_t> kClearVertex = over_target, kClearDepth = write_depth;
 constexpr std::span<const uint32_t> kClear[] = {${clear_colors}};
-constexpr std::span<const uint32_t> kBare[] = {bare_constant, bare_uniform, bare_offset, bare_storage, bare_texture};
-constexpr std::span<const uint32_t> kCopy[] = {copy_depth, copy_1, copy_2, copy_4};
+constexpr std::span<const uint32_t> kBare[] = {bare_constant, bare_uniform, bare_offset, bare_storage, bare_texture, bare_texture, bare_texture, bare_mask};
+constexpr std::span<const uint32_t> kMatrix[] = {vertex_matrix_0, vertex_matrix_1};
+constexpr std::span<const uint32_t> kCopy[] = {copy_depth, copy_1, copy_2, copy_4, copy_unorm};
 constexpr Module<FragmentVariant> kFragment[] = {
 ${fragment_table}};
 ")

@@ -3,7 +3,8 @@
 //
 // A fragment shader as applications have them: it writes one colour that it reads, and nothing else. Defined by the
 // build: FROM, numbered as cases::ColorFrom: 1 specialization constants, 2 a uniform buffer, 3 the same with a dynamic
-// offset, 4 a storage buffer, 5 a texture. The layouts are those of PipelineLayouts::colored.
+// offset, 4 a storage buffer, 5 a texture, 6 a mask, of which what is transparent is discarded. The layouts are those of
+// PipelineLayouts::colored.
 #version 450
 
 layout(location = 0) out vec4 out_color;
@@ -29,9 +30,18 @@ draw;
 #else
 layout(location = 1) in vec4 in_coordinates;
 layout(set = 0, binding = 0) uniform sampler2D image;
+#if FROM == 5
 #define COLOR texture(image, in_coordinates.xy)
+#else
+#define COLOR texture(image, in_coordinates.xy + 0.5)
+#endif
 #endif
 
 void main() {
     out_color = COLOR;
+#if FROM == 6
+    if (out_color.a < 0.5) {
+        discard;
+    }
+#endif
 }

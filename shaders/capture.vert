@@ -4,8 +4,8 @@
 // Passes clip-space positions through, bits unchanged. Defined by the build: ATTRIBUTES (0..4), CLIP and
 // CULL (0..4: sizes of gl_ClipDistance and gl_CullDistance), LAYER and VIEWPORT (0 or 1: gl_Layer,
 // gl_ViewportIndex), PULLED (1: no inputs, but a storage buffer), INSTANCED (1: of several instances number 7 alone is
-// drawn). Interpolation is decided by the fragment stage's
-// qualifiers alone (Vulkan, "Interface Matching").
+// drawn), MATRIX (1: positions are multiplied by one). Interpolation is decided by the fragment stage's qualifiers alone
+// (Vulkan, "Interface Matching").
 #version 450
 #if LAYER || VIEWPORT
 #extension GL_ARB_shader_viewport_layer_array : require
@@ -28,6 +28,13 @@ layout(push_constant) uniform Draw {
     layout(offset = 8) uint viewport_index;
 }
 draw;
+#endif
+
+#if MATRIX
+layout(push_constant) uniform Transform {
+    mat4 matrix;
+}
+transform;
 #endif
 
 #if PULLED
@@ -89,6 +96,8 @@ void main() {
 #if INSTANCED
     // All others lie beside the view volume; 7: shaders.hpp.
     gl_Position = gl_InstanceIndex == 7 ? in_position : vec4(2.0, 2.0, 0.5, 1.0);
+#elif MATRIX
+    gl_Position = transform.matrix * in_position;
 #else
     gl_Position = in_position;
 #endif

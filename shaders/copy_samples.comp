@@ -5,7 +5,9 @@
 // ((layer * height + j) * width + i) * samples + s. A
 // resolve would combine or choose samples in an implementation-dependent way; this reads each one.
 // Colour is read through an unsigned view of the float image, so that no bit can change on the way.
-// DEPTH (2: of an image of one sample), and of colour the WORDS a sample (1, 2 or 4), are defined by the build.
+// DEPTH (2: of an image of one sample), and of colour the WORDS a sample (1, 2 or 4), are defined by the build; UNORM: of
+// rgba8-unorm of one sample, by its own format. Of code c a number within a few 2^-24 of c / 255 is read, and
+// packUnorm4x8 rounds 255 times that to the nearest whole number, which is c.
 #version 450
 #extension GL_EXT_samplerless_texture_functions : require
 
@@ -31,13 +33,13 @@ layout(push_constant) uniform Extent {
 }
 extent;
 
-#if DEPTH == 2
+#if DEPTH == 2 || UNORM
 #define SOURCE texture2DArray
 #else
 #define SOURCE texture2DMSArray
 #endif
 
-#if DEPTH
+#if DEPTH || UNORM
 layout(set = 0, binding = 0) uniform SOURCE source;
 layout(set = 0, binding = 1, std430) writeonly buffer Words {
     uint words[];
@@ -58,7 +60,9 @@ void main() {
     uint row = gl_GlobalInvocationID.z * extent.height + pixel.y;
     uint first = (row * extent.width + pixel.x) * extent.samples;
     for (uint s = 0u; s < extent.samples; ++s) {
-#if DEPTH
+#if UNORM
+        words[first + s] = packUnorm4x8(texelFetch(source, texel, 0));
+#elif DEPTH
         words[first + s] = floatBitsToUint(texelFetch(source, texel, int(s)).r);  // s is 0 where it is a level
 #else
         words[first + s] = TAKE(texelFetch(source, texel, int(s)));

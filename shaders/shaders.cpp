@@ -32,6 +32,10 @@ std::span<const uint32_t> capture_vertex(const VertexVariant& variant) {
     return find(kVertex, variant);
 }
 
+std::span<const uint32_t> matrix_vertex(uint32_t attributes) {
+    return attributes < std::size(kMatrix) ? kMatrix[attributes] : std::span<const uint32_t>();
+}
+
 std::span<const uint32_t> capture_geometry(const VertexVariant& variant) {
     return find(kGeometry, variant);
 }
@@ -57,7 +61,7 @@ std::span<const uint32_t> capture_fragment(const FragmentVariant& variant) {
 }
 
 std::span<const uint32_t> bare_fragment(uint32_t from) {
-    return kBare[std::min(size_t{from}, std::size(kBare)) - 1];
+    return kBare[from - 1];
 }
 
 std::span<const uint32_t> feedback_vertex(uint32_t attributes) {
@@ -79,6 +83,10 @@ std::span<const uint32_t> clear_depth() {
 
 std::span<const uint32_t> copy_samples(bool depth, uint32_t words) {
     return kCopy[depth ? 0U : words == 4 ? 3U : words];
+}
+
+std::span<const uint32_t> copy_codes_of_color() {
+    return copy_unorm;
 }
 
 std::span<const uint32_t> copy_codes_of_depth() {
@@ -126,6 +134,10 @@ std::span<const uint32_t> any_module(size_t i) {
         return kBare[i];
     }
     i -= std::size(kBare);
+    if (i < std::size(kMatrix)) {
+        return kMatrix[i];
+    }
+    i -= std::size(kMatrix);
     if (i < 2) {
         return i == 0 ? clear_vertex() : clear_depth();
     }

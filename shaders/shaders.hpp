@@ -111,6 +111,9 @@ static_assert(sizeof(DrawConstants) == 128);
 // The module of a variant; empty if the build made none of that combination.
 // None of those that are pulled or instanced has both clip and cull distances.
 std::span<const uint32_t> capture_vertex(const VertexVariant& variant);
+// The same with positions that are multiplied by a matrix, push constants 0 to 63, of no distances
+// and no routing.
+std::span<const uint32_t> matrix_vertex(uint32_t attributes);
 // The same of capture.geom, which has no variant with both clip and cull distances.
 std::span<const uint32_t> capture_geometry(const VertexVariant& variant);
 // The same of capture.mesh, which reads vertices and triangles from a storage buffer.
@@ -122,8 +125,8 @@ std::span<const uint32_t> capture_evaluation(uint32_t attributes);
 // 2; the attributes that are flat, a bit each.
 inline constexpr uint32_t kProvokingConstant = 0, kFlatConstant = 1;
 std::span<const uint32_t> capture_fragment(const FragmentVariant& variant);
-// bare.frag: writes one colour, which it has from `from`, numbered as cases::ColorFrom (1 to 6; of
-// 5 and 6 the shader is one). Of 1 the specialization constants 0 to 3 are the colour.
+// bare.frag: writes one colour, which it has from `from`, numbered as cases::ColorFrom (1 to 8; of
+// 5 to 7 the shader is one). Of 1 the specialization constants 0 to 3 are the colour.
 std::span<const uint32_t> bare_fragment(uint32_t from);
 
 // feedback.vert of 0..4 attributes: positions and attributes lie one behind the other in what it
@@ -148,7 +151,8 @@ inline constexpr uint32_t kInputWords = 0, kInputKind = 1, kInputBits = 2, kInpu
 
 // copy_samples.comp for depth attachments, or colour attachments with `words` (1, 2 or 4) a sample.
 std::span<const uint32_t> copy_samples(bool depth, uint32_t words);
-// copy_samples.comp for depth of one sample.
+// copy_samples.comp for rgba8-unorm of one sample, and for depth of one.
+std::span<const uint32_t> copy_codes_of_color();
 std::span<const uint32_t> copy_codes_of_depth();
 
 // Number i of all modules, for tests; empty beyond the last.

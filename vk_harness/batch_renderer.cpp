@@ -56,13 +56,13 @@ void move_back(const CasePlan& plan, const capture::PlaneSpans& planes) {
 // whose fault that is could not be told, if it never left a pipeline's rasterizer discard, blended
 // all colours as the first behind a pipeline without any (docs/findings), or lost one of several
 // submissions. The host's memory may be refused, and a query begins before any pipeline only in a
-// command buffer that has had none.
+// command buffer that has had none. What is submitted twice is alone, too.
 bool is_drawn_alone(const Device& device, const cases::Case& c) {
     if (c.variation.door == cases::Door::submissions ||
         c.variation.door == cases::Door::memory_imported ||
         c.variation.door == cases::Door::transform_feedback ||
         c.variation.door == cases::Door::input_attachment ||
-        c.variation.door == cases::Door::query_first) {
+        c.variation.door == cases::Door::query_first || c.target.frame == cases::Frame::second) {
         return true;
     }
     const bool is_static =
@@ -228,8 +228,16 @@ std::vector<GuardDamage> BatchRenderer::draw_chunk(std::span<CasePlan> plans, bo
     const bool by_rows = read_back && plans.size() == 1 && is_large(plans.front());
     GuardCheck guards(device_);
     const Buffer& vertices = write_vertices_of(plans);
+    const bool is_second = plans.front().test->target.frame == cases::Frame::second;
+    const auto write_frame = [&](bool is_first) {
+        write_vertices(plans.front(), vertices.bytes(), is_first);
+        vertices.flush();
+    };
+    if (is_second) {
+        write_frame(true);
+    }
     const Buffer* readback = read_back ? &make_readback(plans, by_rows, guards) : nullptr;
-    VkCommandBuffer commands = submission_.begin();
+    VkCommandBuffer commands = submission_.begin(is_second);
     textures_.record_transitions(commands);
     for (const CasePlan& plan : plans) {
         if (plan.colors) {
@@ -248,6 +256,14 @@ std::vector<GuardDamage> BatchRenderer::draw_chunk(std::span<CasePlan> plans, bo
     }
     step("submit");
     submission_.run();
+    if (is_second) {
+        write_frame(false);
+        if (readback != nullptr) {
+            poison(readback->bytes().first(plans.front().readback.end));
+            readback->flush();
+        }
+        submission_.repeat();
+    }
     for (const CasePlan& plan : plans) {
         results[plan.slot].status = Rendered::Status::drawn;
     }
@@ -342,8 +358,9 @@ void BatchRenderer::record(VkCommandBuffer& commands, CasePlan& plan, VkBuffer v
                  [this] { return submission_.next(); });
     if (readback != nullptr && !by_rows) {
         record_copies(device_, pipelines_, commands, plan, readback->get(),
-                      plan.test->target.samples > 1 ? submission_.copy_sets(pipelines_, plan)
-                                                    : std::vector<VkDescriptorSet>());
+                      plan.test->target.is_read_by_shader()
+                          ? submission_.copy_sets(pipelines_, plan)
+                          : std::vector<VkDescriptorSet>());
         copy_surroundings(device_, commands, plan, readback->get());
     }
 }

@@ -112,8 +112,7 @@ void check_all(const Capabilities& capabilities, const cases::Case& c, bool read
         refuse_without(
             key.discard_by == cases::DiscardBy::terminate && !capabilities.discard.terminate,
             "shaderTerminateInvocation");
-        if (shaders::capture_vertex(vertex_variant(key)).empty() ||
-            (needs_fragments(key) && fragment_code(key).empty())) {
+        if (vertex_code(key).empty() || (needs_fragments(key) && fragment_code(key).empty())) {
             throw Rejection{
                 Rendered::Status::not_built,
                 "a draw asks for a combination of shader features that no shader was built for; "

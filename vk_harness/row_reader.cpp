@@ -86,7 +86,7 @@ void read_rows(const Device& device, Submission& submission, const CasePlan& pla
 
 bool is_large(const CasePlan& plan) {
     const cases::Target& target = plan.test->target;
-    return plan.blit == nullptr && target.samples == 1 && target.layers == 1 &&
+    return plan.blit == nullptr && !target.is_read_by_shader() && target.layers == 1 &&
            attachment_bytes(target, plan.attachments) > kLargeBytes;
 }
 

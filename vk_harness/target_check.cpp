@@ -188,7 +188,7 @@ void check_target(const Capabilities& c, const cases::Case& test) {
                           c.info.max_color_attachments);
     }
     const VkDeviceSize words = VkDeviceSize{t.width} * t.rows() * t.samples;
-    if (t.samples > 1 && words * 16 > c.limits.maxStorageBufferRange) {
+    if (t.is_read_by_shader() && words * 16 > c.limits.maxStorageBufferRange) {
         throw unsupported(
             "reading {} samples singly exceeds the device's storage buffer range of {} bytes",
             words, c.limits.maxStorageBufferRange);

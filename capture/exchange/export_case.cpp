@@ -15,6 +15,7 @@
 #include "capture/exchange/plane_files.hpp"
 #include "cases/model/blit_source.hpp"
 #include "cases/model/sample.hpp"
+#include "cases/model/texels.hpp"
 #include "cases/model/triangle.hpp"
 #include "cases/model/words.hpp"
 
@@ -149,6 +150,9 @@ Json told(const cases::ColorOutput& c) {
     tell_fields(c, out);
     if (c.attribute < 0) {
         out["attribute"] = nullptr;
+    }
+    if (c.from == cases::ColorFrom::texels) {
+        out["texels"] = cases::kTexels;
     }
     return out;
 }
@@ -310,6 +314,7 @@ class Needs {
         }
         add(t.color && d.color.blend, "blend");
         add(t.color && d.color.blend && takes_second(*d.color.blend), "dual-source-blend");
+        add(t.color && d.color.from == cases::ColorFrom::texels, "texels");
         add(t.color && d.color.alpha_to_coverage, "alpha-to-coverage");
         add(t.color && d.color.alpha_to_one, "alpha-to-one");
         add(t.color && d.color.logic, "logic-operation");

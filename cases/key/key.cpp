@@ -93,6 +93,7 @@ constexpr auto kTarget = std::to_array<Key>({
     word("depth_store", kWords<StoreOp>),
     word("stencil_store", kWords<StoreOp>),
     word("attachments", kWords<Attachments>).near(kEquals).pipeline(),
+    word("frame", kWords<Frame>).near(kEquals),
     table("color", kTargetColorKeys).plain("none"),
     other("judged", 0, kMaxColorTargets - 1).as("judged_color").plain("0"),
 });
@@ -115,6 +116,7 @@ constexpr auto kDraw = std::to_array<Key>({
     other("vertices").silent().shape(),
     other("generate").shape(),
     other("indices").plain("none").shape(),
+    flag("matrix").pipeline(),
     table("viewport", kViewportKeys).plain("the target"),
     other("scissor").plain("the target"),
     whole("viewport_index", 0, kLastViewport).tries(kFew).plain("0").pipeline(),

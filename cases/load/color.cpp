@@ -127,6 +127,8 @@ void read_second(LeafContext& context, const TomlValue& table, const Target& tar
     out.blend->second = read_color(context, *second, "second", color.format).value_or(glm::vec4(0));
 }
 
+constexpr float kLeastMaskAlpha = 0.75F;
+
 // A shader that has its colour from elsewhere than a push constant writes this colour alone.
 void check_source(LeafContext& context, const TomlValue& value, const Target& target,
                   const ColorTarget& color, const ColorOutput& out,
@@ -139,7 +141,13 @@ void check_source(LeafContext& context, const TomlValue& value, const Target& ta
         context.error(where,
                       "from is of one colour of numbers alone; write attachments = \"color\" or "
                       "\"color+depth\" in [target], and one [target.color]");
-    } else if (value.find("attribute") != nullptr) {
+    } else if (out.from == ColorFrom::texels &&
+               (value.find("attribute") == nullptr || attributes.empty() || out.attribute != 0)) {
+        context.error(
+            where,
+            "the texel is the colour, and the first attribute says which; write attribute "
+            "instead of value, with the name of the first");
+    } else if (out.from != ColorFrom::texels && value.find("attribute") != nullptr) {
         context.error(where, "from says where a value comes from; write value, or leave out from");
     } else if (out.blend && takes_second(*out.blend)) {
         context.error(where, "from does not go with a second source; leave it out");
@@ -147,6 +155,10 @@ void check_source(LeafContext& context, const TomlValue& value, const Target& ta
         context.error(where,
                       "a texture is read at the draw's first attribute, a value from the vertices; "
                       "write [[draw.attribute]]");
+    } else if (out.from == ColorFrom::mask && !(out.value.w >= kLeastMaskAlpha)) {
+        context.error(where,
+                      "of a mask all is discarded that has an alpha below 1/2; write 3/4 or "
+                      "more");
     }
 }
 
@@ -233,7 +245,6 @@ ColorOutput read_color_output(LeafContext& context, const TomlValue& value, cons
                                          "attribute = \"its name\"");
         return out;
     }
-    check_source(context, value, target, color, out, attributes);
     if (constant != nullptr) {
         out.value = read_color(context, *constant, "value", color.format).value_or(glm::vec4(0));
     } else {
@@ -251,6 +262,7 @@ ColorOutput read_color_output(LeafContext& context, const TomlValue& value, cons
         }
     }
     read_second(context, value, target, color, out);
+    check_source(context, value, target, color, out, attributes);
     const auto needs_no_instruments = [&](const char* key, bool is_on, std::string_view why) {
         if (is_on && target.has_instruments) {
             context.error(value.find(key)->where,

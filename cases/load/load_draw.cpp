@@ -15,6 +15,7 @@
 #include "cases/load/distances.hpp"
 #include "cases/load/parts.hpp"
 #include "cases/load/transform.hpp"
+#include "cases/model/matrix.hpp"
 #include "cases/model/sample.hpp"
 #include "cases/model/words.hpp"
 
@@ -102,6 +103,7 @@ class DrawLoader {
         check_conservative();
         check_fragment_size(context_, table_, draw_, target_);
         draw_.positions = ordered(std::move(*positions), *order);
+        check_matrix();
         check_written_depth();
         for (Attribute& attribute : draw_.attributes) {
             if (attribute.source == Source::vertex) {
@@ -226,6 +228,26 @@ class DrawLoader {
         }
     }
 
+    // A matrix is pushed where other shaders have their colour, and by a vertex shader of its own.
+    void check_matrix() {
+        if (!draw_.matrix) {
+            return;
+        }
+        const SourceLocation& where = table_.find("matrix")->where;
+        if (draw_.color.from == ColorFrom::push_constant || draw_.attributes.size() > 1 ||
+            draw_.layer > 0 || draw_.viewport_index > 0 || draw_.distances.clip_count > 0 ||
+            draw_.distances.cull_count > 0) {
+            context_.error(where,
+                           "matrix needs a colour from elsewhere than a push constant, and goes "
+                           "with one attribute at most, and with no layer, viewport_index and clip "
+                           "and cull distances");
+        } else if (!takes_matrix(draw_.positions)) {
+            context_.error(where,
+                           "matrix needs positions that a product with 8 or 1/4 keeps: numbers "
+                           "between 2^-100 and 2^100, and 0");
+        }
+    }
+
     static std::vector<glm::vec4> ordered(std::vector<glm::vec4> values,
                                           const std::vector<uint32_t>& order) {
         if (values.empty() || std::ranges::is_sorted(order)) {
@@ -248,8 +270,14 @@ class DrawLoader {
                                "early tests come before alpha takes samples away, which is not "
                                "judged here; leave out early_tests or alpha_to_coverage");
             }
+            const bool is_mask = draw_.color.from == ColorFrom::mask;
+            if (is_mask && (draw_.discard != Discard::negative || draw_.discard_attribute != 0)) {
+                context_.error(value->where,
+                               "of a mask that is discarded where the first attribute is below 0; "
+                               "write discard = \"negative\" in [[draw]]");
+            }
             if (draw_.color.from != ColorFrom::push_constant &&
-                (draw_.discard != Discard::none || draw_.frag_depth ||
+                ((draw_.discard != Discard::none && !is_mask) || draw_.frag_depth ||
                  draw_.multisample.shader_mask)) {
                 context_.error(value->where,
                                "a shader with its colour from elsewhere than a push constant does "

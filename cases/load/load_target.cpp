@@ -141,6 +141,26 @@ void check_resolves(LeafContext& context, const TomlValue& table, const Target& 
     }
 }
 
+// What a shader reads without a copy: 8-bit codes, and depths that binary32 holds.
+void check_frame(LeafContext& context, const TomlValue& table, const Target& target) {
+    if (target.frame == Frame::copied) {
+        return;
+    }
+    const bool reads_all = (!target.color || target.color->format == ColorFormat::rgba8_unorm) &&
+                           (!target.has_depth || target.depth_format != DepthFormat::d24_unorm) &&
+                           !target.has_stencil && target.samples == 1;
+    if (target.has_instruments || !target.other_colors.empty() ||
+        (target.frame == Frame::sampled && !reads_all)) {
+        context.error(
+            table.find("frame")->where,
+            target.frame == Frame::second
+                ? "frame is of a picture without what counts hits, and of one colour; "
+                  "write attachments"
+                : "what is sampled is one rgba8-unorm, a depth but d24-unorm, or both, of "
+                  "one sample; write attachments, and no stencil");
+    }
+}
+
 void check_stencil(LeafContext& context, const TomlValue& table, const Target& target) {
     for (const char* key : {"depth_load", "depth_store", "stencil_load", "stencil_store"}) {
         const TomlValue* value = table.find(key);
@@ -167,6 +187,7 @@ Target load_target(LeafContext& context, const TomlValue& table) {
     read_attachments(context, table, target);
     check_resolves(context, table, target);
     check_stencil(context, table, target);
+    check_frame(context, table, target);
     const auto size = context.read_size(table, "[target]", "the target", kMaxTargetSize);
     if (!size) {
         return target;

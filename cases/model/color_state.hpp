@@ -88,9 +88,10 @@ enum class LogicOp : uint8_t {  // numbered as VkLogicOp
     set
 };
 
-// Where a fragment shader has a colour from that is no attribute. A texture is of one colour, and
-// is read at the draw's first attribute; `rendered` is such an image that an earlier rendering
-// cleared.
+// Where a fragment shader has a colour from that is no attribute. A texture is read at the draw's
+// first attribute, without filtering. It is of one colour, and `rendered` is such an image that an
+// earlier rendering cleared; of `texels` each texel tells where it lies (texels.hpp); of `mask` it
+// is transparent at the left, where the attribute is below 0, and there the shader discards.
 enum class ColorFrom : uint8_t {
     push_constant,
     constant,  // a specialization constant
@@ -98,7 +99,9 @@ enum class ColorFrom : uint8_t {
     uniform_offset,  // a dynamic one
     storage,
     texture,
-    rendered
+    rendered,
+    texels,
+    mask
 };
 constexpr bool is_texture(ColorFrom from) {
     return from >= ColorFrom::texture;

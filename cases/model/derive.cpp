@@ -162,7 +162,7 @@ std::vector<uint32_t> drawn_attributes(const Target& target, const Draw& draw) {
             out.push_back(static_cast<uint32_t>(attribute));
         }
     }
-    if (is_texture(draw.color.from)) {
+    if (is_texture(draw.color.from) && draw.color.attribute < 0) {
         out.push_back(0);
     }
     const auto discards = static_cast<int32_t>(draw.discard_attribute);

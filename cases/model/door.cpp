@@ -309,11 +309,14 @@ bool can_take(Door door, const Case& c) {
         (group == DoorGroup::recording || group == DoorGroup::targets)) {
         return false;
     }
-    return !c.blit && std::ranges::any_of(c.draws, [](const Draw& draw) {
-        return !draw.positions.empty();
-    }) && std::ranges::none_of(c.draws, [](const Draw& draw) {
-        return draw.color.from != ColorFrom::push_constant;
-    }) && row_of(door).can_take(c);
+    return !c.blit && c.target.frame == Frame::copied &&
+           std::ranges::any_of(c.draws, [](const Draw& draw) { return !draw.positions.empty(); }) &&
+           std::ranges::none_of(c.draws,
+                                [](const Draw& draw) {
+                                    return draw.matrix ||
+                                           draw.color.from != ColorFrom::push_constant;
+                                }) &&
+           row_of(door).can_take(c);
 }
 
 uint32_t vertex_shift(Door door) {

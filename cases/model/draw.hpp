@@ -314,6 +314,7 @@ struct Draw {
     std::optional<Clear> clear = {};
     Topology topology = Topology::triangle_list;
     std::vector<glm::vec4> positions;  // clip space, binary32, bits as they reach the device
+    bool matrix = false;  // the vertex shader makes them of others by a matrix (matrix.hpp)
     std::optional<std::vector<uint32_t>> indices;
     bool primitive_restart = false;     // only with indices
     std::vector<Attribute> attributes;  // at most kMaxAttributes
@@ -348,6 +349,7 @@ struct Draw {
         visit({"clear", kLeftOutIfEmpty}, d.clear...);
         visit("topology", d.topology...);
         visit("positions", d.positions...);
+        visit({"matrix", kNotExported}, d.matrix...);  // the positions are those
         visit("indices", d.indices...);
         visit("primitive_restart", d.primitive_restart...);
         visit("viewport", d.viewport...);

@@ -27,6 +27,10 @@ enum class Resolve : uint8_t { none, sample_zero, average, min, max };
 // has).
 enum class Attachments : uint8_t { all, color, color_depth, depth, stencil };
 
+// What the picture is: of images that are copied from; of images without transfer usage, which a
+// shader reads; of the second time that the same commands are submitted, with other vertices.
+enum class Frame : uint8_t { copied, sampled, second };
+
 struct Target {
     uint32_t width = 0, height = 0;  // pixels
     uint32_t samples = 1;
@@ -51,6 +55,7 @@ struct Target {
             stencil_resolve = Resolve::none;
     bool has_stencil = false;    // 8 bits, in one image with the depth if there is one
     uint32_t stencil_clear = 0;  // what the stencil is cleared to, 0..255
+    Frame frame = Frame::copied;
     Attachments attachments() const {
         return has_instruments ? Attachments::all
                : color         ? (has_depth ? Attachments::color_depth : Attachments::color)
@@ -63,6 +68,8 @@ struct Target {
                depth_store != StoreOp::store || stencil_store != StoreOp::store ||
                (color && loads(*color)) || std::ranges::any_of(other_colors, loads);
     }
+    // Whether a shader reads it back, and no copy.
+    bool is_read_by_shader() const { return samples > 1 || frame == Frame::sampled; }
     // Rows of pixels of all layers, stacked: row y of layer k is row k * height + y of every plane.
     uint32_t rows() const { return height * layers; }
     // Colour targets, and the one of a location (below color_count()).
@@ -97,7 +104,9 @@ struct Target {
         visit("color_resolve", t.color_resolve...);
         visit("depth_resolve", t.depth_resolve...);
         visit("stencil_resolve", t.stencil_resolve...);
-        visit({"instruments", kNotExported}, t.has_instruments...);  // how this program looks
+        // How this program looks.
+        visit({"instruments", kNotExported}, t.has_instruments...);
+        visit({"frame", kNotExported}, t.frame...);
     }
     friend bool operator==(const Target&, const Target&) = default;
 };

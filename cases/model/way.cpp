@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 
+#include "cases/model/matrix.hpp"
 #include "cases/model/sample.hpp"
+#include "cases/model/texels.hpp"
 
 namespace cases {
 
@@ -32,11 +34,13 @@ Case plain(const Case& c) {
     out.claim.expected_hits.reset();
     out.relations.clear();
     out.doors.clear();
+    out.target.frame = Frame::copied;
     out.target.has_instruments = false;
     out.target.color_resolve = out.target.depth_resolve = out.target.stencil_resolve =
         Resolve::none;
     for (Draw& draw : out.draws) {
         draw.query = Query::none;
+        draw.matrix = false;
     }
     return out;
 }
@@ -97,9 +101,40 @@ Case bare_color(const Case& c) {
     return out;
 }
 
+// Whether each sample may be judged by itself, or read through a buffer.
+bool has_few_samples(const Case& c, uint64_t most = uint64_t{1} << 17U) {
+    return uint64_t{c.target.width} * c.target.rows() * c.target.samples <= most;
+}
+
+// Texture coordinates of a vertex: corners of the texture by turns, a few texels inside, at other
+// places in their texels.
+glm::vec4 coordinates_of(size_t vertex) {
+    const auto texels = [](size_t corner, size_t place) {
+        const size_t sixteenths = 16 * (corner == 0 ? 5 : kTexels - 6) + 2 * (place % 8) + 1;
+        return static_cast<float>(sixteenths) / (16.0F * kTexels);
+    };
+    return {texels(vertex % 2, 3 * vertex), texels(vertex / 2 % 2, 5 * vertex + vertex / 8), 0, 0};
+}
+
+// The values of the attribute by which a texture is read.
+Attribute read_at(ColorFrom from, size_t vertices) {
+    Attribute at;
+    at.name = "at";
+    at.components = 2;
+    for (size_t v = 0; v < vertices; ++v) {
+        // Of a mask a corner of each triangle is cut off.
+        at.values.push_back(from == ColorFrom::mask
+                                ? glm::vec4(v % 3 == 0 ? -0.375F : 0.625F, v / 3 % 2, 0, 0)
+                            : from == ColorFrom::texels ? coordinates_of(v)
+                                                        : glm::vec4(v % 2, v / 2 % 2, 0, 0));
+    }
+    return at;
+}
+
 template <ColorFrom kFrom>
 std::optional<Case> from(const Case& c) {
-    if (!is_colorless(c)) {
+    constexpr uint64_t kMostTexels = uint64_t{1} << 14U;  // their coordinates are judged one by one
+    if (!is_colorless(c) || (kFrom > ColorFrom::rendered && !has_few_samples(c, kMostTexels))) {
         return std::nullopt;
     }
     Case out = bare_color(c);
@@ -112,13 +147,15 @@ std::optional<Case> from(const Case& c) {
             draw.color.from = kFrom;
             draw.attributes.clear();
             if (is_texture(kFrom)) {
-                Attribute at;
-                at.name = "at";
-                at.components = 2;
-                for (size_t v = 0; v < draw.positions.size(); ++v) {
-                    at.values.emplace_back(v % 2, v / 2 % 2, 0, 0);
-                }
-                draw.attributes.push_back(std::move(at));
+                draw.attributes.push_back(read_at(kFrom, draw.positions.size()));
+            }
+            if (kFrom == ColorFrom::mask) {
+                draw.color.value.w = 1;
+                draw.discard = Discard::negative;
+                draw.discard_attribute = 0;
+            } else if (kFrom == ColorFrom::texels) {
+                draw.color.value = {};
+                draw.color.attribute = 0;
             }
         }
     }
@@ -132,10 +169,7 @@ bool has_tested_value(const Draw& draw) {
 // The colour is an input, another one at each vertex.
 std::optional<Case> from_input(const Case& c, bool is_flat) {
     // Each sample has a colour of its own to judge.
-    constexpr uint64_t kMostSamples = uint64_t{1} << 17U;
-    if (!is_colorless(c) ||
-        uint64_t{c.target.width} * c.target.rows() * c.target.samples > kMostSamples ||
-        std::ranges::any_of(c.draws, has_tested_value)) {
+    if (!is_colorless(c) || !has_few_samples(c) || std::ranges::any_of(c.draws, has_tested_value)) {
         return std::nullopt;
     }
     Case out = bare_color(c);
@@ -225,7 +259,9 @@ std::optional<Case> prepass(const Case& c) {
     size_t triangles = 0;
     for (const Draw& draw : c.draws) {
         const size_t corners = draw.indices ? draw.indices->size() : draw.positions.size();
-        triangles += draw.topology == Topology::triangle_list ? corners / 3 : corners;
+        triangles += draw.topology == Topology::triangle_list ? corners / 3
+                     : corners < 3                            ? 0
+                                                              : corners - 2;
     }
     if (!is_colorless(c) || !c.target.has_depth || c.target.has_stencil || tests_depth(c) ||
         triangles > kMostTriangles || !std::ranges::all_of(c.draws, is_simple)) {
@@ -250,8 +286,47 @@ std::optional<Case> prepass(const Case& c) {
     return out;
 }
 
+std::optional<Case> by_matrix(const Case& c) {
+    const auto is_plain = [](const Draw& draw) {
+        return draw.layer == 0 && draw.viewport_index == 0 && draw.distances.clip_count == 0 &&
+               draw.distances.cull_count == 0 && takes_matrix(draw.positions);
+    };
+    std::optional<Case> out = from<ColorFrom::constant>(c);
+    if (!out || !std::ranges::all_of(c.draws, is_plain)) {
+        return std::nullopt;
+    }
+    for (Draw& draw : out->draws) {
+        draw.matrix = true;
+    }
+    return out;
+}
+
+std::optional<Case> in_frame(Frame frame, const Case& c, std::optional<Case> out) {
+    const bool is_read = c.target.samples == 1 && has_few_samples(c) &&
+                         c.target.depth_format != DepthFormat::d24_unorm;
+    if (!out || (frame == Frame::sampled && !is_read)) {
+        return std::nullopt;
+    }
+    out->target.frame = frame;
+    return out;
+}
+std::optional<Case> sampled(const Case& c) {
+    return in_frame(Frame::sampled, c, from<ColorFrom::constant>(c));
+}
+std::optional<Case> depth_sampled(const Case& c) {
+    return in_frame(Frame::sampled, c, depth_alone(c));
+}
+std::optional<Case> second(const Case& c) {
+    return in_frame(Frame::second, c, from<ColorFrom::uniform>(c));
+}
+
 constexpr std::string_view kColorless = "cases without a colour target";
 constexpr std::string_view kPlain = "cases without a colour target, discards and shader masks";
+constexpr std::string_view kFewSamples =
+    "cases of up to 16384 samples without a colour target, discards and shader masks";
+constexpr std::string_view kOneSample =
+    "cases of one sample a pixel, of up to 131072, without a colour target, discards and shader "
+    "masks";
 constexpr std::array kWays = {
     WayRow{"bare-color-push",
            "One rgba8-unorm colour alone is drawn to; each draw pushes its colour.", kColorless,
@@ -284,6 +359,28 @@ constexpr std::array kWays = {
     WayRow{"bare-color-flat",
            "One rgba8-unorm colour alone is drawn to; it is the provoking vertex's.",
            "cases of up to 131072 samples without a colour target and discards by value", flat},
+    WayRow{"bare-color-texels",
+           "One rgba8-unorm colour alone is drawn to; it is the texel at interpolated coordinates, "
+           "which tells where it lies.",
+           kFewSamples, from<ColorFrom::texels>},
+    WayRow{"bare-color-mask",
+           "One rgba8-unorm colour alone is drawn to; a mask texture cuts a corner off each "
+           "triangle, where the shader discards.",
+           kFewSamples, from<ColorFrom::mask>},
+    WayRow{"bare-color-matrix",
+           "One rgba8-unorm colour alone is drawn to; the vertex shader multiplies positions by a "
+           "matrix of powers of two.",
+           "cases without a colour target, discards, shader masks, layers, viewport indices, clip "
+           "and cull distances, and numbers near the ends of binary32",
+           by_matrix},
+    WayRow{"bare-color-sampled",
+           "One rgba8-unorm colour alone is drawn to, an image without transfer usage, which a "
+           "shader reads.",
+           kOneSample, sampled},
+    WayRow{"bare-color-second",
+           "One rgba8-unorm colour alone is drawn to; the same commands are submitted a second "
+           "time, with other vertices.",
+           kPlain, second},
     WayRow{"bare-color-blended",
            "One rgba8-unorm colour alone is drawn to; each draw pushes its colour, which is "
            "blended by alpha.",
@@ -296,6 +393,11 @@ constexpr std::array kWays = {
            "Depth alone is attached, as for a shadow map; without discards and written depths "
            "there is no fragment shader.",
            "cases that write depths", depth_alone},
+    WayRow{"bare-depth-sampled",
+           "Depth alone is attached, an image without transfer usage, which a shader reads.",
+           "cases of one sample a pixel that write depths, of d32-float or d16-unorm, of up to "
+           "131072 samples",
+           depth_sampled},
     WayRow{"bare-stencil",
            "A stencil alone is attached, which counts the fragments of front and back faces.",
            "cases that test no depths", stencil_alone},

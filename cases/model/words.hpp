@@ -108,8 +108,11 @@ template <>
 inline constexpr WordList<5> kWords<BlendOp> = {"add", "subtract", "reverse-subtract", "min",
                                                 "max"};
 template <>
-inline constexpr WordList<7> kWords<ColorFrom> = {
-    "push-constant", "constant", "uniform", "uniform-offset", "storage", "texture", "rendered"};
+inline constexpr WordList<9> kWords<ColorFrom> = {"push-constant",  "constant", "uniform",
+                                                  "uniform-offset", "storage",  "texture",
+                                                  "rendered",       "texels",   "mask"};
+template <>
+inline constexpr WordList<3> kWords<Frame> = {"copied", "sampled", "second"};
 template <>
 inline constexpr WordList<5> kWords<Attachments> = {"all", "color", "color+depth", "depth",
                                                     "stencil"};
@@ -162,6 +165,7 @@ static_assert(detail::ends_with(Topology::triangle_fan) &&
               detail::ends_with(Source::shading_rate) && detail::ends_with(Probe::lod) &&
               detail::ends_with(BlendFactor::one_minus_src1_alpha) &&
               detail::ends_with(BlendOp::max) && detail::ends_with(LogicOp::set) &&
+              detail::ends_with(ColorFrom::mask) && detail::ends_with(Frame::second) &&
               detail::ends_with(Resolve::max) && detail::ends_with(BlitFilter::linear) &&
               detail::ends_with(BlitPattern::ramp) && detail::ends_with(kLastRelationKind));
 

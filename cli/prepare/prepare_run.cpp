@@ -377,7 +377,9 @@ void apply_expectations(Prepared& p) {
         const auto is_known = [&](std::string_view id) {
             const auto [base, way] = cases::split_way(id);
             const auto of_base = expected.find(std::string(base));
-            return !way.empty() && of_base != expected.end() && !expected.contains(std::string(id));
+            const auto of_way = expected.find(std::string(id));
+            return !way.empty() && of_base != expected.end() &&
+                   (of_way == expected.end() || skips(of_way->second));
         };
         std::erase_if(p.plan, [&](const run::Task& task) { return is_known(task.data.id); });
         std::erase_if(p.header.cases, [&](const CaseRecord& c) { return is_known(c.id); });

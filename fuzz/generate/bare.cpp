@@ -59,13 +59,13 @@ Attached attach(Pose& pose, Dice& dice) {
         pose.set("stencil", dice.below(2));
         return {false, !pose.is_default("stencil")};
     }
-    return {pose.is("way", "bare-depth") || pose.is("way", "prepass"), false};
+    return {pose.value("way").starts_with("bare-depth") || pose.is("way", "prepass"), false};
 }
 
 // Colours of vertices: as the way has them, one for all, or a plane over the target, as rectangles
 // of two triangles have them.
 void color_vertices(cases::Draw& draw, Dice& dice) {
-    if (draw.color.attribute < 0) {
+    if (draw.color.attribute < 0 || draw.color.from == cases::ColorFrom::texels) {
         return;
     }
     std::vector<glm::vec4>& values =
@@ -95,7 +95,7 @@ Pose bare_pose(uint64_t seed, uint64_t number, size_t candidate) {
     const uint64_t count = common.below(3);
     Pose pose;
     pose.set("way", value_of("way", 1, common));
-    if (!pose.is("way", "bare-depth") && !pose.is("way", "bare-stencil")) {
+    if (!pose.value("way").starts_with("bare-depth") && !pose.is("way", "bare-stencil")) {
         pose.set("bare-format", common.one_in(2) ? 0 : value_of("bare-format", 1, common));
     }
     set_geometry(pose, common);
@@ -141,7 +141,7 @@ std::string by_way_of(const Pose& pose, const std::string& text, Dice& dice) {
     if (!c) {
         return {};
     }
-    if (c->target.color) {
+    if (c->target.color && c->target.frame != cases::Frame::sampled) {
         const auto& words = cases::kWords<cases::ColorFormat>;
         const auto word = std::ranges::find(words, pose.value("bare-format"));
         c->target.color->format = static_cast<cases::ColorFormat>(word - words.begin());

@@ -156,6 +156,7 @@ bool FragmentShader::is_left_out_by_alpha(const Fragment& at) const {
         return false;
     }
     const float alpha = fault == "alpha-to-coverage-of-one"_fault && output.alpha_to_one ? 1.0F
+                        : output.from == cases::ColorFrom::texels                        ? 1.0F
                         : output.attribute < 0
                             ? output.value.w
                             : attribute_value(at, static_cast<size_t>(output.attribute)).w;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cases/model/texels.hpp"
 #include "rasterizers/software/depth.hpp"
 #include "rasterizers/software/target/neighbour.hpp"
 
@@ -334,10 +335,12 @@ void FragmentStage::show(const Fragment& at, float bias) {
 
 void FragmentStage::write_color(size_t at, uint32_t primitive) {
     const cases::ColorOutput& output = reaching(out_.target, draw_, device_);
-    attachments_.color.write(at, number_, primitive,
-                             output.attribute < 0
-                                 ? output.value
-                                 : out_.attributes[static_cast<size_t>(output.attribute)][at]);
+    const glm::vec4 value = output.attribute < 0
+                                ? output.value
+                                : out_.attributes[static_cast<size_t>(output.attribute)][at];
+    attachments_.color.write(
+        at, number_, primitive,
+        output.from == cases::ColorFrom::texels ? cases::texel_at(value) : value);
 }
 
 }  // namespace software

@@ -13,9 +13,11 @@
 #include "cases/fault/neighbour.hpp"
 #include "cases/model/rule_ids.hpp"
 #include "cases/model/sample.hpp"
+#include "cases/model/texels.hpp"
 #include "ref/color/color_steps.hpp"
 #include "ref/color/component_filter.hpp"
 #include "ref/color/logic.hpp"
+#include "ref/value/texel.hpp"
 
 namespace ref {
 
@@ -27,6 +29,22 @@ color::Source point_source(const glm::vec4& value) {
         out.low[k] = out.high[k] = static_cast<double>(value[static_cast<int>(k)]);
     }
     return out;
+}
+
+// What may be read of the texels that coordinates in these ranges may choose: between the ends of
+// their codes, c / 255 in binary32 or beside it.
+void take_texels(color::Source& coordinates, cases::Profile profile) {
+    for (size_t k = 0; k < 2; ++k) {
+        double &low = coordinates.low[k], &high = coordinates.high[k];
+        if (std::isfinite(low) && std::isfinite(high)) {
+            const auto [first, last] = value::texels_of(low, high, cases::kTexels, profile);
+            low = cases::texel_code(first) / 255.0 * (1 - 0x1p-22);
+            high = cases::texel_code(last) / 255.0 * (1 + 0x1p-22);
+        }
+    }
+    for (size_t k = 2; k < 4; ++k) {
+        coordinates.low[k] = coordinates.high[k] = 1;
+    }
 }
 
 // What a wrong colour breaks where nothing is blended or masked, in the order of ComponentKind.
@@ -105,6 +123,9 @@ const color::Source& ColorReference::source_of(uint32_t triangle, cases::SampleI
             found->second.low[k] = ranges[k].is_promised ? ranges[k].low : -HUGE_VAL;
             found->second.high[k] = ranges[k].is_promised ? ranges[k].high : HUGE_VAL;
         }
+        if (case_.draws[draw].color.from == cases::ColorFrom::texels) {
+            take_texels(found->second, unit_.profile);
+        }
     }
     return found->second;
 }
@@ -126,7 +147,14 @@ color::Source ColorReference::source_of(uint32_t triangle, cases::SampleId id,
         attribute < 0 ? nullptr : witness.written.at(static_cast<size_t>(attribute));
     const bool is_captured =
         written != nullptr && !glm::any(glm::isnan(*written)) && !glm::any(glm::isinf(*written));
-    return is_captured ? point_source(*written) : source_of(triangle, id);
+    if (!is_captured) {
+        return source_of(triangle, id);
+    }
+    color::Source out = point_source(*written);
+    if (output_of(triangle).from == cases::ColorFrom::texels) {
+        take_texels(out, unit_.profile);
+    }
+    return out;
 }
 
 bool ColorReference::is_flat(uint32_t triangle) const {

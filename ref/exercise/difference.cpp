@@ -96,7 +96,8 @@ Difference::Difference(Original& original, cases::Case other, Differ differ, std
     if (differ != Differ::values) {
         without_ = expect(other_, expected.limits, expected.profile);
     }
-    if (c.target.color && (!c.target.has_instruments || differ == Differ::colors)) {
+    if ((c.target.color && (!c.target.has_instruments || differ == Differ::colors)) ||
+        (!c.target.has_instruments && differ == Differ::hits)) {
         other_shown_ = std::make_unique<Shown>(other_, without_ ? *without_ : expected);
     }
     for (const cases::Draw& draw : c.draws) {

@@ -130,13 +130,14 @@ void look_at_samples(const cases::Case& c, const Limits& limits, std::vector<Cla
                      Exercise& out) {
     std::optional<Expectation> expected;  // at direct3d
     std::optional<Original> original;
-    const bool is_shown_by_colors = !c.target.has_instruments && c.target.color;
-    if (is_shown_by_colors) {
+    if (!c.target.has_instruments) {
         expected = expect(c, limits, Profile::direct3d);
         original.emplace(c, *expected);
-        out.draws = sights_of_draws(*original);
+        if (c.target.color) {
+            out.draws = sights_of_draws(*original);
+        }
     }
-    CaseFacts facts(c, limits, is_shown_by_colors ? &original->shown() : nullptr);
+    CaseFacts facts(c, limits, c.target.has_instruments ? nullptr : &original->shown());
     for (size_t k = 0; k < std::size(cases::kProfiles); ++k) {
         const Profile profile = cases::kProfiles[k];
         Looks looks(facts, claims, profile);

@@ -47,8 +47,8 @@ struct SampleExpectation {
     uint32_t depth_begin = 0, depth_count = 0;
     bool depth_may_be_clear = false;  // or no fragment's
     // Into Lists::fragments. Where something is open: all that take part in the paths, with their
-    // sets and tests. Else, if the target has a colour or a draw a query: those that pass all
-    // tests.
+    // sets and tests. Else, if the target has a colour or no instruments, or a draw a query: those
+    // that pass all tests.
     uint32_t fragments_begin = 0, fragments_count = 0;
     uint32_t sets_begin = 0, sets_count = 0;
     uint32_t tests_begin = 0, tests_count = 0;

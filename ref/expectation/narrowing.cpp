@@ -220,7 +220,7 @@ SampleExpectation Narrowing::judge_by_paths(const FixedPoint& p, std::span<const
     }
     if (out.is_open) {
         keep_paths(asked, out, lists);
-    } else if (case_.target.color || counts_fragments(case_)) {
+    } else if (!case_.target.has_instruments || case_.target.color || counts_fragments(case_)) {
         keep_passed(asked, out, lists);
     }
     if (reasons != nullptr) {

@@ -8,6 +8,7 @@
 #include <array>
 
 #include "fault.hpp"
+#include "memory_map.hpp"
 
 namespace breaking {
 
@@ -67,6 +68,10 @@ bool blends_by_alpha(const Facts& p) {
     return is_bare(p) && p.blends.size() == 1 && p.blends.front().blendEnable == VK_TRUE &&
            p.blends.front().srcColorBlendFactor == VK_BLEND_FACTOR_SRC_ALPHA &&
            p.blends.front().dstColorBlendFactor == VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+}
+
+bool multiplies(const Facts& p) {
+    return p.has_matrix;
 }
 
 bool has_no_fragments(const Facts& p) {
@@ -149,6 +154,9 @@ bool lose_first_triangle(DrawCall& d) {
 bool begin_late(DrawCall& d) {
     d.count -= d.indexed ? 0 : 1;
     return !d.indexed && change(d.first, d.first + 1);
+}
+bool cull_nothing_again(DrawCall& d) {
+    return d.may_repeat && change(d.state.cull_mode, VK_CULL_MODE_NONE);
 }
 template <VkPrimitiveTopology to>
 bool take_as(DrawCall& d) {
@@ -309,6 +317,41 @@ bool clear_depth_to_zero(Rendering& r) {
            change(r.depth->clearValue.depthStencil.depth, 0);
 }
 
+// Texels that tell where they lie.
+constexpr uint32_t kTexels = 64;
+bool upload_a_row_early(ImageCopy& c) {
+    constexpr VkDeviceSize kRow = 4 * kTexels;
+    return c.image.extent.width == kTexels &&
+           c.image.usage == (VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT) &&
+           change(c.region.bufferOffset, c.region.bufferOffset - kRow);
+}
+
+// An attachment without transfer usage.
+template <VkImageUsageFlags attachment>
+bool is_sampled_alone(const ImageFacts& image) {
+    return image.usage == (attachment | VK_IMAGE_USAGE_SAMPLED_BIT) &&
+           image.samples == VK_SAMPLE_COUNT_1_BIT;
+}
+bool clear_green(Rendering& r) {
+    return r.images.size() == 1 && !is_rendered_texture(r) &&
+           is_sampled_alone<VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT>(r.images.front()) &&
+           change(r.colors.front().clearValue.color.float32[1], 1);
+}
+bool clear_sampled_depth(Rendering& r) {
+    return r.depth &&
+           is_sampled_alone<VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT>(
+               facts_of(r.depth->imageView)) &&
+           change(r.depth->clearValue.depthStencil.depth,
+                  r.depth->clearValue.depthStencil.depth / 2);
+}
+
+// Of shaders that read a texture and no push constant.
+template <bool (*does)(ShaderWords&)>
+bool textured(ShaderWords& words) {
+    const ShaderFacts facts = words.facts();
+    return facts.reads_textures && !facts.reads_pushed && does(words);
+}
+
 constexpr std::array kBareFaults = {
     // Where a colour is read.
     Fault{"bare-constant-zero",
@@ -357,6 +400,38 @@ constexpr std::array kBareFaults = {
     Fault{"bare-texture-sample-mask-ignored",
           "A pipeline that reads a texture ignores its sample mask.",
           {.pipeline = pipeline<reads_texture, cover_all_samples>}},
+    Fault{"bare-texture-noperspective",
+          "Coordinates by which a texture is read are interpolated without perspective.",
+          {.shader =
+               textured<[](ShaderWords& w) { return w.decorate_plain_inputs(kNoPerspective); }>}},
+    Fault{"bare-texture-discard-ignored",
+          "What a fragment shader discards by a texture is drawn.",
+          {.shader = textured<[](ShaderWords& w) { return w.discard_nothing(); }>}},
+    Fault{"bare-texture-discard-early",
+          "Fragment shaders that discard by a texture have early tests.",
+          {.shader = textured<[](ShaderWords& w) { return w.test_discards_early(); }>}},
+    Fault{"bare-upload-row-early",
+          "A texture of 64 texels a side is uploaded from a row too early.",
+          {.upload = upload_a_row_early}},
+    Fault{"bare-matrix-transposed",
+          "A matrix that a shader multiplies by is transposed.",
+          {.shader = [](ShaderWords& w) { return w.transpose_matrices(); }}},
+    Fault{"bare-matrix-front-face-swapped",
+          "Front and back are exchanged where a draw culls whose vertex shader multiplies by a "
+          "matrix.",
+          {.draw = draw<culling<multiplies>, swap_front>}},
+    Fault{"bare-sampled-clear-green",
+          "The clear of one colour without transfer usage has a green of 1.",
+          {.rendering = clear_green}},
+    Fault{"bare-sampled-depth-clear-half",
+          "The clear of a depth without transfer usage is half of what was asked.",
+          {.rendering = clear_sampled_depth}},
+    Fault{"bare-repeated-dropped",
+          "A command buffer that is submitted again is not executed.",
+          {.drop_repeated = [] { return true; }}},
+    Fault{"bare-repeated-cull-off",
+          "A command buffer that may be submitted again culls nothing.",
+          {.draw = cull_nothing_again}},
     Fault{"bare-upload-offset-lost",
           "A texture is uploaded from the beginning of its buffer.",
           {.upload = lose_upload_offset}},

@@ -250,8 +250,17 @@ VKAPI_ATTR VkResult VKAPI_CALL queue_submit(VkQueue queue, uint32_t count,
     if (result == VK_SUCCESS && alter(hooks().drop_submission, fence != VK_NULL_HANDLE)) {
         return result;
     }
-    return result != VK_SUCCESS ? result
-                                : driver_of_handle(queue).QueueSubmit(queue, count, infos, fence);
+    if (result != VK_SUCCESS) {
+        return result;
+    }
+    std::vector<VkSubmitInfo> own(infos, infos + count);
+    for (VkSubmitInfo& info : own) {
+        if (info.commandBufferCount == 1 && ++recording_of(*info.pCommandBuffers).submissions > 1 &&
+            alter(hooks().drop_repeated)) {
+            info.commandBufferCount = 0;
+        }
+    }
+    return driver_of_handle(queue).QueueSubmit(queue, count, own.data(), fence);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL wait_for_fences(VkDevice device, uint32_t count,
@@ -493,6 +502,7 @@ void draw_call(VkCommandBuffer commands, DrawCall call, uint32_t instances) {
     call.topology = recording.topology;
     call.number = recording.draws++;
     call.in_secondary = recording.is_secondary;
+    call.may_repeat = recording.may_repeat;
     call.subpass = recording.subpass;
     call.stages = recording.pipeline.stages;
     call.pipeline = recording.pipeline;

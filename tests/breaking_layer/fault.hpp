@@ -40,6 +40,7 @@ struct DrawCall {
     uint32_t number = 0;        // in its rendering, from 0
     uint64_t rendering = 0;     // in this process, from 1
     bool in_secondary = false;  // in a secondary command buffer
+    bool may_repeat = false;    // Recording
     uint32_t times = 1;         // how often the driver is asked
     uint32_t first_instance = 0;
     VkIndexType index_type = VK_INDEX_TYPE_UINT32;  // indexed only
@@ -114,6 +115,7 @@ struct ImageFacts {
     bool is_dedicated = false;
     VkImageTiling tiling = VK_IMAGE_TILING_OPTIMAL;
     bool is_aliased = false;  // another image is bound to the same place
+    VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
 };
 struct ImageCopy {
     VkBufferImageCopy region;
@@ -256,6 +258,7 @@ struct Hooks {
     bool (*pass_clears)(std::vector<VkClearValue>&) = nullptr;  // of vkCmdBeginRenderPass
     // Whether commands are not executed that were submitted without a fence, or with one.
     bool (*drop_submission)(bool has_fence) = nullptr;
+    bool (*drop_repeated)() = nullptr;  // whether a command buffer is not executed once more
     bool (*buffer_to_image)(VkBufferImageCopy&) = nullptr;
     bool (*upload)(ImageCopy&) = nullptr;  // the same, of which the image is known
     bool (*blit)(VkImageBlit&, VkFilter&) = nullptr;

@@ -85,7 +85,8 @@ void forget_memory(VkDeviceMemory memory) {
 
 void note_image(VkImage image, const VkImageCreateInfo& info) {
     const std::lock_guard lock(map().mutex);
-    map().facts[image] = {info.extent, info.mipLevels, info.usage, false, info.tiling, false};
+    map().facts[image] = {info.extent, info.mipLevels, info.usage,  false,
+                          info.tiling, false,          info.samples};
 }
 
 void note_dedicated(VkImage image) {

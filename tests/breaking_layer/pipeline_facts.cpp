@@ -24,8 +24,10 @@ PipelineFacts facts_of(const VkGraphicsPipelineCreateInfo& info) {
     for (uint32_t k = 0; k < info.stageCount; ++k) {
         const VkPipelineShaderStageCreateInfo& stage = info.pStages[k];
         out.stages |= static_cast<VkShaderStageFlags>(stage.stage);
-        if (stage.stage == VK_SHADER_STAGE_FRAGMENT_BIT) {
-            const std::lock_guard lock(shaders_mutex);
+        const std::lock_guard lock(shaders_mutex);
+        if (stage.stage == VK_SHADER_STAGE_VERTEX_BIT) {
+            out.has_matrix = facts_of_shaders[stage.module].multiplies;
+        } else if (stage.stage == VK_SHADER_STAGE_FRAGMENT_BIT) {
             out.fragment = facts_of_shaders[stage.module];
             out.constants =
                 stage.pSpecializationInfo != nullptr ? stage.pSpecializationInfo->mapEntryCount : 0;

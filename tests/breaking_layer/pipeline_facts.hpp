@@ -9,8 +9,9 @@
 
 namespace breaking {
 
-// What a fragment shader reads.
+// What a fragment shader reads, and whether a shader multiplies by a matrix.
 struct ShaderFacts {
+    bool multiplies = false;
     bool reads_pushed = false;  // push constants
     bool reads_uniforms = false, reads_storage = false, reads_textures = false;
     bool has_flat = false, has_smooth = false;  // inputs of floats
@@ -20,6 +21,7 @@ struct ShaderFacts {
 struct PipelineFacts {
     VkShaderStageFlags stages = 0;
     std::optional<ShaderFacts> fragment;  // nothing without such a shader
+    bool has_matrix = false;              // in the vertex shader
     uint32_t constants = 0;               // that specialize it
     std::vector<VkFormat> colors;         // of a dynamic rendering, as are the next two
     VkFormat depth = VK_FORMAT_UNDEFINED, stencil = VK_FORMAT_UNDEFINED;

@@ -41,6 +41,8 @@ class Recording {
     bool has_pipeline = false;    // some pipeline, or shader objects, were bound
     bool lacks_feedback = false;  // transform feedback should have been begun
     uint32_t executions = 0;      // of a secondary one, since it was begun
+    uint32_t submissions = 0;     // of a primary one, since it was begun
+    bool may_repeat = false;      // a primary one that was not begun for one submission alone
     uint32_t subpass = 0;         // of a render pass object
     PipelineFacts pipeline;       // that was bound last
     bool has_offsets = false;     // of the descriptors that were bound last

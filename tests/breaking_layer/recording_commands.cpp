@@ -15,8 +15,10 @@ namespace {
 VKAPI_ATTR VkResult VKAPI_CALL begin_command_buffer(VkCommandBuffer commands,
                                                     const VkCommandBufferBeginInfo* info) {
     // Only a secondary one continues a rendering.
-    recording_of(commands).begin((info->flags & VK_COMMAND_BUFFER_USAGE_RENDER_PASS_CONTINUE_BIT) !=
-                                 0);
+    const bool is_secondary = (info->flags & VK_COMMAND_BUFFER_USAGE_RENDER_PASS_CONTINUE_BIT) != 0;
+    Recording& recording = recording_of(commands);
+    recording.begin(is_secondary);
+    recording.may_repeat = !is_secondary && info->flags == 0;
     return driver_of_handle(commands).BeginCommandBuffer(commands, info);
 }
 

@@ -29,6 +29,8 @@ enum Op : uint32_t {
     kOpDecorate = 71,
     kOpMemberDecorate = 72,
     kOpFNegate = 127,
+    kOpVectorTimesMatrix = 144,
+    kOpMatrixTimesVector = 145,
     kOpFOrdLessThan = 184,
     kOpFOrdGreaterThan = 186,
     kOpFOrdLessThanEqual = 188,
@@ -118,6 +120,7 @@ ShaderFacts ShaderWords::facts() const {
     const std::vector<uint32_t> inputs = float_inputs();
     size_t flat = 0;
     for (const Instruction& i : instructions()) {
+        out.multiplies = out.multiplies || i.op == kOpMatrixTimesVector;
         out.reads_textures = out.reads_textures || i.op == kOpTypeSampledImage;
         if (i.op == kOpVariable) {
             out.reads_pushed = out.reads_pushed || i.words[3] == kPushConstant;
@@ -131,6 +134,18 @@ ShaderFacts ShaderWords::facts() const {
     out.has_flat = flat > 0;
     out.has_smooth = flat < inputs.size();
     return out;
+}
+
+bool ShaderWords::transpose_matrices() {
+    bool altered = false;
+    for (const Instruction& i : instructions()) {
+        if (i.op == kOpMatrixTimesVector) {
+            words_[i.at] = first_word(kOpVectorTimesMatrix, 5);
+            std::swap(words_[i.at + 3], words_[i.at + 4]);
+            altered = true;
+        }
+    }
+    return altered;
 }
 
 bool ShaderWords::replace_input_decoration(uint32_t from, uint32_t to) {

@@ -26,8 +26,10 @@ class ShaderWords {
     explicit ShaderWords(std::span<const uint32_t> words) : words_(words.begin(), words.end()) {}
     const std::vector<uint32_t>& words() const { return words_; }
 
-    // What a fragment shader reads.
+    // What a fragment shader reads, and whether the shader multiplies by a matrix.
     ShaderFacts facts() const;
+    // Matrices that are multiplied by vectors are transposed.
+    bool transpose_matrices();
     // The decoration, of inputs of a fragment shader whose type is a vector of floats (integers
     // must stay flat); whether any had it. `to` takes its place: nothing if 0.
     bool replace_input_decoration(uint32_t from, uint32_t to);

@@ -54,7 +54,9 @@ class Ways(ProgramTest):
 
     def test_selectors_name_ways(self):
         _, cases = self.run_ways("a/one@bare-*s*", "b/two")
-        self.assertEqual(sorted(cases), sorted(["a/one@bare-color-constant", "a/one@bare-color-offset", "a/one@bare-color-push", "a/one@bare-color-smooth", "a/one@bare-color-storage", "a/one@bare-stencil", "b/two"]))
+        self.assertEqual(sorted(cases), sorted(["b/two"] + ["a/one@bare-" + way for way in (
+            "color-constant", "color-mask", "color-offset", "color-push", "color-sampled", "color-second", "color-smooth", "color-storage",
+            "color-texels", "depth-sampled", "stencil")]))
         done = self.edgecase("explain", "--suite", "own", "a/one@bare-depth", "--pixel", "0,0", check=0).stdout
         self.assertIn("a/one@bare-depth\n", done)
         self.assertIn("must be covered", done)
@@ -62,6 +64,18 @@ class Ways(ProgramTest):
         mine.write_text(CASE)
         _, cases = self.run_ways(f"{mine}@bare-color-push")
         self.assertEqual(cases, {"mine@bare-color-push": "pass"})
+
+    def test_lint_claims_only_what_a_way_shows(self):
+        same = CASE.replace("[[0,0], [4,0], [0,8],  [8,8], [4,8], [8,0]]", "[[0,0], [8,0], [0,8]]\n[[draw]]\nvertices = [[0,0], [8,0], [0,8]]").replace(
+            '"cover.inside"', '"order.primitive", "cover.inside"')
+        apart = same.replace("[[draw]]\nvertices = [[0,0], [8,0]", '[[draw]]\nvertices = [[0,0,"1/4"], [8,0,"1/4"]', 1).replace("[0,8]]", '[0,8,"1/4"]]', 1)
+        for text, order in ((same, 0), (apart, 28)):
+            (self.folder / "own/b/two.toml").write_text(text)
+            for way, shown in (("bare-depth", order), ("bare-stencil", 0), ("bare-color-push", 28)):
+                told = self.edgecase("lint", "--suite", "own", "b/two@" + way, check=0).stdout
+                self.assertIn(f"order.primitive: {shown} of 64 samples", told, (way, text))
+                # Of two fragments of one depth either may be lost.
+                self.assertEqual("cover.inside: 0 of" in told, (way, text) == ("bare-depth", same), way)
 
     def test_wrong_words(self):
         done, _ = self.run_ways("--ways", "bare-color-psh", check=2)
@@ -101,7 +115,7 @@ class Ways(ProgramTest):
             self.assertEqual((cases["b/two@bare-depth"], cases["mine@bare-depth"]), ("skip", "pass"), words)
 
     def test_a_case_is_drawn_once(self):
-        done, cases = self.run_ways("a/one@bare-depth", "a/one@bare-d*", "a/one", "--ways", "bare-depth")
+        done, cases = self.run_ways("a/one@bare-depth", "a/one@bare-*pth", "a/one", "--ways", "bare-depth")
         self.assertEqual(sorted(cases), ["a/one", "a/one@bare-depth"])
         self.assertIn("2 cases  2 pass", done.stdout)
 
@@ -179,12 +193,25 @@ class Files(ProgramTest):
     def test_wrong_sources_and_attachments(self):
         bare = COLOUR.replace("size = [8, 8]", 'size = [8, 8]\nattachments = "color"')
         self.lint(bare.replace("value = [1, 0, 1, 1]", 'value = [1, 0, 1, 1], from = "uniform"'), 0)
+        mapped = "[[draw.attribute]]\nvalues = [[-1,0], [1,0], [1,1],  [1,1], [-1,1], [1,0]]\n"
+        negative = '[[draw]]\ndiscard = "negative"'
+        self.lint(bare.replace("value = [1, 0, 1, 1]", 'value = [1, 0, 1, 1], from = "mask"').replace("[[draw]]", negative) + mapped, 0)
         for words, told in (
                 (COLOUR.replace("value = [1, 0, 1, 1]", 'value = [1, 0, 1, 1], from = "uniform"'), "from is of one colour of numbers alone"),
                 (bare.replace("value = [1, 0, 1, 1]", 'value = [1, 0, 1, 1], from = "texture"'), "a texture is read at the draw's first attribute"),
                 (bare.replace("value = [1, 0, 1, 1]", 'value = [1, 0, 1, 1], from = "unform"'), 'did you mean "uniform"?'),
                 (bare.replace("value = [1, 0, 1, 1]", 'value = [1, 0, 1, 1], from = "storage"').replace("[[draw]]", '[[draw]]\ndiscard = "checker"'),
                  "does nothing else; leave out discard"),
+                (bare.replace("value = [1, 0, 1, 1]", 'value = [1, 0, 1, 1], from = "texels"'), "the first attribute says which"),
+                (bare.replace("value = [1, 0, 1, 1]", 'value = [1, 0, 1, 1], from = "mask"') + mapped, 'write discard = "negative"'),
+                (bare.replace("value = [1, 0, 1, 1]", 'value = [1, 0, 1, "1/4"], from = "mask"').replace("[[draw]]", negative) + mapped, "write 3/4 or more"),
+                (bare.replace("[[draw]]", "[[draw]]\nmatrix = true"), "matrix needs a colour from elsewhere"),
+                (bare.replace("value = [1, 0, 1, 1]", 'value = [1, 0, 1, 1], from = "constant"').replace(
+                    "[[draw]]", '[[draw]]\nmatrix = true\nspace = "clip"').replace(
+                        "[[0,0], [4,0], [0,8],  [8,8], [4,8], [8,0]]", '[[0,0,0,1], [1,0,0,1], [0,"0x1p-120",0,1]]'), "a product with 8 or 1/4 keeps"),
+                (CASE.replace("size = [8, 8]", 'size = [8, 8]\nframe = "second"'), "without what counts hits"),
+                (bare.replace('"rgba8-unorm"', '"rgba32-float"').replace("size = [8, 8]", 'size = [8, 8]\nframe = "sampled"'), "one rgba8-unorm"),
+                (CASE.replace("size = [8, 8]", 'size = [8, 8]\nattachments = "depth"\nsamples = 4\nframe = "sampled"'), "of one sample"),
                 (CASE.replace("size = [8, 8]", 'size = [8, 8]\nattachments = "stencil"'), "write stencil = true"),
                 (COLOUR.replace("size = [8, 8]", 'size = [8, 8]\nattachments = "depth"'), "leaves no place for a colour")):
             self.assertIn(told, self.lint(words, 3), words)

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "cases/format/color_format.hpp"
+#include "cases/model/texels.hpp"
 #include "vk_harness/memory/barrier.hpp"
 
 namespace vk_harness {
@@ -21,7 +22,9 @@ using cases::ColorFrom;
 // Every device takes multiples of it as offsets (minUniformBufferOffsetAlignment and the like are
 // at most 256).
 constexpr VkDeviceSize kSlot = 256;
-constexpr uint32_t kSide = 4;  // texels
+constexpr uint32_t kSide = cases::kMaskColumns;  // texels of a texture of one colour
+// Behind the slots: texels that tell where they lie.
+constexpr VkDeviceSize kTexelBytes = VkDeviceSize{4} * cases::kTexels * cases::kTexels;
 constexpr VkImageSubresourceRange kOneLevel = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
 
 // A draw has two slots: another colour, then its own.
@@ -79,11 +82,11 @@ bool has_color_sources(const cases::Case& c) {
         c.draws, [](const cases::Draw& draw) { return draw.color.from > ColorFrom::constant; });
 }
 
-SampledImage ColorSources::make_texture(VkFormat format, bool is_rendered) const {
+SampledImage ColorSources::make_texture(VkFormat format, uint32_t side, bool is_rendered) const {
     const VkImageUsageFlags filled =
         is_rendered ? VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT : VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     return make_sampled(*device_,
-                        image_info(format, {kSide, kSide}, VK_IMAGE_USAGE_SAMPLED_BIT | filled),
+                        image_info(format, {side, side}, VK_IMAGE_USAGE_SAMPLED_BIT | filled),
                         VK_IMAGE_VIEW_TYPE_2D, kOneLevel);
 }
 
@@ -91,7 +94,7 @@ ColorSources::ColorSources(const Device& device, const PipelineLayouts& layouts,
                            const cases::Case& c)
     : device_(&device),
       layouts_(&layouts),
-      buffer_(Buffer::create(device, slot_of(c.draws.size()) + kSlot,
+      buffer_(Buffer::create(device, slot_of(c.draws.size()) + kTexelBytes,
                              VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
                                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
                                  VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
@@ -119,22 +122,35 @@ ColorSources::ColorSources(const Device& device, const PipelineLayouts& layouts,
                        type);
             continue;
         }
+        const bool tells = source.from == ColorFrom::texels;
         const auto codes = codes_of(output.value, c.target.color->format);
         const size_t texel = codes ? codes->size() : sizeof output.value;
-        for (size_t t = 0; t < size_t{kSide} * kSide; ++t) {
+        for (size_t t = 0; t < size_t{kSide} * kSide && !tells; ++t) {
             const void* from = codes ? static_cast<const void*>(codes->data()) : &output.value;
-            std::memcpy(&memory[slot_of(k) + t * texel], from, texel);
+            if (source.from == ColorFrom::mask && t % kSide < kSide / 2) {
+                std::memset(&memory[slot_of(k) + t * texel], 0, texel);
+            } else {
+                std::memcpy(&memory[slot_of(k) + t * texel], from, texel);
+            }
         }
         for (int i = 0; i < 4; ++i) {
             source.color.float32[i] = output.value[i];
         }
-        source.texels = slot_of(k);
+        source.texels = tells ? slot_of(c.draws.size()) : slot_of(k);
+        source.side = tells ? cases::kTexels : kSide;
         source.image =
-            make_texture(codes ? VK_FORMAT_R8G8B8A8_UNORM : VK_FORMAT_R32G32B32A32_SFLOAT,
-                         source.from == ColorFrom::rendered);
+            make_texture(codes || tells ? VK_FORMAT_R8G8B8A8_UNORM : VK_FORMAT_R32G32B32A32_SFLOAT,
+                         source.side, source.from == ColorFrom::rendered);
         writes.add(
             set, 0, type,
             {sampler_.get(), source.image.view.get(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
+    }
+    for (uint32_t t = 0; t < cases::kTexels * cases::kTexels; ++t) {
+        const std::array<uint8_t, 4> codes = {
+            static_cast<uint8_t>(cases::texel_code(t % cases::kTexels)),
+            static_cast<uint8_t>(cases::texel_code(t / cases::kTexels)), 255, 255};
+        std::memcpy(&memory[slot_of(c.draws.size()) + t * codes.size()], codes.data(),
+                    codes.size());
     }
     buffer_.flush();
     writes.write(device);
@@ -178,7 +194,7 @@ void ColorSources::record(VkCommandBuffer commands) const {
             VkBufferImageCopy copy{};
             copy.bufferOffset = source.texels;
             copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-            copy.imageExtent = {kSide, kSide, 1};
+            copy.imageExtent = {source.side, source.side, 1};
             vk.vkCmdCopyBufferToImage(commands, buffer_.get(), image, filled.layout, 1, &copy);
         }
         record_barriers(*device_, commands,

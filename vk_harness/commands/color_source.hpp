@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What fragment shaders of bare.frag read their colours from: a part of a buffer, or a texture of
-// one colour. Beside each lies another colour, so that a lost offset shows.
+// What fragment shaders of bare.frag read their colours from: a part of a buffer, or a texture.
+// Beside one colour lies another, so that a lost offset shows.
 #pragma once
 
 #include <vector>
@@ -34,8 +34,9 @@ class ColorSources {
         SampledImage image;
         VkClearColorValue color{};
         VkDeviceSize texels = 0;  // in the buffer
+        uint32_t side = 0;        // texels
     };
-    SampledImage make_texture(VkFormat format, bool is_rendered) const;
+    SampledImage make_texture(VkFormat format, uint32_t side, bool is_rendered) const;
 
     const Device* device_;
     const PipelineLayouts* layouts_;

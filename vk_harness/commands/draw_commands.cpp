@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cases/model/derive.hpp"
+#include "cases/model/matrix.hpp"
 #include "vk_harness/device/depth_bias_control.hpp"
 #include "vk_harness/pipeline/object_state.hpp"
 #include "vk_harness/target/shader_interface.hpp"
@@ -57,6 +58,12 @@ void write_bits(cases::ColorFormat format, const glm::vec4& value, uint32_t (&to
 void push_constants(const Device& device, const PipelineCache& pipelines, VkCommandBuffer commands,
                     const DrawPlan& plan, const cases::Case& test, uint32_t draw_index) {
     const cases::Draw& draw = *plan.draw;
+    if (draw.matrix) {  // its fragment shader reads none
+        device.vk().vkCmdPushConstants(commands, pipelines.layouts().draw.get(),
+                                       draw_stages(device), 0, sizeof cases::kMatrix,
+                                       cases::kMatrix.data());
+        return;
+    }
     shaders::DrawConstants constants;
     constants.index =
         plan.is_split ? static_cast<uint32_t>(test.draws.size()) << 16 | draw_index : draw_index;

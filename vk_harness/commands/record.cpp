@@ -6,6 +6,7 @@
 #include <cstring>
 #include <utility>
 
+#include "cases/model/matrix.hpp"
 #include "vk_harness/target/shader_interface.hpp"
 #include "vk_harness/target/target_way.hpp"
 
@@ -33,7 +34,7 @@ VkDeviceSize place_vertices(CasePlan& plan, VkDeviceSize begin) {
     return offset;
 }
 
-void write_vertices(const CasePlan& plan, std::span<std::byte> memory) {
+void write_vertices(const CasePlan& plan, std::span<std::byte> memory, bool is_mirrored) {
     const auto write = [memory](VkDeviceSize offset, const void* data, size_t size) {
         if (size != 0) {
             std::memcpy(memory.data() + offset, data, size);
@@ -46,7 +47,12 @@ void write_vertices(const CasePlan& plan, std::span<std::byte> memory) {
             continue;
         }
         const size_t array = draw.positions.size() * sizeof(glm::vec4);
-        write(item.vertices[0], draw.positions.data(), array);
+        std::vector<glm::vec4> positions = draw.positions;
+        for (glm::vec4& p : positions) {
+            p.x = is_mirrored ? -p.x : p.x;
+            p = draw.matrix ? cases::before_matrix(p) : p;
+        }
+        write(item.vertices[0], positions.data(), array);
         for (uint32_t k = 0; k < plan.input_count; ++k) {
             const cases::Attribute* attribute = input_attribute(*plan.test, draw, k);
             const bool is_given = attribute != nullptr;
@@ -100,7 +106,7 @@ void record_copies(const Device& device, PipelineCache& pipelines, VkCommandBuff
                         plan.readback.offset[k]);
         }
     }
-    if (target.samples == 1) {
+    if (!target.is_read_by_shader()) {
         return;
     }
     const VkOffset2D origin = image_way(*plan.test).origin();

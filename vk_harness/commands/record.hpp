@@ -12,8 +12,8 @@ namespace vk_harness {
 
 // Assigns the places of all vertices and indices from byte `begin` on; returns the end.
 VkDeviceSize place_vertices(CasePlan& plan, VkDeviceSize begin);
-// Writes them there, bits unchanged.
-void write_vertices(const CasePlan& plan, std::span<std::byte> memory);
+// Writes them there, bits unchanged but for a matrix. `is_mirrored`: with the other sign of x.
+void write_vertices(const CasePlan& plan, std::span<std::byte> memory, bool is_mirrored = false);
 
 // Gives the doors that need them buffers of their own; `memory` is what was written.
 void make_door_buffers(const Device& device, const PipelineCache& pipelines, const CasePlan& plan,

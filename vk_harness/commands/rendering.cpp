@@ -474,7 +474,7 @@ void record_draws(const Device& device, const PipelineCache& pipelines, VkComman
     }
     if (for_copies) {
         // Samples are read by a shader; guards (guard.hpp) are copied whatever the target is.
-        ImageUse after = plan.test->target.samples > 1 ? kSampled : kCopied;
+        ImageUse after = plan.test->target.is_read_by_shader() ? kSampled : kCopied;
         after.stage |= kCopied.stage;
         barrier(device, commands, plan, kColorDrawn, after, kDepthDrawn, after, &kCopied);
     }

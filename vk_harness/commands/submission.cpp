@@ -65,27 +65,28 @@ void Submission::trim(VkDeviceSize limit) {
     }
 }
 
-VkCommandBuffer Submission::begin() {
+VkCommandBuffer Submission::begin(bool may_repeat) {
     const VolkDeviceTable& vk = device_->vk();
     descriptor_pools_.clear();
     used_secondaries_ = 0;
     check(Stage::submit, vk.vkResetCommandPool(device_->get(), pool_.get(), 0),
           "vkResetCommandPool");
     used_primaries_ = 0;
-    return begin_next();
+    return begin_next(may_repeat);
 }
 
-VkCommandBuffer Submission::begin_next() {
+VkCommandBuffer Submission::begin_next(bool may_repeat) {
     allocate(primaries_, used_primaries_ + 1, VK_COMMAND_BUFFER_LEVEL_PRIMARY);
     commands_ = primaries_[used_primaries_++];
     VkCommandBufferBeginInfo info = Typed{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
-    info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    info.flags = may_repeat ? 0U : uint32_t{VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
     check(Stage::submit, device_->vk().vkBeginCommandBuffer(commands_, &info),
           "vkBeginCommandBuffer");
     return commands_;
 }
 
 VkCommandBuffer Submission::next() {
+    end();
     submit(VK_NULL_HANDLE);
     return begin_next();
 }
@@ -113,9 +114,12 @@ std::vector<VkCommandBuffer> Submission::secondaries(size_t count) {
     return std::vector<VkCommandBuffer>(begin, begin + static_cast<std::ptrdiff_t>(count));
 }
 
+void Submission::end() {
+    check(Stage::submit, device_->vk().vkEndCommandBuffer(commands_), "vkEndCommandBuffer");
+}
+
 void Submission::submit(VkFence fence) {
     const VolkDeviceTable& vk = device_->vk();
-    check(Stage::submit, vk.vkEndCommandBuffer(commands_), "vkEndCommandBuffer");
     VkSubmitInfo info = Typed{VK_STRUCTURE_TYPE_SUBMIT_INFO};
     info.commandBufferCount = 1;
     info.pCommandBuffers = &commands_;
@@ -123,12 +127,17 @@ void Submission::submit(VkFence fence) {
 }
 
 void Submission::run() {
-    const VolkDeviceTable& vk = device_->vk();
     memory_barrier(*device_, commands_,
                    {VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
                         VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
                     VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT},
                    {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
+    end();
+    repeat();
+}
+
+void Submission::repeat() {
+    const VolkDeviceTable& vk = device_->vk();
     submit(fence_.get());
     // A hang is ended from outside, where the worker has a time limit; should nobody do so, the
     // wait ends all the same, later.

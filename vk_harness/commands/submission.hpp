@@ -19,13 +19,16 @@ class Submission {
     // Frees buffers larger than `limit` bytes.
     void trim(VkDeviceSize limit);
 
-    VkCommandBuffer begin();
+    // `may_repeat`: it may be submitted again.
+    VkCommandBuffer begin(bool may_repeat = false);
     // Ends recording, submits, and begins another command buffer, which is executed after it.
     VkCommandBuffer next();
     // Secondary command buffers that are in no use since the last begin().
     std::vector<VkCommandBuffer> secondaries(size_t count);
     // Ends recording, submits, and waits until the device has finished.
     void run();
+    // Submits the same once more, and waits.
+    void repeat();
 
     // kMostSurroundings bytes of kSurrounding, to copy from.
     VkBuffer pattern();
@@ -46,8 +49,9 @@ class Submission {
     // Makes them `count` command buffers at least.
     void allocate(std::vector<VkCommandBuffer>& buffers, size_t count, VkCommandBufferLevel level);
     // Begins a primary command buffer that is in no use since the last begin().
-    VkCommandBuffer begin_next();
-    void submit(VkFence fence);  // ends recording before
+    VkCommandBuffer begin_next(bool may_repeat = false);
+    void end();  // recording
+    void submit(VkFence fence);
 
     const Device* device_;
     Handle<VkCommandPool> pool_;

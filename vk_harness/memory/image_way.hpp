@@ -16,6 +16,7 @@ struct ImageWay {
     uint32_t more_columns = 0, more_rows = 0;  // to the right and below, in pixels of `level`
     bool ends_with_it = false;                 // those lie to the left and above instead
     bool is_input = false;                     // it may be an input attachment
+    bool is_sampled = false;                   // it is read by a shader, and never copied
     uint32_t first_layer = 0;                  // of the image, in which the attachment begins
     uint32_t more_layers = 0;                  // behind the attachment's own
     uint32_t level = 0;                        // of the image; others lie before and behind it

@@ -55,7 +55,7 @@ Handle<VkDeviceMemory> allocate(const Device& device, VkDeviceSize size, uint32_
     fail(Stage::memory, fmt::format("the device has no memory type for {}", what));
 }
 
-// Several layers, or samples that copy_samples.comp reads, are seen as an array.
+// Several layers, or what copy_samples.comp reads, are seen as an array.
 Handle<VkImageView> create_view(const Device& device, const VkImageCreateInfo& of, VkImage image,
                                 VkFormat format, const VkImageSubresourceRange& range,
                                 VkImageUsageFlags usage) {
@@ -64,7 +64,8 @@ Handle<VkImageView> create_view(const Device& device, const VkImageCreateInfo& o
     VkImageViewCreateInfo info = Typed{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
     info.pNext = &usage_info;
     info.image = image;
-    info.viewType = range.layerCount > 1 || of.samples != VK_SAMPLE_COUNT_1_BIT
+    info.viewType = range.layerCount > 1 || of.samples != VK_SAMPLE_COUNT_1_BIT ||
+                            usage == VK_IMAGE_USAGE_SAMPLED_BIT
                         ? VK_IMAGE_VIEW_TYPE_2D_ARRAY
                         : VK_IMAGE_VIEW_TYPE_2D;
     info.format = format;
@@ -340,11 +341,12 @@ Image Image::create(const Device& device, VkFormat format, VkExtent2D extent, ui
     const bool stencil = is_depth_format(format, &cases::DepthFormatRow::with_stencil);
     const bool depth = stencil || is_depth_format(format, &cases::DepthFormatRow::vulkan);
     const bool multisampled = samples > 1;
+    const bool is_read = multisampled || way.is_sampled;
     const VkImageUsageFlags attachment =
         depth ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
     VkImageCreateInfo info = image_info(
         format, way.extent(extent),
-        attachment | (multisampled ? VK_IMAGE_USAGE_SAMPLED_BIT : VK_IMAGE_USAGE_TRANSFER_SRC_BIT));
+        attachment | (is_read ? VK_IMAGE_USAGE_SAMPLED_BIT : VK_IMAGE_USAGE_TRANSFER_SRC_BIT));
     info.mipLevels = std::min(
         way.levels(),
         static_cast<uint32_t>(std::bit_width(std::max(info.extent.width, info.extent.height))));
@@ -408,6 +410,9 @@ Image Image::create(const Device& device, VkFormat format, VkExtent2D extent, ui
     image.view_ = create_view(device, info, handle, format, image.drawn_, view_usage);
     if (multisampled && !depth) {
         add_view(image.bits_view_, bits_format(format), image.aspect(), VK_IMAGE_USAGE_SAMPLED_BIT);
+    }
+    if (way.is_sampled && !multisampled) {
+        add_view(image.bits_view_, format, image.aspect(), VK_IMAGE_USAGE_SAMPLED_BIT);
     }
     if (multisampled && way.is_multiview && depth && !stencil) {
         add_view(image.bits_view_, format, VK_IMAGE_ASPECT_DEPTH_BIT, VK_IMAGE_USAGE_SAMPLED_BIT);

@@ -33,8 +33,7 @@ struct Stages {
                 ? stage_info(VK_SHADER_STAGE_MESH_BIT_EXT,
                              base.shader_module(shaders::capture_mesh(geometry_variant(key))))
                 : stage_info(VK_SHADER_STAGE_VERTEX_BIT,
-                             base.shader_module(shaders::capture_vertex(vertex_variant(key)),
-                                                vertex_changes(key))));
+                             base.shader_module(vertex_code(key), vertex_changes(key))));
         for (const auto& [stage, code] : stages_between(key)) {
             stages.push_back(stage_info(stage, base.shader_module(code)));
             if (stage == VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT) {

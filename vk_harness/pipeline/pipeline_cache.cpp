@@ -62,6 +62,10 @@ VkPipeline PipelineCache::get_input(const InputKey& key) {
 }
 
 VkPipeline PipelineCache::get_copy(const Attachment& attachment) {
+    if (attachment.is_sampled) {
+        return get_copy(attachment.is_depth() ? shaders::copy_codes_of_depth()
+                                              : shaders::copy_codes_of_color());
+    }
     return get_copy(shaders::copy_samples(attachment.is_depth(), attachment.sample_bytes / 4));
 }
 

@@ -139,6 +139,7 @@ PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw,
     key.layer = names_layers(c);
     key.clip_count = draw.distances.clip_count;
     key.cull_count = draw.distances.cull_count;
+    key.matrix = draw.matrix;
     key.way = vertex_way(c, draw, layout.vertex_formats);
     key.negative_one_to_one = draw.depth.negative_one_to_one;
     key.provoking = draw.provoking;
@@ -266,6 +267,11 @@ std::vector<uint32_t> execution_modes(const PipelineKey& key) {
 bool needs_fragments(const PipelineKey& key) {
     return key.instruments || !key.colors.empty() || key.discards || key.writes_depth ||
            key.writes_mask;
+}
+
+std::span<const uint32_t> vertex_code(const PipelineKey& key) {
+    return key.matrix ? shaders::matrix_vertex(key.attribute_count)
+                      : shaders::capture_vertex(vertex_variant(key));
 }
 
 std::span<const uint32_t> fragment_code(const PipelineKey& key) {

@@ -56,6 +56,7 @@ struct PipelineKey {
     uint32_t samples = 1;
     // Vertex stage.
     uint32_t clip_count = 0, cull_count = 0;
+    bool matrix = false;  // cases::Draw
     VertexWay way;
     bool layer = false, viewport_index = false;
     uint32_t viewports = 1;            // that are bound; viewport_index: more than one
@@ -119,6 +120,8 @@ shaders::VertexVariant vertex_variant(const PipelineKey& key);
 // The same of the geometry shader, if there is one.
 shaders::VertexVariant geometry_variant(const PipelineKey& key);
 shaders::FragmentVariant fragment_variant(const PipelineKey& key);
+// The vertex shader; empty if none was built.
+std::span<const uint32_t> vertex_code(const PipelineKey& key);
 // The fragment shader; empty if none was built, or needed (needs_fragments).
 std::span<const uint32_t> fragment_code(const PipelineKey& key);
 // Whether a fragment shader does anything. A pipeline of depth or stencil alone is without one.

@@ -38,8 +38,7 @@ Handle<ShaderObject> make_object(const PipelineBase& base, const PipelineKey& ke
 }  // namespace
 
 std::array<Handle<ShaderObject>, 2> make_objects(const PipelineBase& base, const PipelineKey& key) {
-    auto vertex = make_object(base, key, VK_SHADER_STAGE_VERTEX_BIT,
-                              shaders::capture_vertex(vertex_variant(key)), nullptr);
+    auto vertex = make_object(base, key, VK_SHADER_STAGE_VERTEX_BIT, vertex_code(key), nullptr);
     if (!needs_fragments(key)) {
         return {std::move(vertex), {}};
     }

@@ -156,6 +156,9 @@ std::vector<Attachment> attachments_of(const cases::Case& c, const TargetLayout&
         }
     }
     append_resolved(c.target, out);
+    for (Attachment& a : out) {
+        a.is_sampled = c.target.frame == cases::Frame::sampled;
+    }
     if (c.variation.door == cases::Door::input_attachment) {
         for (Attachment& a : out) {
             a.is_input = can_be_input(c.target, a);

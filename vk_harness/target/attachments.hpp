@@ -43,7 +43,8 @@ struct Attachment {
     bool is_beside_depth = false;  // a stencil in the image of the attachment before it
     cases::LoadOp load = cases::LoadOp::clear;
     cases::StoreOp store = cases::StoreOp::store;
-    bool is_input = false;  // read back as an input attachment, in whole words a sample
+    bool is_input = false;    // read back as an input attachment, in whole words a sample
+    bool is_sampled = false;  // cases::Frame, the same by a compute shader
     bool is_depth() const { return role == Role::depth || role == Role::resolved_depth; }
     bool is_stencil() const { return role == Role::stencil || role == Role::resolved_stencil; }
     bool is_depth_stencil() const { return is_depth() || is_stencil(); }
@@ -58,7 +59,7 @@ struct Attachment {
         return is_resolved() ? 1 : target.samples;
     }
     // Whether a shader writes it to read-back memory, in whole words, instead of a copy.
-    bool has_words(uint32_t samples) const { return samples > 1 || is_input; }
+    bool has_words(uint32_t samples) const { return samples > 1 || is_input || is_sampled; }
     // Bytes of one sample in read-back memory.
     uint32_t copied_bytes(uint32_t samples) const {
         return has_words(samples) ? sample_bytes : texel_bytes;

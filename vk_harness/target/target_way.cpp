@@ -15,6 +15,7 @@ namespace vk_harness {
 
 ImageWay image_way(const cases::Case& c) {
     ImageWay way;
+    way.is_sampled = c.target.frame == cases::Frame::sampled;
     switch (c.variation.door) {
         case cases::Door::target_larger:
             way.more_columns = 29;

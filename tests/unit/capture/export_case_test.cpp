@@ -65,7 +65,8 @@ std::vector<Change> target_changes() {
                                   has_depth, depth_clear, depth_load, stencil_load, depth_store,
                                   stencil_store,  // not told
                                   color_resolve, depth_resolve, stencil_resolve, has_stencil,
-                                  stencil_clear] = cases::Target{};
+                                  stencil_clear, frame] =
+        cases::Target{};  // the last: how it is looked at
     [[maybe_unused]] const auto& [format, clear, load] = cases::ColorTarget{};
     return {
         {"width", [](Case& c) { ++c.target.width; }},
@@ -92,7 +93,7 @@ std::vector<Change> target_changes() {
 }
 
 std::vector<Change> draw_changes() {
-    [[maybe_unused]] const auto& [cleared, topology, positions, indices, primitive_restart,
+    [[maybe_unused]] const auto& [cleared, topology, positions, matrix, indices, primitive_restart,
                                   attributes, viewport, scissor, cull, front_face, provoking,
                                   rasterizer_discard, conservative, conservative_extra,
                                   fragment_size, discard, discard_attribute, discard_by,
@@ -211,6 +212,7 @@ std::vector<Change> color_changes() {
         {"blend.alpha.op", [](Case& c) { draw(c).color.blend->alpha.op = cases::BlendOp::max; }},
         {"blend.second", [](Case& c) { draw(c).color.blend->second.w = 1; }},
         {"alpha_to_one", [](Case& c) { draw(c).color.alpha_to_one = true; }},
+        {"texels", [](Case& c) { draw(c).color.from = cases::ColorFrom::texels; }},
         {"alpha_to_coverage", [](Case& c) { draw(c).color.alpha_to_coverage = true; }},
         {"blend.constants", [](Case& c) { draw(c).color.blend->constants.w = 1; }},
         {"write_mask", [](Case& c) { draw(c).color.write_mask = 7; }},

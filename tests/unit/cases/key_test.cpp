@@ -118,6 +118,7 @@ TEST(Keys, AreReadAndWrittenByTheirRow) {
     const std::map<std::string_view, std::string_view> needs = {
         {"conservative_extra", "conservative = \"overestimate\"\n"},
         {"discard_by", "discard = \"checker\"\n"},
+        {"matrix", "color = { value = [1, 1, 1, 1], from = \"constant\" }\n"},
     };
     const std::map<const KeyTable*, std::string> places = {
         {&kDrawKeys, "{}"},
@@ -132,12 +133,14 @@ TEST(Keys, AreReadAndWrittenByTheirRow) {
             for (const std::string& value :
                  key.is_simple() ? values_of(key) : std::vector<std::string>()) {
                 const auto need = needs.find(key.name);
-                const bool is_blend = table == &kBlendAlphaKeys;
+                const bool is_matrix = key.name == "matrix";
+                const bool is_colored = is_matrix || table == &kBlendAlphaKeys;
                 const std::string text =
                     "format = 1\ndescription = \"d\"\nrules = [\"cover.inside\"]\n[target]\n"
                     "size = [8, 8]\nstencil = true\n" +
                     std::string(key.name == "layer" ? "layers = 2\n" : "") +
-                    std::string(is_blend ? "[target.color]\nformat = \"rgba8-unorm\"\n" : "") +
+                    std::string(is_matrix ? "attachments = \"color\"\n" : "") +
+                    std::string(is_colored ? "[target.color]\nformat = \"rgba8-unorm\"\n" : "") +
                     "[[draw]]\nvertices = [[0,0], [8,0], [0,8]]\n" +
                     std::string(need == needs.end() ? "" : need->second) +
                     fmt::format(fmt::runtime(place), fmt::format("{} = {}", key.name, value)) +

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <set>
@@ -14,6 +15,8 @@
 
 #include "cases/load/loader.hpp"
 #include "cases/model/derive.hpp"
+#include "cases/model/matrix.hpp"
+#include "cases/model/texels.hpp"
 #include "cases/select/selector.hpp"
 #include "cases/wire/case_bytes.hpp"
 #include "cases/write/to_toml.hpp"
@@ -67,6 +70,7 @@ TEST(Way, MakesCasesThatAFileCanSay) {
 TEST(Way, AttachesNothingThatTellsOfFragments) {
     const std::map<std::string_view, Attachments> alone = {
         {"bare-depth", Attachments::depth},
+        {"bare-depth-sampled", Attachments::depth},
         {"bare-stencil", Attachments::stencil},
         {"prepass", Attachments::color_depth},
         {"bare-color-texture", Attachments::color}};
@@ -135,6 +139,85 @@ TEST(Way, BlendsWhereItSaysSo) {
     const auto blended = std::ranges::find(all_ways(), "bare-color-blended", &WayRow::word);
     EXPECT_TRUE(
         std::ranges::any_of(the_files(), [&](const Case& c) { return blends(*blended, c); }));
+}
+
+std::vector<Case> made_by(std::string_view word) {
+    const auto way = std::ranges::find(all_ways(), word, &WayRow::word);
+    std::vector<Case> out;
+    for (const Case& c : the_files()) {
+        if (std::optional<Case> made = by_way(*way, c)) {
+            out.push_back(std::move(*made));
+        }
+    }
+    return out;
+}
+
+// As a vertex shader multiplies: by columns, each product and each sum rounded.
+glm::vec4 by_matrix(const glm::vec4& v) {
+    glm::vec4 out{};
+    for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j < 4; ++j) {
+            const float product = kMatrix.at(static_cast<size_t>(4 * j + i)) * v[j];
+            out[i] += product;
+        }
+    }
+    return out;
+}
+
+TEST(Way, AMatrixMakesThePositions) {
+    size_t count = 0;
+    for (const Case& c : made_by("bare-color-matrix")) {
+        for (const Draw& draw : c.draws) {
+            ASSERT_TRUE(draw.matrix) << c.id;
+            for (const glm::vec4& p : draw.positions) {
+                const glm::vec4 before = before_matrix(p);
+                ASSERT_EQ(by_matrix(before), p) << c.id;
+                count += before == p ? 0U : 1U;
+            }
+        }
+    }
+    EXPECT_GT(count, 1000U);
+    EXPECT_TRUE(takes_matrix(std::vector{glm::vec4(0, -0x1p-100F, 0x1p100F, 3)}));
+    for (const float bad : {0x1p-101F, -0x1p101F, std::nanf(""), HUGE_VALF}) {
+        EXPECT_FALSE(takes_matrix(std::vector{glm::vec4(0, 0, 0, bad)})) << bad;
+    }
+}
+
+TEST(Way, AMaskCutsACornerOffEachTriangle) {
+    for (const Case& c : made_by("bare-color-mask")) {
+        for (const Draw& draw : c.draws) {
+            const std::vector<glm::vec4>& at = draw.attributes.at(0).values;
+            for (size_t v = 0; v + 2 < at.size(); ++v) {
+                const auto left = std::count_if(at.begin() + static_cast<std::ptrdiff_t>(v),
+                                                at.begin() + static_cast<std::ptrdiff_t>(v) + 3,
+                                                [](const glm::vec4& p) { return p.x < 0; });
+                ASSERT_EQ(left, 1) << c.id;
+            }
+            ASSERT_GE(draw.color.value.w, 0.75F);
+        }
+    }
+}
+
+// Three vertices in a row choose texels far from each other, and none is between two texels.
+TEST(Way, TexelsTellVerticesApart) {
+    std::set<std::pair<float, float>> places;
+    for (const Case& c : made_by("bare-color-texels")) {
+        for (const Draw& draw : c.draws) {
+            const std::vector<glm::vec4>& at = draw.attributes.at(0).values;
+            for (size_t v = 0; v < at.size(); ++v) {
+                for (const float s : {at[v].x, at[v].y}) {
+                    const float inside = s * kTexels - std::floor(s * kTexels);
+                    ASSERT_TRUE(inside >= 1 / 16.0F && inside <= 15 / 16.0F && s > 0 && s < 1);
+                }
+                if (v > 0) {
+                    const glm::vec4 step = texel_at(at[v]) - texel_at(at[v - 1]);
+                    ASSERT_GT(std::fabs(step.x) + std::fabs(step.y), 0.5F);
+                }
+                places.insert({at[v].x, at[v].y});
+            }
+        }
+    }
+    EXPECT_GE(places.size(), 16U);
 }
 
 TEST(Way, TakesNoCaseWithAColourOrABlit) {

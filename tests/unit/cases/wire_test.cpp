@@ -63,6 +63,8 @@ Case sample() {
                              {BlendFactor::zero, BlendFactor::src_alpha_saturate, BlendOp::min},
                              {0.1F, 0.2F, 0.3F, 0.4F},
                              {0.5F, 0.6F, 0.7F, 0.8F}};
+    draw.color.from = ColorFrom::mask;
+    draw.matrix = true;
     draw.color.alpha_to_one = true;
     draw.color.alpha_to_coverage = true;
     draw.color.write_mask = 0x5;
@@ -81,6 +83,7 @@ Case sample() {
     c.target.stencil_resolve = Resolve::min;
     c.target.has_stencil = true;
     c.target.stencil_clear = 77;
+    c.target.frame = Frame::second;
     c.target.other_colors = {{ColorFormat::r32_uint, {5, 0, 0, 0}}};
     c.target.judged_color = 1;
     draw.other_colors = {draw.color};

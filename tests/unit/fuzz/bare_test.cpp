@@ -103,7 +103,7 @@ TEST(BarePoses, TheirCasesLoadAndAreWrittenAndLoadAgain) {
     EXPECT_GT(made, 6000U);
     EXPECT_EQ(attached, (std::set<std::string>{"color ", "color depth ", "color stencil ",
                                                "color depth stencil ", "depth ", "stencil "}));
-    EXPECT_EQ(sources.size(), 8U) << "seven places that a constant comes from, and inputs";
+    EXPECT_EQ(sources.size(), 9U) << "eight places that a constant comes from, and inputs";
 }
 
 TEST(BarePoses, AFaultlessDevicePassesAtEveryProfile) {
@@ -127,10 +127,11 @@ TEST(BarePoses, AFaultlessDevicePassesAtEveryProfile) {
                     continue;  // nothing to judge
                 }
                 const diff::Verdict by_device = software::compare(*c, expected, device);
-                EXPECT_TRUE(by_device.ok())
-                    << "device, case " << number << " at " << cases::to_string(profile);
+                EXPECT_TRUE(by_device.ok()) << "device, case " << number << " at "
+                                            << cases::to_string(profile) << ", " << pose.text();
                 EXPECT_TRUE(diff::compare(*c, expected, reference).ok())
-                    << "reference, case " << number << " at " << cases::to_string(profile);
+                    << "reference, case " << number << " at " << cases::to_string(profile) << ", "
+                    << pose.text();
                 ++judged;
             }
         }

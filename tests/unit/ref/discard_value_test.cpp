@@ -148,6 +148,36 @@ HitBounds of_flat(float value) {
     return at(expect(c, Limits{}, Profile::vulkan), 2, 2);
 }
 
+// A mask of four columns is read at the value plus 1/2. Where that is less than a step of texel
+// coordinates (1/16, or 1/256 of a texel, so 1/64 or 1/1024) from the middle, either is right.
+TEST(DiscardValue, AMaskDecidesFurtherThanAStepOfItsTexels) {
+    cases::Case c = of_target(4);
+    c.draws[0].positions[1] = value_test::clip_of(8, 0, 0.5, 1, 8);
+    c.draws[0].positions[2] = value_test::clip_of(0, 8, 0.5, 1, 8);
+    c.target.has_instruments = c.target.has_depth = false;
+    c.target.color.emplace();
+    c.draws[0].color.from = cases::ColorFrom::mask;
+    c.draws[0].color.value = glm::vec4(1);
+    for (const Interpolation mode : {Interpolation::smooth, Interpolation::flat}) {
+        for (const Profile profile : cases::kProfiles) {
+            const bool is_wide = profile == Profile::vulkan;
+            for (uint32_t x = 0; x < 7; ++x) {
+                // At the centre of column x: (x - 3.5) / 64, or flat.
+                const float value = (static_cast<float>(x) - 3.5F) / 64;
+                cases::Attribute& a = c.draws[0].attributes[0];
+                a.interpolation = mode;
+                const bool is_flat = mode == Interpolation::flat;
+                a.values = {glm::vec4(is_flat ? value : -4 / 64.0F, 0, 0, 0),
+                            {4 / 64.0F, 0, 0, 0},
+                            {-4 / 64.0F, 0, 0, 0}};
+                const HitBounds hits = at(expect(c, Limits{}, profile), x, 0);
+                EXPECT_EQ(hits.total_min, x >= (is_wide ? 5U : 4U) ? 1U : 0U) << x;
+                EXPECT_EQ(hits.total_max, x >= (is_wide ? 3U : 4U) ? 1U : 0U) << x;
+            }
+        }
+    }
+}
+
 TEST(DiscardValue, FlatValuesAreDecided) {
     for (const float kept : {0.0F, -0.0F, 0x1p-149F, 0x1p-126F, 3.0F}) {
         EXPECT_EQ(of_flat(kept).total_min, 1U) << kept;
