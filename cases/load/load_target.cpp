@@ -153,7 +153,7 @@ void check_frame(LeafContext& context, const TomlValue& table, const Target& tar
         (target.frame == Frame::sampled && !reads_all)) {
         context.error(
             table.find("frame")->where,
-            target.frame == Frame::second
+            target.frame != Frame::sampled
                 ? "frame is of a picture without what counts hits, and of one colour; "
                   "write attachments"
                 : "what is sampled is one rgba8-unorm, a depth but d24-unorm, or both, of "

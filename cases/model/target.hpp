@@ -28,8 +28,9 @@ enum class Resolve : uint8_t { none, sample_zero, average, min, max };
 enum class Attachments : uint8_t { all, color, color_depth, depth, stencil };
 
 // What the picture is: of images that are copied from; of images without transfer usage, which a
-// shader reads; of the second time that the same commands are submitted, with other vertices.
-enum class Frame : uint8_t { copied, sampled, second };
+// shader reads; of the second time that the same commands are submitted, with other vertices; of
+// images that have more columns and rows, other layers and, with one sample, other mip levels.
+enum class Frame : uint8_t { copied, sampled, second, part };
 
 struct Target {
     uint32_t width = 0, height = 0;  // pixels

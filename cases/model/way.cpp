@@ -320,6 +320,13 @@ std::optional<Case> second(const Case& c) {
     return in_frame(Frame::second, c, from<ColorFrom::uniform>(c));
 }
 
+std::optional<Case> part(const Case& c) {
+    return in_frame(Frame::part, c, from<ColorFrom::storage>(c));
+}
+std::optional<Case> depth_part(const Case& c) {
+    return in_frame(Frame::part, c, depth_alone(c));
+}
+
 constexpr std::string_view kColorless = "cases without a colour target";
 constexpr std::string_view kPlain = "cases without a colour target, discards and shader masks";
 constexpr std::string_view kFewSamples =
@@ -381,6 +388,10 @@ constexpr std::array kWays = {
            "One rgba8-unorm colour alone is drawn to; the same commands are submitted a second "
            "time, with other vertices.",
            kPlain, second},
+    WayRow{"bare-color-part",
+           "One rgba8-unorm colour alone is drawn to, a part of one layer and mip level of an "
+           "image.",
+           kPlain, part},
     WayRow{"bare-color-blended",
            "One rgba8-unorm colour alone is drawn to; each draw pushes its colour, which is "
            "blended by alpha.",
@@ -398,6 +409,9 @@ constexpr std::array kWays = {
            "cases of one sample a pixel that write depths, of d32-float or d16-unorm, of up to "
            "131072 samples",
            depth_sampled},
+    WayRow{"bare-depth-part",
+           "Depth alone is attached, a part of one layer and mip level of an image.",
+           "cases that write depths", depth_part},
     WayRow{"bare-stencil",
            "A stencil alone is attached, which counts the fragments of front and back faces.",
            "cases that test no depths", stencil_alone},

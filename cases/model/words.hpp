@@ -112,7 +112,7 @@ inline constexpr WordList<9> kWords<ColorFrom> = {"push-constant",  "constant", 
                                                   "uniform-offset", "storage",  "texture",
                                                   "rendered",       "texels",   "mask"};
 template <>
-inline constexpr WordList<3> kWords<Frame> = {"copied", "sampled", "second"};
+inline constexpr WordList<4> kWords<Frame> = {"copied", "sampled", "second", "part"};
 template <>
 inline constexpr WordList<5> kWords<Attachments> = {"all", "color", "color+depth", "depth",
                                                     "stencil"};
@@ -165,7 +165,7 @@ static_assert(detail::ends_with(Topology::triangle_fan) &&
               detail::ends_with(Source::shading_rate) && detail::ends_with(Probe::lod) &&
               detail::ends_with(BlendFactor::one_minus_src1_alpha) &&
               detail::ends_with(BlendOp::max) && detail::ends_with(LogicOp::set) &&
-              detail::ends_with(ColorFrom::mask) && detail::ends_with(Frame::second) &&
+              detail::ends_with(ColorFrom::mask) && detail::ends_with(Frame::part) &&
               detail::ends_with(Resolve::max) && detail::ends_with(BlitFilter::linear) &&
               detail::ends_with(BlitPattern::ramp) && detail::ends_with(kLastRelationKind));
 

@@ -178,7 +178,8 @@ std::string_view undrawable_part(const cases::Case& c) {
         {!t.sample_locations.empty(), "sample locations of its own"},
         {t.has_operations(), "load and store operations"},
         {t.has_stencil, "a stencil"},
-        {t.frame != cases::Frame::copied, "a picture that is not copied, or of a second frame"},
+        {t.frame != cases::Frame::copied,
+         "a picture that is not copied, of a second frame, or a part of an image"},
         {!t.has_instruments && !t.color, "depth alone"},
         // What a shader reads of them is no code by itself (vk_harness/depth_codes.hpp).
         {t.has_depth && t.depth_format == cases::DepthFormat::d24_unorm && t.samples > 1,

@@ -84,12 +84,15 @@ std::optional<Surroundings::Change> Surroundings::read(std::span<const std::byte
         aspect_ == VK_IMAGE_ASPECT_DEPTH_BIT ? std::min(texel_bytes_, 3U) : texel_bytes_;
     std::optional<Change> found;
     const auto check = [&](const std::byte* texel, const Change& place) {
-        if (std::all_of(texel, texel + held, [](std::byte b) { return b == kSurrounding; })) {
+        const std::byte* other =
+            std::find_if(texel, texel + held, [](std::byte b) { return b != kSurrounding; });
+        if (other == texel + held) {
             return;
         }
         if (!found) {
             found = place;
-            std::memcpy(&found->got, texel, std::min(texel_bytes_, 4U));
+            const std::byte* word = texel + (other - texel) / 4 * 4;
+            std::memcpy(&found->got, word, std::min(texel_bytes_, 4U));
         }
         ++found->changed;
     };

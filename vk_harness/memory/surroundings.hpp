@@ -17,7 +17,7 @@
 namespace vk_harness {
 
 // Larger images are drawn without a look beside the attachment.
-inline constexpr VkDeviceSize kMostSurroundings = 1U << 18;  // bytes of an image and aspect
+inline constexpr VkDeviceSize kMostSurroundings = 1U << 19;  // bytes of an image and aspect
 
 // Every byte of a texel beside an attachment: no clear value has it, and as a depth it is in 0..1.
 inline constexpr std::byte kSurrounding{0x3a};
@@ -45,7 +45,7 @@ class Surroundings {
     // A texel that has changed, the first in the order of levels, layers and rows.
     struct Change {
         uint32_t level = 0, layer = 0, x = 0, y = 0;
-        uint32_t got = 0;      // its first bytes, up to four
+        uint32_t got = 0;      // its word that has changed; less of smaller texels
         uint64_t changed = 0;  // texels
     };
     // The first bytes of a texel that has not changed, up to four.

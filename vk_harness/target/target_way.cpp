@@ -16,6 +16,12 @@ namespace vk_harness {
 ImageWay image_way(const cases::Case& c) {
     ImageWay way;
     way.is_sampled = c.target.frame == cases::Frame::sampled;
+    if (c.target.frame == cases::Frame::part) {
+        way.more_columns = 5;
+        way.more_rows = 3;
+        way.first_layer = way.more_layers = 1;
+        way.level = c.target.samples == 1 ? 1 : 0;  // images of several samples have one level
+    }
     switch (c.variation.door) {
         case cases::Door::target_larger:
             way.more_columns = 29;
