@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A fragment shader as applications have them: it writes one colour that it reads, and nothing else. Defined by the
-// build: FROM, numbered as cases::ColorFrom: 1 specialization constants, 2 a uniform buffer, 3 the same with a dynamic
+// build: FROM, 1 to 5 as cases::ColorFrom: 1 specialization constants, 2 a uniform buffer, 3 the same with a dynamic
 // offset, 4 a storage buffer, 5 a texture, 6 a mask, of which what is transparent is discarded. The layouts are those of
 // PipelineLayouts::colored.
 #version 450

@@ -42,8 +42,11 @@ std::string objection(const Relation& relation, const Case& c) {
         (c.target.has_operations() ||
          any_draw([](const Draw& draw) { return draw.clear.has_value(); }))) {
         return "does not go with a clear among the draws, nor with load and store operations; "
-               "leave "
-               "it out";
+               "leave it out";
+    }
+    if (c.target.has_unknown_contents()) {
+        return "does not go with contents that are not loaded, since each rendering may have other "
+               "ones; leave it out";
     }
     switch (relation.kind) {
         case RelationKind::same_twice:

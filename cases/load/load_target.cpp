@@ -132,6 +132,16 @@ void check_resolves(LeafContext& context, const TomlValue& table, const Target& 
         context.error(table.find("depth_resolve")->where,
                       "depth_resolve needs a depth attachment; leave out attachments");
     }
+    for (const auto& [key, mode, store] :
+         {std::tuple("depth_resolve", target.depth_resolve, target.depth_store),
+          std::tuple("stencil_resolve", target.stencil_resolve, target.stencil_store)}) {
+        if (mode != Resolve::none && store != StoreOp::store) {
+            context.error(table.find(key)->where,
+                          fmt::format("{} is judged by the samples, which are not stored; leave "
+                                      "out one of the two",
+                                      key));
+        }
+    }
     if (target.stencil_resolve != Resolve::none && !target.has_stencil) {
         context.error(table.find("stencil_resolve")->where,
                       "stencil_resolve needs a stencil; write stencil = true");

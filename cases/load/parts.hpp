@@ -26,10 +26,11 @@ void check_fragment_size(LeafContext& context, const TomlValue& table, const Dra
 
 // One [[draw]] table. `index` of the draw, from 0, stands in notes. Mistakes go to the context; the
 // result is then meaningless.
-Draw load_clear(LeafContext& context, const TomlValue& table, const TomlValue& value,
-                const Target& target);  // a [[draw]] with the key `clear`, its table
 Draw load_draw(LeafContext& context, const TomlValue& table, const Target& target, size_t index,
                std::vector<std::string>& notes);
+// A [[draw]] with the key `clear`; `value` is its table.
+Draw load_clear(LeafContext& context, const TomlValue& table, const TomlValue& value,
+                const Target& target);
 
 // The table [blit] of a case whose target has been read: a colour target alone.
 std::optional<Blit> load_blit(LeafContext& context, const TomlValue& table, const Target& target);

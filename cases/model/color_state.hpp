@@ -89,9 +89,9 @@ enum class LogicOp : uint8_t {  // numbered as VkLogicOp
 };
 
 // Where a fragment shader has a colour from that is no attribute. A texture is read at the draw's
-// first attribute, without filtering. It is of one colour, and `rendered` is such an image that an
-// earlier rendering cleared; of `texels` each texel tells where it lies (texels.hpp); of `mask` it
-// is transparent at the left, where the attribute is below 0, and there the shader discards.
+// first attribute, without filtering. Its texels have one colour; `rendered` is such an image,
+// which an earlier rendering cleared. Of `texels` each texel tells where it lies (texels.hpp). A
+// `mask` is transparent at the left, where the attribute is below 0, and there the shader discards.
 enum class ColorFrom : uint8_t {
     push_constant,
     constant,  // a specialization constant

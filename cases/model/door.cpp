@@ -305,8 +305,9 @@ std::vector<std::string> door_words() {
 bool can_take(Door door, const Case& c) {
     // Those that render otherwise have load and store operations of their own.
     const DoorGroup group = row_of(door).group;
-    if (c.target.has_operations() &&
-        (group == DoorGroup::recording || group == DoorGroup::targets)) {
+    if (c.target.has_unknown_contents() ||
+        (c.target.has_operations() &&
+         (group == DoorGroup::recording || group == DoorGroup::targets))) {
         return false;
     }
     return !c.blit && c.target.frame == Frame::copied &&

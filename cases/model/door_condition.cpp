@@ -283,7 +283,8 @@ bool can_be_read_as_input(const Case& c) {
     const Target& t = c.target;
     const bool has_clears = (!t.color || are_handed_on(t.color_at(t.judged_color).clear)) &&
                             (!t.has_depth || is_handed_on(t.depth_clear));
-    return has_one_layer(c) && has_clears && all_draws(c, [&](const Draw& draw) {
+    // Clears are read, too.
+    return has_one_layer(c) && has_clears && std::ranges::all_of(c.draws, [&](const Draw& draw) {
                return (!t.color || are_handed_on(output_at(t, draw, t.judged_color).value)) &&
                       !draw.depth.bias && is_depth_handed_on(draw.frag_depth) &&
                       is_handed_on(draw.viewport.min_depth) &&

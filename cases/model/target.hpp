@@ -62,6 +62,12 @@ struct Target {
                : color         ? (has_depth ? Attachments::color_depth : Attachments::color)
                                : (has_depth ? Attachments::depth : Attachments::stencil);
     }
+    // Whether some aspect begins with contents that nobody knows, other ones in each rendering.
+    bool has_unknown_contents() const {
+        const auto loads = [](const ColorTarget& t) { return t.load == LoadOp::dont_care; };
+        return depth_load == LoadOp::dont_care || stencil_load == LoadOp::dont_care ||
+               (color && loads(*color)) || std::ranges::any_of(other_colors, loads);
+    }
     // Whether some aspect has other operations than to be cleared and stored.
     bool has_operations() const {
         const auto loads = [](const ColorTarget& t) { return t.load != LoadOp::clear; };

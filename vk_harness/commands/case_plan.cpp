@@ -40,15 +40,19 @@ bool is_looked_around(Role role) {
 VkDeviceSize place_surroundings(CasePlan& plan, VkDeviceSize begin) {
     plan.surroundings.clear();
     const cases::Target& target = plan.test->target;
+    const bool is_d24 = target.depth_format == cases::DepthFormat::d24_unorm;
     const auto add = [&](size_t k, VkExtent2D size, VkImageAspectFlags aspect, uint32_t bytes) {
         if (std::optional<Surroundings> around =
-                Surroundings::of(*plan.images[k], size, aspect, bytes)) {
+                Surroundings::of(*plan.images[k], size, aspect, bytes, is_d24)) {
             begin = around->place(begin);
             plan.surroundings.push_back({k, *around});
         }
     };
     for (size_t k = 0; k < plan.images.size(); ++k) {
         const Attachment& a = plan.attachments[k];
+        if (plan.images[k]->alias() != VK_NULL_HANDLE) {
+            continue;  // spoil_aliases() leaves no contents
+        }
         if (is_looked_around(a.role)) {
             add(k, {target.width, target.height}, a.aspect(), a.texel_bytes);
         }

@@ -147,6 +147,7 @@ void query_optional_features(Capabilities& c) {
     query_clip_limits(c.physical, c.limits, c.clip);
     if (c.api_version >= VK_API_VERSION_1_2) {
         query_door_limits(c.physical, c.limits, c.doors);
+        c.doors.dynamic_rasterization = c.doors.dynamic_rasterization && c.depth_clip_enable;
     }
     c.doors.geometry = c.info.has_primitive_id;  // the same feature
     c.doors.feedback = c.clip.feedback_keeps_order =

@@ -28,6 +28,9 @@ std::optional<std::string> missing_clip_support(const ClipSupport& support, cons
                      c.variation.door == cases::Door::transform_feedback;
     bool has_last = false;
     for (const cases::Draw& draw : c.draws) {
+        if (draw.clear) {
+            continue;
+        }
         const cases::ClipDistances& d = draw.distances;
         if (d.clip_count > 0 && support.max_clip == 0) {
             return "the device lacks the feature shaderClipDistance";

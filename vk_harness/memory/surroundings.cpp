@@ -16,7 +16,8 @@ VkExtent2D size_of_level(const ImageWhole& whole, uint32_t level) {
 }  // namespace
 
 std::optional<Surroundings> Surroundings::of(const Image& image, VkExtent2D size,
-                                             VkImageAspectFlags aspect, uint32_t texel_bytes) {
+                                             VkImageAspectFlags aspect, uint32_t texel_bytes,
+                                             bool is_d24) {
     const ImageWhole& whole = image.whole();
     if (!whole.is_copied) {
         return std::nullopt;
@@ -26,6 +27,7 @@ std::optional<Surroundings> Surroundings::of(const Image& image, VkExtent2D size
     out.inside_ = {whole.origin, size};
     out.aspect_ = aspect;
     out.texel_bytes_ = texel_bytes;
+    out.held_bytes_ = is_d24 && aspect == VK_IMAGE_ASPECT_DEPTH_BIT ? 3 : texel_bytes;
     for (const VkBufferImageCopy& region : out.regions()) {
         out.bytes_ = region.bufferOffset + VkDeviceSize{region.imageExtent.width} *
                                                region.imageExtent.height * whole.layers *
@@ -79,14 +81,11 @@ void Surroundings::record_copy(const Device& device, VkCommandBuffer commands,
 
 std::optional<Surroundings::Change> Surroundings::read(std::span<const std::byte> memory) const {
     const VkImageSubresourceRange& drawn = image_->range();
-    // The last byte of a 24-bit depth has no value ("Copying Data Between Buffers and Images").
-    const size_t held =
-        aspect_ == VK_IMAGE_ASPECT_DEPTH_BIT ? std::min(texel_bytes_, 3U) : texel_bytes_;
     std::optional<Change> found;
     const auto check = [&](const std::byte* texel, const Change& place) {
         const std::byte* other =
-            std::find_if(texel, texel + held, [](std::byte b) { return b != kSurrounding; });
-        if (other == texel + held) {
+            std::find_if(texel, texel + held_bytes_, [](std::byte b) { return b != kSurrounding; });
+        if (other == texel + held_bytes_) {
             return;
         }
         if (!found) {

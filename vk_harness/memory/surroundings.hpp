@@ -19,17 +19,19 @@ namespace vk_harness {
 // Larger images are drawn without a look beside the attachment.
 inline constexpr VkDeviceSize kMostSurroundings = 1U << 19;  // bytes of an image and aspect
 
-// Every byte of a texel beside an attachment: no clear value has it, and as a depth it is in 0..1.
+// Every byte of a texel beside an attachment: no clear value of the suite has it, and as a depth it
+// is in 0..1.
 inline constexpr std::byte kSurrounding{0x3a};
 
 // The texels beside one aspect of an attachment of `size` pixels, read back behind the drawing.
 class Surroundings {
   public:
-    // No size: of an aspect that is not drawn to. `texel_bytes` as they are copied. Nothing if the
-    // image is the attachment's alone, its texels cannot be copied from and to buffers, or there
-    // are too many.
+    // No size: of an aspect that is not drawn to. `is_d24`: so is the depth, if that is the aspect.
+    // `texel_bytes` as they are copied. Nothing if the image is the attachment's alone, its texels
+    // cannot be copied from and to buffers, or there are too many.
     static std::optional<Surroundings> of(const Image& image, VkExtent2D size,
-                                          VkImageAspectFlags aspect, uint32_t texel_bytes);
+                                          VkImageAspectFlags aspect, uint32_t texel_bytes,
+                                          bool is_d24);
 
     // Bytes that each level's texels take in a buffer, all layers one after the other.
     VkDeviceSize bytes() const { return bytes_; }
@@ -61,6 +63,9 @@ class Surroundings {
     VkRect2D inside_{};  // of the attachment's level
     VkImageAspectFlags aspect_ = 0;
     uint32_t texel_bytes_ = 0;
+    // Bytes of a texel that have a value: not the last one of a 24-bit depth ("Copying Data Between
+    // Buffers and Images").
+    uint32_t held_bytes_ = 0;
     VkDeviceSize bytes_ = 0, begin_ = 0;
 };
 
