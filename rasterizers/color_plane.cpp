@@ -23,7 +23,16 @@ void add_color_plane(capture::Capture& capture, const cases::Case& c,
     ref::ColorReference reference(c, expectation);
     for (size_t index = 0; index < n; ++index) {
         const auto hits = static_cast<uint32_t>(capture.hits[index].x + capture.hits[index].y);
+        const ref::SampleExpectation& sample = expectation.samples[index];
+        const cases::SampleId id = cases::sample_at(c.target, index);
         if (hits == 0) {
+            // A clear among the draws leaves a colour without a hit.
+            if (std::ranges::any_of(expectation.fragments_of(sample),
+                                    &ref::path::Fragment::is_clear)) {
+                ref::ColorWitness none;
+                none.paths.hits = {ref::path::SeenHits::Detail::total, 0, 0};
+                capture.color[index] = reference.codes(index, id, none);
+            }
             continue;
         }
         const capture::Writer& writer = capture.writers[index];
@@ -31,7 +40,6 @@ void add_color_plane(capture::Capture& capture, const cases::Case& c,
             const cases::Triangle& triangle = expectation.triangles[t];
             return triangle.draw == writer.draw && triangle.primitive == writer.primitive;
         };
-        const ref::SampleExpectation& sample = expectation.samples[index];
         ref::ColorWitness witness;
         witness.paths.hits = {ref::path::SeenHits::Detail::total, hits, 0};
         for (const ref::path::Fragment& f : expectation.fragments_of(sample)) {
@@ -45,7 +53,6 @@ void add_color_plane(capture::Capture& capture, const cases::Case& c,
         if (!is_known) {
             continue;
         }
-        const cases::SampleId id = cases::sample_at(c.target, index);
         const auto path = shown.find(index);
         capture.color[index] = path != shown.end()
                                    ? reference.codes_after(path->second, id, witness)

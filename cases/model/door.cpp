@@ -153,7 +153,8 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
      "is written."},
     {Door::state_rasterization, "state-rasterization", kState, kRight, rule::door_state,
      "How triangles are rasterized is dynamic: the number of samples and their mask, the polygon "
-     "mode, clamping and clipping of depth, the provoking vertex; the pipeline has others."},
+     "mode, clamping and clipping of depth, the provoking vertex; the pipeline has an empty mask, "
+     "clips depth and takes the first vertex."},
     {Door::state_unused, "state-unused", kState, kRight, rule::door_state,
      "State is on that changes nothing: a bias of 0, restart without an index that restarts, tests "
      "that fail and have no attachment to test, blending by ONE and ZERO, logical operations that "

@@ -99,6 +99,10 @@ Pose bare_pose(uint64_t seed, uint64_t number, size_t candidate) {
         pose.set("bare-format", common.one_in(2) ? 0 : value_of("bare-format", 1, common));
     }
     set_geometry(pose, common);
+    if ((pose.is("way", "bare-color-texels") || pose.is("way", "bare-color-mask")) &&
+        pose.is("size", "large")) {
+        pose.set("size", 0);  // such ways take few samples
+    }
     const Attached attached = attach(pose, common);
     Dice dice(seed, kPoseStream, number * 4096 + candidate);
     uint64_t states = 0;

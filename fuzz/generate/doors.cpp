@@ -86,9 +86,14 @@ std::string through_doors(std::string text, Dice dice) {
             words.push_back(word);
         }
     };
+    // A door that came after the measurement of hunts (tests/hunt) is asked at the end, so that
+    // other cases keep their doors.
+    constexpr cases::Door kLater = cases::Door::state_rasterization;
     for (uint64_t k = 0; k < 2; ++k) {
         const std::span<const cases::DoorRow> rows = cases::all_doors();
-        add(rows[dice.below(rows.size())]);
+        const uint64_t number = dice.below(rows.size() - 1);
+        const auto later = static_cast<uint64_t>(&cases::row_of(kLater) - rows.data());
+        add(rows[number + (number >= later ? 1 : 0)]);
     }
     std::vector<cases::Door> suited;
     for (const auto& [door, suits] : kSuited) {
@@ -98,6 +103,9 @@ std::string through_doors(std::string text, Dice dice) {
     }
     if (!suited.empty() && dice.one_in(2)) {
         add(cases::row_of(suited[dice.below(suited.size())]));
+    }
+    if (dice.one_in(8)) {
+        add(cases::row_of(kLater));
     }
     if (!words.empty()) {
         text.insert(text.find("\n[target]"),

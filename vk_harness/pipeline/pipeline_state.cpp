@@ -155,9 +155,6 @@ MultisampleState::MultisampleState(const PipelineKey& key) {
     if (key.outputs_are_dynamic) {
         sample_mask = 0;
     }
-    if (key.rasterization_is_dynamic && places.empty()) {
-        info.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
-    }
 }
 
 VkPipelineDepthStencilStateCreateInfo depth_state(const PipelineKey& key) {
