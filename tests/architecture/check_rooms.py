@@ -366,7 +366,7 @@ PLANTED = {
             "run/judge.cpp",
             "void copy(A& a, const A& b) {\n"
             + "".join(f"    a.{n} = b.{n};\n" for n in ("hits", "writers", "frag_coord", "depth", "color", "stencil",
-                                                       "resolved_color", "resolved_depth"))
+                                                       "resolved_color", "resolved_depth", "resolved_stencil"))
             + "}\n",
         ),
         ["lists the planes of a capture a second time"],

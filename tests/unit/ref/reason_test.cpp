@@ -321,6 +321,18 @@ bool decides(const cases::Case& c, const TriangleExplanation& t, Profile profile
              cases::SampleId at) {
     const Reasons& reasons = t.decision.reasons;
     const cases::Draw& draw = c.draws[t.triangle.draw];
+    if (draw.clear) {
+        const cases::Clear& clear = *draw.clear;
+        const cases::Rect& r = clear.rects.at(t.triangle.primitive / clear.layers);
+        const int64_t column = int64_t{at.x} - r.x, row = int64_t{at.y} - r.y;
+        const bool is_beside = column < 0 || column >= r.width || row < 0 || row >= r.height;
+        const bool is_elsewhere = draw.layer + t.triangle.primitive % clear.layers != at.layer;
+        const bool is_cleared = !is_beside && !is_elsewhere;
+        return (t.decision.coverage == Coverage::must) == is_cleared &&
+               t.has(ReasonKind::cleared) == is_cleared &&
+               (is_cleared || (is_beside && t.has(ReasonKind::beside_clear)) ||
+                (is_elsewhere && t.has(ReasonKind::other_layer)));
+    }
     // Another triangle faces as this one does, or as none is culled.
     const Facing facing = t.facing != Facing::depends           ? t.facing
                           : draw.cull == cases::CullMode::front ? Facing::back

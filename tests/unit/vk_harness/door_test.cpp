@@ -37,6 +37,7 @@ TEST(DoorSupport, EveryNeedIsAskedFor) {
                           .multi_indirect = true,
                           .multi_draw = true,
                           .dynamic_outputs = true,
+                          .dynamic_rasterization = true,
                           .library = true,
                           .multiview = true,
                           .geometry = true,
