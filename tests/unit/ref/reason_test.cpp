@@ -328,7 +328,8 @@ bool decides(const cases::Case& c, const TriangleExplanation& t, Profile profile
         const bool is_beside = column < 0 || column >= r.width || row < 0 || row >= r.height;
         const bool is_elsewhere = draw.layer + t.triangle.primitive % clear.layers != at.layer;
         const bool is_cleared = !is_beside && !is_elsewhere;
-        return (t.decision.coverage == Coverage::must) == is_cleared &&
+        // It makes no hit.
+        return t.decision.coverage == Coverage::must_not &&
                t.has(ReasonKind::cleared) == is_cleared &&
                (is_cleared || (is_beside && t.has(ReasonKind::beside_clear)) ||
                 (is_elsewhere && t.has(ReasonKind::other_layer)));
@@ -435,7 +436,9 @@ class LeafReasons {
         const TriangleSetup setup = ref::set_up(case_, t.triangle, Limits{}, profile_, boxes,
                                                 window_of(case_, draw, profile_));
         const bool is_discarded_late = t.fate && t.fate->is_discarded && !t.fate->passes;
-        const bool is_drawn = draw.layer == at.layer && setup.window.may_write(at.sample) &&
+        const uint32_t layer =
+            draw.layer + (draw.clear ? t.triangle.primitive % draw.clear->layers : 0);
+        const bool is_drawn = layer == at.layer && setup.window.may_write(at.sample) &&
                               !cases::takes_away_pixel(draw, at.x, at.y) && !is_discarded_late;
         const FixedPoint p = sample_position(at.x, at.y, at.sample, case_.target);
         Coverage fast = is_drawn ? fast::classify(setup, p) : Coverage::must_not;
