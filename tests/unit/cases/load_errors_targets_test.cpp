@@ -66,6 +66,14 @@ stencil = true
 stencil_resolve = "average")~"),
      R"~(f:8:19: error: Vulkan has no average of stencils; write sample-zero, min or max)~"},
     {target(R"~(size = [8, 8]
+samples = 4
+depth_resolve = "min"
+depth_store = "dont-care")~"),
+     R"~(f:7:17: error: depth_resolve is judged by the samples, which are not stored; leave out one of the two)~"},
+    {"relations = [\"same-twice\"]\n" + target(R"~(size = [8, 8]
+depth_load = "dont-care")~"),
+     R"~(f:1:14: error: the relation same-twice does not go with contents that are not loaded, since each rendering may have other ones; leave it out)~"},
+    {target(R"~(size = [8, 8]
 stencil = true
 stencil_resolve = "max")~"),
      R"~(f:7:19: error: stencil_resolve needs several samples; write samples = 4)~"},
