@@ -102,6 +102,13 @@ bool has_format_of(const Facts& facts, const Entry& entry) {
            (facts.format == entry.facts.format || entry.other_formats.contains(*facts.format));
 }
 
+// What a case needs to belong to an entry. Whatever a driver that ends was about to draw is chance.
+Essentials needed_by(const Entry& entry) {
+    Essentials special = special_of(entry);
+    return entry.symptom.status == Status::fail || special.empty() ? entry.essentials
+                                                                   : std::move(special);
+}
+
 // Essentials, and those of simpler cases that show as much: colours beside depth are colours.
 Essentials with_implied(Essentials essentials) {
     if (essentials.contains(key("attachments", "color+depth"))) {
@@ -125,7 +132,7 @@ bool explains(const Entry& entry, const Symptom& symptom, const Facts& facts) {
     if (!special_of(entry).empty() && all.contains(key("draw.color.attribute"))) {
         all.insert(key("draw.color.value"));  // what writes the colour is not what is special
     }
-    if (!is_within(entry.essentials, all)) {
+    if (!is_within(needed_by(entry), all)) {
         return false;
     }
     if (symptom.status != Status::fail || entry.symptom.status != Status::fail) {
@@ -234,6 +241,17 @@ bool is_of_stored(const Entry& earlier, const Entry& fresh) {
     }
     return is_of_rounding(earlier) && fresh.symptom.level == cases::Profile::direct3d &&
            earlier.facts.format == fresh.facts.format;
+}
+
+// Whether an earlier entry has wrong depths by something special, and a fresh one that needs it,
+// too, shows them in a test of depth, or in what the test lets through.
+bool is_of_depth(const Entry& earlier, const Entry& fresh) {
+    constexpr std::array<std::string_view, 4> kShown = {
+        "depth.compare", "depth.bounds", "stencil.depth-outcome", "write.consistent"};
+    const Essentials special = special_of(earlier);
+    return is_value(earlier.symptom) && earlier.symptom.rule.starts_with("depth.") &&
+           std::ranges::find(kShown, fresh.symptom.rule) != kShown.end() && !special.empty() &&
+           fresh.symptom.level >= earlier.symptom.level && is_within(special, special_of(fresh));
 }
 
 // Whether a key is of a test that leaves some samples of a fragment: depth, stencil, masks,
@@ -353,7 +371,7 @@ bool is_same_cause(const Entry& earlier, const Entry& fresh) {
         return false;
     }
     if (fresh.symptom.status != Status::fail) {
-        return earlier.essentials == fresh.essentials;
+        return is_within(needed_by(earlier), fresh.essentials);
     }
     if (is_of_rounding(earlier) && is_of_rounding(fresh) &&
         earlier.facts.format != fresh.facts.format) {
@@ -365,7 +383,7 @@ bool is_same_cause(const Entry& earlier, const Entry& fresh) {
                                 earlier.symptom.level <= fresh.symptom.level;
     if (is_consequence(earlier, fresh) || is_of_value(earlier, fresh) ||
         is_of_stored(earlier, fresh) || is_of_overflow || is_discard_by_place(earlier, fresh) ||
-        is_of_stencil_beside(earlier, fresh)) {
+        is_of_stencil_beside(earlier, fresh) || is_of_depth(earlier, fresh)) {
         return true;
     }
     // What is gravest in the fresh one's own reduced case is the earlier one's: what else is wrong
@@ -398,8 +416,13 @@ bool is_same_cause(const Entry& earlier, const Entry& fresh) {
     const bool are_grave =
         std::max(earlier.symptom.level, fresh.symptom.level) <= cases::Profile::practice;
     const Essentials keys = without(fresh.essentials, kNumbers);
+    // What writes a colour decides no hit.
+    static const Essentials kWritten = {key("color.clear"), key("draw.attribute"),
+                                        key("draw.color.value")};
+    const Essentials chance = is_value(fresh.symptom) ? Essentials() : kWritten;
     return (are_grave || earlier.symptom.level == fresh.symptom.level) &&
-           without(earlier.essentials, kNumbers) == keys && !without(keys, kSamples).empty();
+           without(without(earlier.essentials, kNumbers), chance) == without(keys, chance) &&
+           !without(keys, kSamples).empty();
 }
 
 void merge(Entry& earlier, Entry fresh) {

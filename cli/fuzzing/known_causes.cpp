@@ -30,8 +30,8 @@ constexpr size_t kMostRounds = 200;  // of one reduction
 constexpr size_t kMostDeaths = 1;    // cases of one line that are drawn to see a crash or a hang
 
 bool is_known_failure(Status status) {
-    return status == Status::fail || status == Status::crash || status == Status::timeout ||
-           status == Status::device_lost;
+    return status == Status::fail || status == Status::flake || status == Status::crash ||
+           status == Status::timeout || status == Status::device_lost;
 }
 
 }  // namespace
@@ -71,7 +71,7 @@ ExpectedFailures expected_failures(const Program& program, const RunOptions& opt
     std::erase_if(lines, [&](const auto& named) {
         const run::ExpectationLine& line = named.second;
         return !is_known_failure(line.status) || line.is_past ||
-               (line.status != Status::fail &&
+               (line.status != Status::fail && line.status != Status::flake &&
                 ++deaths[line.where.file + ":" + std::to_string(line.where.line)] > kMostDeaths);
     });
     if (lines.empty()) {

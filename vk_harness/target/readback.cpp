@@ -14,6 +14,22 @@ namespace vk_harness {
 
 namespace {
 
+// Whether `bytes` of texels were never copied: all hold the poison. A texel of less than a poison
+// may hold what a part of that is, and a few may do so by chance: they count as copied.
+bool is_poison(std::span<const std::byte> from, size_t bytes) {
+    constexpr size_t kFew = 16;
+    constexpr auto kBytes = std::bit_cast<std::array<std::byte, 4>>(capture::kPoison);
+    if (bytes < kFew) {
+        return false;
+    }
+    for (size_t k = 0; k < bytes; ++k) {
+        if (from[k] != kBytes[k % kBytes.size()]) {
+            return false;
+        }
+    }
+    return true;
+}
+
 // Depth as the capture holds it (capture/capture.hpp). Copied texels of D16 are 2 bytes and of
 // X8_D24 the low 24 bits of a word; with words a shader has written binary32, which of D24 is left
 // to DepthCodes.
@@ -43,10 +59,8 @@ void decode_depth(const cases::Target& target, bool has_words, std::span<const s
         });
         return;
     }
-    // Half of the poison is a code like any other; a copy that never happened leaves it everywhere.
     const auto* halves = reinterpret_cast<const uint16_t*>(from.data());
-    const bool is_copied = !std::all_of(words, words + (count + 1) / 2,
-                                        [](uint32_t word) { return word == capture::kPoison; });
+    const bool is_copied = !is_poison(from, count * sizeof(uint16_t));
     std::transform(halves, halves + count, to, [&](uint16_t code) {
         return is_copied ? cases::depth_of_code(code, cases::DepthFormat::d16_unorm) : poison_float;
     });
@@ -161,9 +175,7 @@ void widen(const Words& first, const Words& second, size_t count, const VkClearV
     }
 }
 
-// Stencil as the capture holds it: copied texels are bytes, or a shader has written words. A
-// quarter of the poison is a stencil like any other; a copy that never happened leaves it
-// everywhere.
+// Stencil as the capture holds it: copied texels are bytes, or a shader has written words.
 void decode_stencil(const cases::Target& target, bool has_words, std::span<const std::byte> from,
                     uint32_t* to) {
     const size_t count = size_t{target.width} * target.rows() * target.samples;
@@ -172,8 +184,7 @@ void decode_stencil(const cases::Target& target, bool has_words, std::span<const
         std::copy(words, words + count, to);
         return;
     }
-    const bool is_copied = !std::all_of(words, words + (count + 3) / 4,
-                                        [](uint32_t word) { return word == capture::kPoison; });
+    const bool is_copied = !is_poison(from, count);
     std::transform(
         from.begin(), from.begin() + static_cast<ptrdiff_t>(count), to,
         [&](std::byte b) { return is_copied ? std::to_integer<uint32_t>(b) : capture::kPoison; });
@@ -271,26 +282,19 @@ std::pair<uint32_t, uint32_t> decode_packed_id(uint32_t bits, uint32_t draws) {
     return {id % draws, row == 0 ? capture::kNoPrimitive : row - 2};
 }
 
-capture::ColorCodes decode_texel(cases::ColorFormat format, const std::byte* texel,
-                                 uint32_t bytes) {
+void decode_texels(cases::ColorFormat format, std::span<const std::byte> from, uint32_t step,
+                   std::span<capture::ColorCodes> to) {
     constexpr capture::ColorCodes kPoisonWords = {capture::kPoison, capture::kPoison,
                                                   capture::kPoison, capture::kPoison};
-    return std::memcmp(texel, kPoisonWords.data(), bytes) == 0 ? kPoisonWords
-                                                               : cases::decode_texel(format, texel);
-}
-
-namespace {
-
-void decode_color(const cases::Target& target, const Attachment& attachment,
-                  const std::byte* memory, capture::ColorCodes* to) {
-    const size_t count = size_t{target.width} * target.rows() * target.samples;
-    const uint32_t step = attachment.copied_bytes(target.samples);
-    for (size_t k = 0; k < count; ++k) {
-        to[k] = decode_texel(target.color->format, memory + k * step, step);
+    // Colours of 32 bits are many enough for one to be the poison.
+    const bool is_wide = step >= 2 * sizeof(uint32_t);
+    const bool is_lost = is_poison(from, to.size() * step);
+    for (size_t k = 0; k < to.size(); ++k) {
+        const std::byte* texel = from.data() + k * step;
+        const bool is_lost_alone = is_wide && std::memcmp(texel, kPoisonWords.data(), step) == 0;
+        to[k] = is_lost || is_lost_alone ? kPoisonWords : cases::decode_texel(format, texel);
     }
 }
-
-}  // namespace
 
 namespace {
 
@@ -368,22 +372,27 @@ void read_planes(const std::vector<Attachment>& attachments, const ReadbackLayou
             case Role::other_color:
                 break;
             case Role::color:
-                decode_color(shape, attachment, from.data(), to.color.data());
+                decode_texels(shape.color->format, from, attachment.copied_bytes(shape.samples),
+                              to.color.first(count));
+                if (attachment.store == cases::StoreOp::dont_care) {
+                    std::ranges::fill(to.color, capture::ColorCodes{});
+                }
                 break;
             case Role::depth:
                 decode_depth(shape, has_words, from, to.depth.data());
-                if (attachment.store != cases::StoreOp::store) {  // each copy has other bits
+                if (attachment.store == cases::StoreOp::dont_care) {  // each copy has other bits
                     std::ranges::fill(to.depth, to.target.depth_clear);
                 }
                 break;
             case Role::stencil:
                 decode_stencil(shape, has_words, from, to.stencil.data());
-                if (attachment.store != cases::StoreOp::store) {
+                if (attachment.store == cases::StoreOp::dont_care) {
                     std::ranges::fill(to.stencil, to.target.stencil_clear);
                 }
                 break;
             case Role::resolved_color:
-                decode_color(shape, attachment, from.data(), to.resolved_color.data());
+                decode_texels(shape.color->format, from, attachment.copied_bytes(shape.samples),
+                              to.resolved_color.first(count));
                 break;
             case Role::resolved_depth:
                 decode_depth(shape, has_words, from, to.resolved_depth.data());

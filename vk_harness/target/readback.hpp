@@ -34,9 +34,10 @@ void poison(std::span<std::byte> memory);
 void read_planes(const std::vector<Attachment>& attachments, const ReadbackLayout& layout,
                  std::span<const std::byte> memory, const capture::PlaneSpans& to);
 
-// The stored codes of one texel of the colour target, `bytes` (2, 4, 8 or 16) long; kPoison four
-// times if its bytes are those of the fill pattern.
-capture::ColorCodes decode_texel(cases::ColorFormat format, const std::byte* texel, uint32_t bytes);
+// The stored codes of texels of the colour target, each of `step` bytes (1 to 16) from one to the
+// next; kPoison four times if all of them are the fill pattern's, or one of 8 bytes or more is.
+void decode_texels(cases::ColorFormat format, std::span<const std::byte> from, uint32_t step,
+                   std::span<capture::ColorCodes> to);
 
 // The hits plane's sample of an alpha (attachments.hpp): front and back hits with their guards, as
 // capture/capture.hpp says. Poison stays poison; what no number of hits makes of a clear value gets

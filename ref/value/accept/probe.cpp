@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include "ref/value/fragment/shading_rate.hpp"
 
@@ -196,13 +198,21 @@ class Prober {
         return points;
     }
 
+    // The same for all differences of all quads that a pixel's value is in.
+    const Accepted<T>& at_pixel(const Quantity& q, uint32_t plane,
+                                const std::array<int, 2>& step) const {
+        const auto [pixel, is_new] = pixels_.try_emplace({plane, step});
+        if (is_new) {
+            pixel->second = at(q, plane, points_of(q, step));
+        }
+        return pixel->second;
+    }
+
     std::vector<Accepted<T>> along(const Quantity& q, uint32_t plane, const Quad& quad, int axis,
                                    bool is_coarse) const {
         std::vector<Accepted<T>> out;
         for (const Difference& d : differences_of(quad, axis, is_coarse)) {
-            const auto plus = points_of(q, d.plus);
-            const auto minus = points_of(q, d.minus);
-            out.push_back(difference(at(q, plane, plus), at(q, plane, minus)));
+            out.push_back(difference(at_pixel(q, plane, d.plus), at_pixel(q, plane, d.minus)));
         }
         return out;
     }
@@ -282,6 +292,8 @@ class Prober {
     const Evaluation<T>& where_;
     const ProbePlace& place_;
     bool shades_some_samples_;
+    // By plane and by what is added to the pixel's place.
+    mutable std::map<std::pair<uint32_t, std::array<int, 2>>, Accepted<T>> pixels_;
 };
 
 // Whether the arrangement of the quad matters to any of the probes, and whether plain derivatives

@@ -548,6 +548,35 @@ TEST(SameCause, DeathsAreOfTheSameSignal) {
     EXPECT_FALSE(is_same_cause(crash, entry("extra of cover.outside [vulkan]", {"draw.scissor"})));
 }
 
+TEST(SameCause, WhatADeadDriverWasAboutToDrawIsChance) {
+    const Entry crash = entry("crash by SIGSEGV", {"color", "draw.color.value", "draw.scissor"});
+    const Entry fresh = entry("crash by SIGSEGV", {"draw.scissor", "several draws"});
+    EXPECT_TRUE(is_same_cause(crash, fresh));
+    EXPECT_FALSE(is_same_cause(crash, entry("crash by SIGSEGV", {"color", "draw.color.value"})));
+}
+
+TEST(SameCause, TestsShowAWrongDepth) {
+    const Entry depth = entry("value of depth.linear [vulkan]",
+                              {"draw.depth.bias.representation=float", "several draws"});
+    const auto shown = [](const char* symptom) {
+        return entry(symptom, {"draw.depth.bias.representation=float", "draw.depth.compare"});
+    };
+    EXPECT_TRUE(is_same_cause(depth, shown("extra of depth.compare [practice]")));
+    EXPECT_TRUE(is_same_cause(depth, shown("value of write.consistent [vulkan]")));
+    EXPECT_FALSE(is_same_cause(depth, shown("extra of cover.outside [vulkan]")));
+    EXPECT_FALSE(
+        is_same_cause(depth, entry("extra of depth.compare [vulkan]", {"draw.depth.compare"})));
+}
+
+TEST(SameCause, WhatWritesAColorDecidesNoHit) {
+    const Entry known = entry("missing of cover.inside [vulkan]",
+                              {"attachments=color", "color", "draw.color.value"});
+    EXPECT_TRUE(is_same_cause(
+        known, entry("missing of cover.shared-edge [vulkan]", {"attachments=color", "color"})));
+    EXPECT_FALSE(is_same_cause(known, entry("missing of cover.shared-edge [vulkan]",
+                                            {"attachments=color", "color", "draw.cull=back"})));
+}
+
 TEST(Merge, KeepsTheGraverCase) {
     Entry earlier = entry("value of depth.linear [practice]", {"thin triangle"});
     earlier.file = "found/001-depth.linear.toml";

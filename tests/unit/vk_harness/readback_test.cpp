@@ -176,10 +176,34 @@ TEST(Attachments, WithoutInstrumentsOnlyColourAndDepthAreLeft) {
     EXPECT_EQ(attachment_bytes(c.target, attachments_of(c)), 3U * 5 * 4);
 }
 
+// A byte of the fill pattern is a code like any other; a plane that is all of it was not copied.
+TEST(DecodeTexel, TheFillPatternIsAColorWhereOthersAreCopied) {
+    std::array<uint32_t, 8> words;
+    words.fill(capture::kPoison);
+    const auto bytes = std::as_writable_bytes(std::span(words));
+    std::vector<capture::ColorCodes> out(32);
+    const auto poison = [&] {
+        const uint32_t p = capture::kPoison;
+        return std::ranges::count(out, capture::ColorCodes{p, p, p, p});
+    };
+    decode_texels(cases::ColorFormat::r8_unorm, bytes, 1, out);
+    EXPECT_EQ(poison(), 32);
+    bytes[7] = std::byte{1};
+    decode_texels(cases::ColorFormat::r8_unorm, bytes, 1, out);
+    EXPECT_EQ(poison(), 0);
+    EXPECT_EQ(out[0], (capture::ColorCodes{0xad, 0, 0, 0}));
+    out.resize(1);  // of a target of one pixel nobody can tell
+    bytes[7] = bytes[3];
+    decode_texels(cases::ColorFormat::r8_unorm, bytes, 1, out);
+    EXPECT_EQ(out[0], (capture::ColorCodes{0xad, 0, 0, 0}));
+}
+
 TEST(DecodeTexel, ComponentsInTheOrderOfTheFormat) {
     const auto decode = [](cases::ColorFormat format, std::array<uint32_t, 4> words,
                            uint32_t bytes) {
-        return decode_texel(format, reinterpret_cast<const std::byte*>(words.data()), bytes);
+        capture::ColorCodes out{};
+        decode_texels(format, std::as_bytes(std::span(words)), bytes, {&out, 1});
+        return out;
     };
     using F = cases::ColorFormat;
     using Codes = capture::ColorCodes;
@@ -200,7 +224,10 @@ TEST(DecodeTexel, ComponentsInTheOrderOfTheFormat) {
     EXPECT_EQ(decode(F::r32_uint, {5}, 4), (Codes{5, 0, 0, 0}));
     const Codes poison = {capture::kPoison, capture::kPoison, capture::kPoison, capture::kPoison};
     for (uint32_t f = 0; f <= static_cast<uint32_t>(cases::kLastColorFormat); ++f) {
-        EXPECT_EQ(decode(static_cast<F>(f), poison, 4), poison) << f;
+        const auto bytes = static_cast<uint32_t>(cases::bytes_of(static_cast<F>(f)));
+        std::vector<Codes> out(sizeof(Codes) / bytes);
+        decode_texels(static_cast<F>(f), std::as_bytes(std::span(poison)), bytes, out);
+        EXPECT_EQ(out, std::vector<Codes>(out.size(), poison)) << f;
     }
 }
 
@@ -234,11 +261,11 @@ TEST(ReadCapture, TakesEveryAttachmentFromItsPlace) {
     put(layout.offset[0], {0, 1, 2, kNoHits + 3 + kBackHit, 3, -2, 5, kNoHits + 2 * kBackHit});
     put(layout.offset[1], {9, 10, 11, 12});  // the second sample is not copied
     put(layout.offset[2], {13, 14, 15, 16, 17, 18, 19, 20});
-    memory[layout.offset[3] + 4] = std::byte{99};
+    memory[layout.offset[3] + 4] = std::byte{99};  // the first sample is the poison
     put(layout.offset[4], {0.25F, 0.75F});
     const capture::Capture capture = read_capture(c.target, attachments, true, layout, memory);
     EXPECT_TRUE(capture::has_all_planes(capture));
-    EXPECT_EQ(capture.color[0][0], capture::kPoison);
+    EXPECT_EQ(capture.color[0], (capture::ColorCodes{0xad, 0xdb, 0xba, 0xff}));
     EXPECT_EQ(capture.color[1], (capture::ColorCodes{99, 0xdb, 0xba, 0xff}));
     // The same into planes one after the other.
     std::vector<glm::vec4> planes(capture::plane_bytes(c.target, 1) / sizeof(glm::vec4) + 1);
