@@ -15,9 +15,10 @@ bool Delivery::has_values() const {
 
 Delivery delivery_of(const cases::Case& c) {
     Delivery out;
-    out.has_color = c.target.color.has_value();
-    out.has_stencil = c.target.has_stencil && c.target.stencil_store == cases::StoreOp::store;
-    out.values.depth = c.target.has_depth && c.target.depth_store == cases::StoreOp::store;
+    constexpr auto kLost = cases::StoreOp::dont_care;
+    out.has_color = c.target.color && c.target.color->store != kLost;
+    out.has_stencil = c.target.has_stencil && c.target.stencil_store != kLost;
+    out.values.depth = c.target.has_depth && c.target.depth_store != kLost;
     if (!c.target.has_instruments) {
         out = {false,         capture::HitDetail::none, false, {false, out.values.depth, {}},
                out.has_color, out.has_stencil};

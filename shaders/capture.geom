@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Hands on each triangle as it came. Defined by the build as for capture.vert, whose outputs it takes and has.
+// Hands on each triangle as it came, or as the second one of a strip whose first has no area. Defined by the build as for capture.vert, whose outputs it takes and has.
 #version 450
 layout(triangles) in;
-layout(triangle_strip, max_vertices = 3) out;
+layout(triangle_strip, max_vertices = 4) out;
+// 0: alone. In a strip: 1 if the first vertex provokes, 2 if the last does.
+layout(constant_id = 0) const uint kStrip = 0;
 
 in gl_PerVertex {
     vec4 gl_Position;
@@ -56,41 +58,58 @@ layout(location = 4) in vec4 in_attribute3[];
 layout(location = 4) out vec4 out_attribute3;
 #endif
 
-void main() {
-    for (int k = 0; k < 3; ++k) {
-        gl_Position = gl_in[k].gl_Position;
+void emit(int k) {
+    gl_Position = gl_in[k].gl_Position;
 #if CLIP
-        for (int d = 0; d < CLIP; ++d) {
-            gl_ClipDistance[d] = gl_in[k].gl_ClipDistance[d];
-        }
+    for (int d = 0; d < CLIP; ++d) {
+        gl_ClipDistance[d] = gl_in[k].gl_ClipDistance[d];
+    }
 #endif
 #if CULL
-        for (int d = 0; d < CULL; ++d) {
-            gl_CullDistance[d] = gl_in[k].gl_CullDistance[d];
-        }
+    for (int d = 0; d < CULL; ++d) {
+        gl_CullDistance[d] = gl_in[k].gl_CullDistance[d];
+    }
 #endif
-        out_vertex = in_vertex[k];
-        out_no_primitive = 0xfffffffeU;
+    out_vertex = in_vertex[k];
+    out_no_primitive = 0xfffffffeU;
 #if ATTRIBUTES > 0
-        out_attribute0 = in_attribute0[k];
+    out_attribute0 = in_attribute0[k];
 #endif
 #if ATTRIBUTES > 1
-        out_attribute1 = in_attribute1[k];
+    out_attribute1 = in_attribute1[k];
 #endif
 #if ATTRIBUTES > 2
-        out_attribute2 = in_attribute2[k];
+    out_attribute2 = in_attribute2[k];
 #endif
 #if ATTRIBUTES > 3
-        out_attribute3 = in_attribute3[k];
+    out_attribute3 = in_attribute3[k];
 #endif
-        gl_PrimitiveID = gl_PrimitiveIDIn;
+    gl_PrimitiveID = gl_PrimitiveIDIn;
 #if LAYER
-        gl_Layer = int(draw.layer);
+    gl_Layer = int(draw.layer);
 #endif
 #if VIEWPORT
-        gl_ViewportIndex = int(draw.viewport_index);
+    gl_ViewportIndex = int(draw.viewport_index);
 #endif
-        EmitVertex();
+    EmitVertex();
+}
+
+// The second triangle of a strip of v0 to v3 is v1, v3, v2.
+void main() {
+    if (kStrip == 1) {
+        emit(0);
+        emit(0);
+        emit(2);
+        emit(1);
+    } else if (kStrip == 2) {
+        emit(1);
+        emit(1);
+        emit(0);
+        emit(2);
+    } else {
+        for (int k = 0; k < 3; ++k) {
+            emit(k);
+        }
     }
     EndPrimitive();
 }

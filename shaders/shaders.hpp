@@ -116,6 +116,9 @@ std::span<const uint32_t> capture_vertex(const VertexVariant& variant);
 std::span<const uint32_t> matrix_vertex(uint32_t attributes);
 // The same of capture.geom, which has no variant with both clip and cull distances.
 std::span<const uint32_t> capture_geometry(const VertexVariant& variant);
+// Id of its specialization constant: 1 and 2 make strips in which the first and the last vertex of
+// a triangle provokes.
+inline constexpr uint32_t kStripConstant = 0;
 // The same of capture.mesh, which reads vertices and triangles from a storage buffer.
 std::span<const uint32_t> capture_mesh(const VertexVariant& variant);
 // capture.tesc and capture.tese of 0..4 attributes.

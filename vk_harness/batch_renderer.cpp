@@ -388,7 +388,7 @@ void BatchRenderer::read_depth_codes(const CasePlan& plan, std::span<const std::
     const cases::Target& target = plan.test->target;
     const auto depth = std::ranges::find(plan.attachments, Role::depth, &Attachment::role);
     if (target.samples == 1 || target.depth_format != cases::DepthFormat::d24_unorm ||
-        depth == plan.attachments.end() || depth->store != cases::StoreOp::store) {
+        depth == plan.attachments.end() || depth->store == cases::StoreOp::dont_care) {
         return;
     }
     if (!asking_) {

@@ -99,6 +99,10 @@ void check_all(const Capabilities& capabilities, const cases::Case& c, bool read
             "the device lacks dynamicRendering, without which load and store operations are not "
             "drawn here");
     }
+    if (c.target.loads_nothing() && !capabilities.has_load_none) {
+        throw unsupported(
+            "the device lacks VK_EXT_load_store_op_none, which the load operation none needs");
+    }
     for (const cases::Draw& draw : c.draws) {
         if (draw.layer >= c.target.layers) {
             throw invalid("a draw goes to layer {} of {}", draw.layer, c.target.layers);

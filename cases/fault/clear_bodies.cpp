@@ -88,6 +88,9 @@ bool load_other_color(Target& t) {
     return t.color &&
            set(t.color->clear, is_integer(t.color->format) ? glm::vec4(1) : glm::vec4(kOther));
 }
+bool is_loaded(LoadOp op) {
+    return op == LoadOp::load || op == LoadOp::none;
+}
 bool exchanges(const Target& t) {
     return t.has_depth && t.has_stencil && t.depth_load != t.stencil_load &&
            t.depth_load != LoadOp::dont_care && t.stencil_load != LoadOp::dont_care;
@@ -97,13 +100,12 @@ const Body kClearBodies[] = {
     {"load-as-clear"_fault,
      [](Case& c) {
          Target& t = c.target;
-         const bool depth = t.depth_load == LoadOp::load && load_other_depth(t);
-         return (t.stencil_load == LoadOp::load && load_other_stencil(t)) || depth;
+         const bool depth = is_loaded(t.depth_load) && load_other_depth(t);
+         return (is_loaded(t.stencil_load) && load_other_stencil(t)) || depth;
      }},
     {"load-color-as-clear"_fault,
      [](Case& c) {
-         return c.target.color && c.target.color->load == LoadOp::load &&
-                load_other_color(c.target);
+         return c.target.color && is_loaded(c.target.color->load) && load_other_color(c.target);
      }},
     {"load-stencil-as-depth"_fault,
      [](Case& c) { return exchanges(c.target) && load_other_stencil(c.target); }},

@@ -107,6 +107,7 @@ constexpr auto kTargetColor = std::to_array<Key>({
         .pipeline(),
     other("clear").plain("0, 0, 0, 0"),
     word("load", kWords<LoadOp>),
+    word("store", kWords<StoreOp>),
 });
 
 constexpr auto kDraw = std::to_array<Key>({

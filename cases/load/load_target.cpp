@@ -133,7 +133,9 @@ void check_resolves(LeafContext& context, const TomlValue& table, const Target& 
                       "depth_resolve needs a depth attachment; leave out attachments");
     }
     for (const auto& [key, mode, store] :
-         {std::tuple("depth_resolve", target.depth_resolve, target.depth_store),
+         {std::tuple("resolve", target.color_resolve,
+                     target.color ? target.color->store : StoreOp::store),
+          std::tuple("depth_resolve", target.depth_resolve, target.depth_store),
           std::tuple("stencil_resolve", target.stencil_resolve, target.stencil_store)}) {
         if (mode != Resolve::none && store != StoreOp::store) {
             context.error(table.find(key)->where,

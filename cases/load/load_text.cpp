@@ -192,6 +192,7 @@ class CaseLoader {
             }
         }
         check_routes(*draws);
+        check_kept(context_, *root_.find("target"), c_);
     }
 
     // The shaders that write gl_Layer and gl_ViewportIndex have no clip and cull distances.

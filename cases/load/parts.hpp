@@ -35,6 +35,10 @@ Draw load_clear(LeafContext& context, const TomlValue& table, const TomlValue& v
 // The table [blit] of a case whose target has been read: a colour target alone.
 std::optional<Blit> load_blit(LeafContext& context, const TomlValue& table, const Target& target);
 
+// What load and store operations ask of the draws of a case that has been read; `table` is
+// [target].
+void check_kept(LeafContext& context, const TomlValue& table, const Case& c);
+
 // Reads the relations of a case whose target and draws have been read.
 std::vector<Relation> load_relations(LeafContext& context, const TomlValue& value, const Case& c);
 

@@ -138,19 +138,23 @@ struct ColorOutput {
 inline constexpr uint32_t kMaxColorTargets = 4;  // every device has as many outputs
 
 // What a pass begins with (VkAttachmentLoadOp): the clear value, by a clear or as the contents that
-// an earlier pass has left; or what nobody knows. And whether it keeps what it ends with.
-enum class LoadOp : uint8_t { clear, load, dont_care };
-enum class StoreOp : uint8_t { store, dont_care };
+// an earlier pass has left; or what nobody knows. With none of both operations, or with load and
+// none, the pass leaves those contents alone, as long as nothing is drawn there.
+enum class LoadOp : uint8_t { clear, load, dont_care, none };
+// Whether it keeps what it ends with.
+enum class StoreOp : uint8_t { store, dont_care, none };
 
 // One more colour attachment, judged by its stored bits.
 struct ColorTarget {
     ColorFormat format = ColorFormat::rgba8_unorm;
     glm::vec4 clear{};  // as the clear colour; whole numbers for integer formats
     LoadOp load = LoadOp::clear;
+    StoreOp store = StoreOp::store;
     static void fields(auto&& visit, auto&... c) {
         visit("format", c.format...);
         visit("clear", c.clear...);
         visit({"load", kNotExported}, c.load...);  // one that clears is right, too
+        visit({"store", kNotExported}, c.store...);
     }
     friend bool operator==(const ColorTarget&, const ColorTarget&) = default;
 };

@@ -236,9 +236,20 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
     {Door::multiview, "multiview", kTargets, kRight, rule::door_target,
      "The second view of two is drawn, alone, to the second layer.", "a target of one layer",
      when::has_one_layer},
+    {Door::multiview_all, "multiview-all", kTargets, kRight, rule::door_target,
+     "The first and the third view of three are drawn together, each to its layer; the third is "
+     "looked at, and the second layer is left alone.",
+     "a target of one layer, no queries", when::can_be_views},
     {Door::geometry, "geometry", kStages, kAlone, rule::door_stage,
      "A geometry shader hands on each triangle as it is.",
      "no draw with both clip and cull distances, no barycentrics", when::can_take_geometry},
+    {Door::geometry_strip, "geometry-strip", kStages, kAlone, rule::door_stage,
+     "A geometry shader hands on each triangle as the second one of a strip, of which the first "
+     "has "
+     "no area.",
+     "no draw with both clip and cull distances, no barycentrics, conservative rasterization and "
+     "statistics",
+     when::can_be_strips},
     {Door::tessellation, "tessellation", kStages, kAlone, rule::door_stage,
      "Each triangle is a patch, which is tessellated into itself.",
      "lists without restart, without distances, layers, viewport indices and barycentrics",

@@ -212,6 +212,12 @@ bool has_one_layer(const Case& c) {
     return c.target.layers == 1;
 }
 
+// A query of several views has a number for each.
+bool can_be_views(const Case& c) {
+    return has_one_layer(c) &&
+           all_draws(c, [](const Draw& draw) { return draw.query == Query::none; });
+}
+
 bool is_plain_image(const Case& c) {
     return c.target.samples == 1 && c.target.layers == 1;
 }
@@ -245,6 +251,14 @@ bool can_be_cleared_by_draw(const Case& c) {
 
 bool can_take_geometry(const Case& c) {
     return has_one_kind_of_distances(c) && !any_draw(c, has_barycentrics);
+}
+
+// A triangle without an area is counted, and conservative rasterization may draw it.
+bool can_be_strips(const Case& c) {
+    return can_take_geometry(c) && all_draws(c, [](const Draw& draw) {
+               return draw.conservative == Conservative::none &&
+                      (draw.query == Query::none || is_occlusion(draw.query));
+           });
 }
 
 bool can_be_tessellated(const Case& c) {

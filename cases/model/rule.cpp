@@ -437,10 +437,10 @@ constexpr std::array kRules = {
          "Attachments may be larger than the rendering's area, layers or levels of images with "
          "more of them, of images that may be used in other ways, too, or are tiled linearly, in "
          "memory of their own or in that of another image which is not used any more, or the "
-         "second view of a multiview rendering. Images or the pipeline are others: at vulkan "
-         "the picture has to be right, from practice on it has the same bits. Drawn elsewhere in a "
-         "larger target, by whole pixels that change no position's rounding, it has to be right by "
-         "the rules of vulkan, and no more.",
+         "second view of a multiview rendering, or one of several. Images or the pipeline are "
+         "others: at vulkan the picture has to be right, from practice on it has the same bits. "
+         "Drawn elsewhere in a larger target, by whole pixels that change no position's rounding, "
+         "it has to be right by the rules of vulkan, and no more.",
          "VkRenderingInfo", "", "diff/consistency.cpp"},
     Rule{rule::door_stage, Profile::vulkan, "A stage that hands triangles on changes nothing",
          "A geometry shader that emits each triangle as it came, a mesh shader that makes each of "

@@ -68,9 +68,16 @@ struct Target {
         return depth_load == LoadOp::dont_care || stencil_load == LoadOp::dont_care ||
                (color && loads(*color)) || std::ranges::any_of(other_colors, loads);
     }
+    // Whether some aspect's load operation is none.
+    bool loads_nothing() const {
+        return depth_load == LoadOp::none || stencil_load == LoadOp::none ||
+               (color && color->load == LoadOp::none);
+    }
     // Whether some aspect has other operations than to be cleared and stored.
     bool has_operations() const {
-        const auto loads = [](const ColorTarget& t) { return t.load != LoadOp::clear; };
+        const auto loads = [](const ColorTarget& t) {
+            return t.load != LoadOp::clear || t.store != StoreOp::store;
+        };
         return depth_load != LoadOp::clear || stencil_load != LoadOp::clear ||
                depth_store != StoreOp::store || stencil_store != StoreOp::store ||
                (color && loads(*color)) || std::ranges::any_of(other_colors, loads);

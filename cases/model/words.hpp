@@ -124,9 +124,9 @@ inline constexpr WordList<16> kWords<LogicOp> = {
 template <>
 inline constexpr auto kWords<ColorFormat> = detail::words_in(kColorFormats);
 template <>
-inline constexpr WordList<3> kWords<LoadOp> = {"clear", "load", "dont-care"};
+inline constexpr WordList<4> kWords<LoadOp> = {"clear", "load", "dont-care", "none"};
 template <>
-inline constexpr WordList<2> kWords<StoreOp> = {"store", "dont-care"};
+inline constexpr WordList<3> kWords<StoreOp> = {"store", "dont-care", "none"};
 template <>
 inline constexpr WordList<5> kWords<Resolve> = {"none", "sample-zero", "average", "min", "max"};
 template <>

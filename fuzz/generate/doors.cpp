@@ -88,12 +88,16 @@ std::string through_doors(std::string text, Dice dice) {
     };
     // A door that came after the measurement of hunts (tests/hunt) is asked at the end, so that
     // other cases keep their doors.
-    constexpr cases::Door kLater = cases::Door::state_rasterization;
+    constexpr std::array kLater = {cases::Door::state_rasterization, cases::Door::multiview_all,
+                                   cases::Door::geometry_strip};
     for (uint64_t k = 0; k < 2; ++k) {
         const std::span<const cases::DoorRow> rows = cases::all_doors();
-        const uint64_t number = dice.below(rows.size() - 1);
-        const auto later = static_cast<uint64_t>(&cases::row_of(kLater) - rows.data());
-        add(rows[number + (number >= later ? 1 : 0)]);
+        uint64_t number = dice.below(rows.size() - kLater.size());
+        for (const cases::Door door : kLater) {  // in the order of the rows
+            const auto later = static_cast<uint64_t>(&cases::row_of(door) - rows.data());
+            number += number >= later ? 1 : 0;
+        }
+        add(rows[number]);
     }
     std::vector<cases::Door> suited;
     for (const auto& [door, suits] : kSuited) {
@@ -104,8 +108,10 @@ std::string through_doors(std::string text, Dice dice) {
     if (!suited.empty() && dice.one_in(2)) {
         add(cases::row_of(suited[dice.below(suited.size())]));
     }
-    if (dice.one_in(8)) {
-        add(cases::row_of(kLater));
+    for (const cases::Door door : kLater) {
+        if (dice.one_in(8)) {
+            add(cases::row_of(door));
+        }
     }
     if (!words.empty()) {
         text.insert(text.find("\n[target]"),

@@ -115,6 +115,25 @@ constexpr std::array kClearFaults = {
                    }
                    return altered;
                }}},
+    Fault{"load-none-clears",
+          "Attachments whose load operation is NONE are cleared.",
+          {.rendering =
+               [](Rendering& r) {
+                   bool altered = false;
+                   const auto clear = [&](VkRenderingAttachmentInfo& one) {
+                       altered = (one.loadOp == VK_ATTACHMENT_LOAD_OP_NONE_EXT &&
+                                  as(one, VK_ATTACHMENT_LOAD_OP_CLEAR)) ||
+                                 altered;
+                   };
+                   std::ranges::for_each(r.colors, clear);
+                   if (r.depth) {
+                       clear(*r.depth);
+                   }
+                   if (r.stencil) {
+                       clear(*r.stencil);
+                   }
+                   return altered;
+               }}},
     Fault{
         "load-stencil-as-depth",
         "load-stencil-as-depth"_fault,

@@ -175,6 +175,13 @@ constexpr std::array kTargetDoorFaults = {
           "Of several views the first is drawn instead of the second.",
           {.rendering =
                [](Rendering& r) { return r.info.viewMask != 0 && change(r.info.viewMask, 1); }}},
+    Fault{"door-multiview-one-view",
+          "Of several views that are drawn together only the first is drawn.",
+          {.rendering =
+               [](Rendering& r) {
+                   const uint32_t views = r.info.viewMask;
+                   return change(r.info.viewMask, views & (~views + 1U));
+               }}},
     Fault{"door-feedback-writes-nothing",
           "Transform feedback writes nothing.",
           {.drop_feedback = [] { return true; }}},

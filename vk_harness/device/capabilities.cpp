@@ -142,6 +142,7 @@ void query_optional_features(Capabilities& c) {
     c.info.has_dynamic_rendering = c.core.dynamic_rendering;
     c.info.has_dynamic_state = c.core.dynamic_state;
     query_sample_locations(c);
+    c.has_load_none = has_device_extension(c.physical, VK_EXT_LOAD_STORE_OP_NONE_EXTENSION_NAME);
     c.max_viewports = c.multi_viewport ? c.limits.maxViewports : 1;
     c.max_layers = std::min(c.limits.maxFramebufferLayers, c.limits.maxImageArrayLayers);
     query_clip_limits(c.physical, c.limits, c.clip);

@@ -70,6 +70,7 @@ struct Capabilities {
     bool blends_narrow = true;                           // kTwoNumbers, too
     bool has_standard_locations = false;                 // standardSampleLocations
     std::vector<cases::SampleLocations> told_locations;  // without them: by gl_SamplePosition
+    bool has_load_none = false;                          // VK_EXT_load_store_op_none
     bool has_sample_shading = false;                     // sampleRateShading
     bool has_conservative = false;                       // VK_EXT_conservative_rasterization, with
     bool has_underestimation = false;                    // primitiveUnderestimation,

@@ -105,6 +105,9 @@ Device Device::create(const Capabilities& capabilities) {
     if (capabilities.has_conservative) {
         extensions.push_back(VK_EXT_CONSERVATIVE_RASTERIZATION_EXTENSION_NAME);
     }
+    if (capabilities.has_load_none) {
+        extensions.push_back(VK_EXT_LOAD_STORE_OP_NONE_EXTENSION_NAME);
+    }
     if (capabilities.doors.host_import) {
         extensions.push_back(VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME);
     }

@@ -25,8 +25,9 @@ struct ImageWay {
     bool is_linear = false;         // tiled so, where the device offers it
     bool is_aliased = false;        // its memory is another image's, too
     bool has_spare_aspect = false;  // it is resolved into one aspect of two
-    // The view shows all layers of the image, of which a view mask picks the last.
-    bool is_multiview = false;
+    // The view shows all layers of the image, of which these are drawn to, a bit each (viewMask);
+    // the attachment is the last of them. 0: without multiview.
+    uint32_t views = 0;
     friend auto operator<=>(const ImageWay&, const ImageWay&) = default;
 
     // Where in the image's level it begins.

@@ -403,7 +403,8 @@ Image Image::create(const Device& device, VkFormat format, VkExtent2D extent, ui
         to = create_view(device, info, handle, seen, range, usage);
     };
     image.drawn_ = image.range_;
-    if (way.is_multiview) {
+    image.views_ = way.views;
+    if (way.views != 0) {
         image.drawn_.baseArrayLayer = 0;
         image.drawn_.layerCount = info.arrayLayers;
     }
@@ -414,7 +415,7 @@ Image Image::create(const Device& device, VkFormat format, VkExtent2D extent, ui
     if (way.is_sampled && !multisampled) {
         add_view(image.bits_view_, format, image.aspect(), VK_IMAGE_USAGE_SAMPLED_BIT);
     }
-    if (multisampled && way.is_multiview && depth && !stencil) {
+    if (multisampled && way.views != 0 && depth && !stencil) {
         add_view(image.bits_view_, format, VK_IMAGE_ASPECT_DEPTH_BIT, VK_IMAGE_USAGE_SAMPLED_BIT);
     }
     if ((multisampled || way.is_input) && stencil) {  // a descriptor names one aspect

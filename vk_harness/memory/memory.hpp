@@ -115,6 +115,7 @@ class Image {
     const VkImageSubresourceRange& range() const { return range_; }
     // What of the image the view shows that is drawn to: with multiview more than that.
     const VkImageSubresourceRange& drawn() const { return drawn_; }
+    uint32_t views() const { return views_; }  // ImageWay
     const ImageWhole& whole() const { return whole_; }
     VkDeviceSize memory_size() const { return memory_.size; }
     Guard* guard() const { return memory_.guard.get(); }  // may be null
@@ -126,6 +127,7 @@ class Image {
     ImageMemory memory_;
     Handle<VkImage> image_, alias_;
     bool is_linear_ = false;
+    uint32_t views_ = 0;
     Handle<VkImageView> view_;
     Handle<VkImageView> bits_view_;
     Handle<VkImageView> stencil_view_;

@@ -99,8 +99,10 @@ std::optional<Surroundings::Change> Surroundings::read(std::span<const std::byte
         const std::byte* texel = memory.data() + region.bufferOffset;
         const uint32_t level = region.imageSubresource.mipLevel;
         for (uint32_t layer = 0; layer < region.imageSubresource.layerCount; ++layer) {
-            const bool is_drawn = level == drawn.baseMipLevel && layer >= drawn.baseArrayLayer &&
-                                  layer - drawn.baseArrayLayer < drawn.layerCount;
+            const bool is_own =
+                layer >= drawn.baseArrayLayer && layer - drawn.baseArrayLayer < drawn.layerCount;
+            const bool is_drawn =
+                level == drawn.baseMipLevel && (is_own || (image_->views() >> layer & 1U) != 0);
             const auto left = static_cast<uint32_t>(inside_.offset.x);
             const auto top = static_cast<uint32_t>(inside_.offset.y);
             for (uint32_t y = 0; y < region.imageExtent.height; ++y) {

@@ -15,7 +15,7 @@ namespace {
 // The shader stages, with all that they point to: not to be moved.
 struct Stages {
     std::vector<VkPipelineShaderStageCreateInfo> stages;
-    Specialization of_fragment, of_patch;
+    Specialization of_fragment, of_between;
 
     Stages(PipelineBase& base, const PipelineKey& key) {
         // What discards for good has no fragment shader
@@ -36,9 +36,9 @@ struct Stages {
                              base.shader_module(vertex_code(key), vertex_changes(key))));
         for (const auto& [stage, code] : stages_between(key)) {
             stages.push_back(stage_info(stage, base.shader_module(code)));
-            if (stage == VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT) {
-                specialize_patch(key, of_patch);
-                stages.back().pSpecializationInfo = &of_patch.info;
+            if (stage != VK_SHADER_STAGE_TESSELLATION_CONTROL_BIT) {
+                specialize_between(key, of_between);
+                stages.back().pSpecializationInfo = &of_between.info;
             }
         }
     }

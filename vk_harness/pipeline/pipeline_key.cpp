@@ -44,6 +44,8 @@ StageWay stage_way(cases::Door door) {
     switch (door) {
         case cases::Door::geometry:
             return StageWay::geometry;
+        case cases::Door::geometry_strip:
+            return StageWay::geometry_strip;
         case cases::Door::tessellation:
             return StageWay::tessellation;
         case cases::Door::mesh_shader:

@@ -48,7 +48,7 @@ struct ColorKey {
 // How a pipeline is made, by doors of the group `state`; base: so that others may be derived.
 enum class PipelineWay : uint8_t { usual, unoptimized, library, base, derived, cached };
 // What stands between vertices and rasterization.
-enum class StageWay : uint8_t { vertex, geometry, tessellation, mesh };
+enum class StageWay : uint8_t { vertex, geometry, geometry_strip, tessellation, mesh };
 
 struct PipelineKey {
     uint32_t attribute_count = 0;

@@ -171,12 +171,20 @@ void specialize(const PipelineKey& key, Specialization& out) {
     out.tie();
 }
 
-void specialize_patch(const PipelineKey& key, Specialization& out) {
+void specialize_between(const PipelineKey& key, Specialization& out) {
+    const bool is_last = key.provoking == cases::ProvokingVertex::last;
+    if (key.stages == StageWay::geometry_strip) {
+        out.add(shaders::kStripConstant, is_last ? 2 : 1);
+    }
+    if (key.stages != StageWay::tessellation) {
+        out.tie();
+        return;
+    }
     uint32_t flat = 0;
     for (uint32_t k = 0; k < key.attribute_count; ++k) {
         flat |= (key.attributes[k].interpolation == cases::Interpolation::flat ? 1U : 0U) << k;
     }
-    out.add(shaders::kProvokingConstant, key.provoking == cases::ProvokingVertex::last ? 2 : 0);
+    out.add(shaders::kProvokingConstant, is_last ? 2 : 0);
     out.add(shaders::kFlatConstant, flat);
     out.tie();
 }
@@ -189,6 +197,7 @@ std::vector<std::pair<VkShaderStageFlagBits, std::span<const uint32_t>>> stages_
         case StageWay::mesh:  // in the place of the vertex shader
             break;
         case StageWay::geometry:
+        case StageWay::geometry_strip:
             return {
                 {VK_SHADER_STAGE_GEOMETRY_BIT, shaders::capture_geometry(geometry_variant(key))}};
         case StageWay::tessellation:

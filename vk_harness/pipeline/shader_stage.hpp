@@ -51,8 +51,8 @@ struct Specialization {
 };
 // Those of capture.frag.
 void specialize(const PipelineKey& key, Specialization& out);
-// Those of capture.tese.
-void specialize_patch(const PipelineKey& key, Specialization& out);
+// Those of capture.geom and capture.tese.
+void specialize_between(const PipelineKey& key, Specialization& out);
 
 // The stages between the vertex shader and rasterization, with their code.
 std::vector<std::pair<VkShaderStageFlagBits, std::span<const uint32_t>>> stages_between(

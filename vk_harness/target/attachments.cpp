@@ -35,6 +35,7 @@ Attachment color_attachment(const cases::ColorTarget& target) {
     out.texel_bytes = bytes_of(target.format);
     out.sample_bytes = std::max(out.texel_bytes, 4U);
     out.load = target.load;
+    out.store = target.store;
     if (is_integer(target.format)) {
         for (int k = 0; k < 4; ++k) {
             out.clear.color.int32[k] = static_cast<int32_t>(target.clear[k]);
@@ -54,6 +55,8 @@ void append_resolved(const cases::Target& target, std::vector<Attachment>& out) 
     if (capture::resolves_color(target)) {
         Attachment a = color_attachment(*target.color);
         a.role = Role::resolved_color;
+        a.load = cases::LoadOp::clear;
+        a.store = cases::StoreOp::store;
         if (is_integer(target.color->format)) {
             a.clear.color.uint32[0] ^= 1U;
         } else {

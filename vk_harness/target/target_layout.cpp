@@ -76,6 +76,7 @@ std::optional<std::string> closed_by(const TargetLayout& layout, cases::Door doo
             }
             [[fallthrough]];
         case Door::multiview:
+        case Door::multiview_all:
             if (layout.has_pass || layout.has_geometry) {
                 return "the device renders the case by a render pass object or a geometry shader, "
                        "and this door by neither";
@@ -87,6 +88,7 @@ std::optional<std::string> closed_by(const TargetLayout& layout, cases::Door doo
             }
             break;
         case Door::geometry:
+        case Door::geometry_strip:
             if (layout.has_geometry) {
                 return "the device has a geometry shader name layers and viewports without the "
                        "door, too";

@@ -56,7 +56,11 @@ ImageWay image_way(const cases::Case& c) {
             break;
         case cases::Door::multiview:
             way.first_layer = 1;
-            way.is_multiview = true;
+            way.views = 0b10;
+            break;
+        case cases::Door::multiview_all:
+            way.first_layer = 2;
+            way.views = 0b101;
             break;
         default:
             break;
@@ -169,7 +173,7 @@ VkRect2D render_area(const cases::Case& c) {
 }
 
 uint32_t view_mask(const cases::Case& c) {
-    return c.variation.door == cases::Door::multiview ? 2U : 0U;
+    return image_way(c).views;
 }
 
 }  // namespace vk_harness

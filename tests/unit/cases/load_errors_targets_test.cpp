@@ -15,7 +15,27 @@ stencil_load = "load")~"),
      R"~(f:6:16: error: the target has no such attachment; leave out stencil_load)~"},
     {target(R"~(size = [8, 8]
 depth_load = "lode")~"),
-     R"~(f:6:14: error: depth_load is "lode"; write "clear", "load" or "dont-care")~"},
+     R"~(f:6:14: error: depth_load is "lode"; write "clear", "load", "dont-care" or "none")~"},
+    {target(R"~(size = [8, 8]
+depth_store = "none")~"),
+     R"~(f:6:15: error: depth_store = "none" keeps what an earlier pass has left, if nothing is written; write depth_load = "load", and draws that write none of it)~"},
+    {target(R"~(size = [8, 8]
+stencil = true
+stencil_load = "load"
+stencil_store = "none")~"),
+     R"~(f:8:17: error: stencil_store = "none" keeps what an earlier pass has left, if nothing is written; write stencil_load = "load", and draws that write none of it)~"},
+    {target(R"~(size = [8, 8]
+depth_load = "none")~"),
+     R"~(f:6:14: error: depth_load = "none" leaves contents that nothing may test nor store; write depth_store = "none", and no test of it)~"},
+    {target(R"~(size = [8, 8]
+color = { format = "rgba8-unorm", load = "load", store = "none" })~"),
+     R"~(f:7:1: error: [[draw]] has no color, but the target has; write color = { value = [r, g, b, a] }
+f:6:58: error: store = "none" keeps what an earlier pass has left, if nothing is written; write load = "load", and draws that write none of it)~"},
+    {target(R"~(size = [8, 8]
+samples = 4
+resolve = "average"
+color = { format = "rgba8-unorm", store = "dont-care" })~"),
+     R"~(f:7:11: error: resolve is judged by the samples, which are not stored; leave out one of the two)~"},
     {target(R"~(size = [8, 8]
 attachments = "color"
 color = { format = "rgba8-unorm" }
