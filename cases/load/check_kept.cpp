@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
-
-#include <fmt/format.h>
 
 #include "cases/load/parts.hpp"
 #include "cases/model/derive.hpp"
@@ -74,13 +74,13 @@ void check_aspect(LeafContext& context, const Aspect& aspect, const Case& c) {
 
 void check_kept(LeafContext& context, const TomlValue& table, const Case& c) {
     const Target& t = c.target;
+    check_aspect(context,
+                 {table, "depth_load", "depth_store", t.depth_load, t.depth_store, use_of_depth},
+                 c);
     check_aspect(
         context,
-        {table, "depth_load", "depth_store", t.depth_load, t.depth_store, use_of_depth}, c);
-    check_aspect(context,
-                 {table, "stencil_load", "stencil_store", t.stencil_load, t.stencil_store,
-                  use_of_stencil},
-                 c);
+        {table, "stencil_load", "stencil_store", t.stencil_load, t.stencil_store, use_of_stencil},
+        c);
     if (!t.color) {
         return;
     }
@@ -94,10 +94,10 @@ void check_kept(LeafContext& context, const TomlValue& table, const Case& c) {
                                            : output_at(t, draw, k).write_mask != 0;
             return Use{writes, false};
         };
-        check_aspect(context,
-                     {is_list ? color.array[k] : color, "load", "store", target.load, target.store,
-                      use_of},
-                     c);
+        check_aspect(
+            context,
+            {is_list ? color.array[k] : color, "load", "store", target.load, target.store, use_of},
+            c);
     }
 }
 
