@@ -102,6 +102,14 @@ bool has_format_of(const Facts& facts, const Entry& entry) {
            (facts.format == entry.facts.format || entry.other_formats.contains(*facts.format));
 }
 
+// Whether a key says which fragments there are: a state of a draw, not what it writes, nor where
+// in a pixel that is evaluated.
+bool decides_hits(const Essential& e) {
+    return e.begins("draw.color.alpha_to_coverage") ||
+           (e.begins("draw.") && !e.begins("draw.attribute") && !e.begins("draw.color") &&
+            !e.begins("draw.min_sample_shading"));
+}
+
 // What a case needs to belong to an entry. Whatever a driver that ends was about to draw is chance.
 Essentials needed_by(const Entry& entry) {
     Essentials special = special_of(entry);
@@ -122,10 +130,14 @@ Essentials with_implied(Essentials essentials) {
 bool explains(const Entry& entry, const Symptom& symptom, const Facts& facts) {
     // Whatever is done with colours that are rounded otherwise is wrong as they are (is_of_stored);
     // a reduction would say no more.
-    const bool is_of_values = is_value(symptom) || symptom.kind == diff::FindingKind::order;
+    // Hits that are read from colours alone, and that no state decides, are those colours.
+    const bool is_of_colors =
+        is_value(symptom) || symptom.kind == diff::FindingKind::order
+            ? is_color_rule(symptom.rule)
+            : with_implied(facts.essentials).contains(key("attachments", "color")) &&
+                  std::ranges::none_of(facts.essentials, decides_hits);
     if (symptom.status == Status::fail && is_of_rounding(entry) && special_of(entry).empty() &&
-        symptom.level == cases::Profile::direct3d && is_of_values && is_color_rule(symptom.rule) &&
-        has_format_of(facts, entry)) {
+        symptom.level == cases::Profile::direct3d && is_of_colors && has_format_of(facts, entry)) {
         return true;
     }
     Essentials all = with_implied(facts.essentials);
@@ -154,14 +166,6 @@ bool explains(const Entry& entry, const Symptom& symptom, const Facts& facts) {
 }
 
 namespace {
-
-// Whether a key says which fragments there are: a state of a draw, not what it writes, nor where
-// in a pixel that is evaluated.
-bool decides_hits(const Essential& e) {
-    return e.begins("draw.color.alpha_to_coverage") ||
-           (e.begins("draw.") && !e.begins("draw.attribute") && !e.begins("draw.color") &&
-            !e.begins("draw.min_sample_shading"));
-}
 
 // Whether an earlier entry hits too much or too little by something special that the fresh one
 // needs, too: whatever hits write, and later draws find, is wrong with them. A stencil that counts

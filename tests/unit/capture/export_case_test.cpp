@@ -67,7 +67,7 @@ std::vector<Change> target_changes() {
                                   color_resolve, depth_resolve, stencil_resolve, has_stencil,
                                   stencil_clear, frame] =
         cases::Target{};  // the last: how it is looked at
-    [[maybe_unused]] const auto& [format, clear, load] = cases::ColorTarget{};
+    [[maybe_unused]] const auto& [format, clear, load, store] = cases::ColorTarget{};
     return {
         {"width", [](Case& c) { ++c.target.width; }},
         {"height", [](Case& c) { ++c.target.height; }},

@@ -78,6 +78,12 @@ TEST(SameCause, WhatIsStoredWronglyRoundedIsHandedOn) {
     EXPECT_TRUE(explains(stored, *parse_symptom("order of order.primitive [direct3d]"), facts));
     EXPECT_FALSE(explains(stored, *parse_symptom("value of logic.operation [practice]"), facts));
     EXPECT_FALSE(explains(stored, *parse_symptom("missing of cover.inside [direct3d]"), facts));
+    EXPECT_TRUE(explains(stored, *parse_symptom("missing of cover.inside [direct3d]"),
+                         {parse_essentials({"attachments=color", "draw.color.logic=equivalent"}),
+                          cases::ColorFormat::r5g6b5_unorm}));
+    EXPECT_FALSE(explains(stored, *parse_symptom("missing of cover.inside [direct3d]"),
+                          {parse_essentials({"draw.color.logic=equivalent"}),
+                           cases::ColorFormat::r5g6b5_unorm}));
     EXPECT_FALSE(explains(stored, *parse_symptom("value of depth.linear [direct3d]"), facts));
     EXPECT_FALSE(
         explains(stored, *parse_symptom("value of logic.operation [direct3d]"),
