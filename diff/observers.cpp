@@ -43,7 +43,7 @@ ref::path::SeenHits Observers::hits_at(size_t index) {
     if (delivery_.has_writers) {
         return any(capture_.writers[index].draw != capture::kClearId);
     }
-    if (delivery_.values.depth && cases::stores_discarded(case_) && has_clear_values(index) &&
+    if (delivery_.values.depth && !delivery_.has_values() && cases::stores_discarded(case_) &&
         !capture::is_clear_depth(case_.target, capture_.depth[index])) {
         return {};  // it may be that of a discarded fragment, which is no hit
     }
@@ -63,8 +63,8 @@ bool Observers::has_clear_values(size_t index) const {
 // Whether the values that were delivered say that something was drawn.
 bool Observers::is_covered_by_values(size_t index) {
     const ref::SampleExpectation& expected = expectation_.samples[index];
-    const bool is_depth_clear =
-        !delivery_.values.depth || capture::is_clear_depth(case_.target, capture_.depth[index]);
+    const bool is_depth_clear = !delivery_.values.depth || cases::stores_discarded(case_) ||
+                                capture::is_clear_depth(case_.target, capture_.depth[index]);
     const bool all_clear = has_clear_values(index) && is_depth_clear;
     if (!all_clear || expected.hits.total_min == 0) {
         return !all_clear;
@@ -209,6 +209,10 @@ std::optional<Finding> Observers::judge(size_t index, cases::SampleId id, SeenPl
         Plane{&SeenPlanes::stencil, "stencil"}, Plane{&SeenPlanes::depth, "depth"}};
     SeenPlanes so_far{seen.hits, false, false, false, false};
     std::optional<Finding> finding;
+    if (!has_path(expectation_.profile, index, id, so_far)) {  // between the bounds of the hits
+        finding = finding_of(index, id, so_far, "");
+        so_far.hits = {};
+    }
     for (const Plane& plane : kPlanes) {
         if (!(seen.*plane.is_seen)) {
             continue;
@@ -258,9 +262,12 @@ Finding Observers::finding_of(size_t index, cases::SampleId id, const SeenPlanes
     finding.quantity = "attachments";
     finding.expected = "all attachments written by the same fragments";
     finding.got = text_of(index, seen);
-    finding.why =
-        fmt::format("{}: the {} is right by itself, but with the planes before it no path",
-                    finding.why, contradicting);
+    finding.why += contradicting.empty()
+                       ? ": no path has these hits"
+                       : fmt::format(
+                             ": the {} is right by itself, but with the planes before it "
+                             "no path",
+                             contradicting);
     return finding;
 }
 
