@@ -99,8 +99,8 @@ class PairThatMayBeTakenAway : public testing::Test {
         auto picture = picture_at(scene);
         const auto& format = scene.colors[0].about();
         Codes& codes = picture[0][kColor].color;
-        codes = written(format, clear_codes(scene.colors[0]), scene.draws[0],
-                        scene.draws[0].colors[0]);
+        codes =
+            written(format, clear_codes(scene.colors[0]), scene.draws[0], scene.draws[0].colors[0]);
         expect_level(scene, planes, picture, 0, std::nullopt);
         codes = written(format, codes, scene.draws[1], scene.draws[1].colors[0]);
         expect_level(scene, planes, picture, 0, std::nullopt);
@@ -127,8 +127,8 @@ TEST_F(PairThatMayBeTakenAway, IsSoAtAllSamplesOfAPixel) {
     const Planes planes{set_of({kColor})};
     auto picture = picture_at(scene);
     for (Shown& sample : picture) {
-        sample[kColor].color = written(scene.colors[0].about(), {}, scene.draws[0],
-                                       scene.draws[0].colors[0]);
+        sample[kColor].color =
+            written(scene.colors[0].about(), {}, scene.draws[0], scene.draws[0].colors[0]);
     }
     expect_level(scene, planes, picture, 0, std::nullopt);
     picture[1][kColor].color = written(scene.colors[0].about(), picture[1][kColor].color,
@@ -136,15 +136,15 @@ TEST_F(PairThatMayBeTakenAway, IsSoAtAllSamplesOfAPixel) {
     expect_level(scene, planes, picture, 0, Profile::direct3d);
 }
 
-// Two draws meet at the sample, and hits do not tell which of them covers it.
+// Two draws meet at the sample with one face, and hits do not tell which of them covers it.
 class CountOfOneOfTwo : public testing::Test {
   protected:
     Scene scene_;
     CountOfOneOfTwo() {
         scene_.draws = {draw_of({half(false)}), draw_of({half(true)}), draw_of({{}})};
+        scene_.draws[0].triangles[0].is_reversed = true;
     }
-    // A device of `profile` whose sample is that of draw 1: whatever it counts for draw 0 but
-    // nothing is wrong.
+    // It is draw 1, so that nothing is counted of draw 0.
     void expect_none() {
         Judge judge(scene_);
         ASSERT_EQ(judge.error(), "");
@@ -163,8 +163,8 @@ class CountOfOneOfTwo : public testing::Test {
 TEST_F(CountOfOneOfTwo, GoesWithTheStencil) {
     scene_.has_stencil = true;
     for (size_t draw = 0; draw < 3; ++draw) {
-        scene_.draws[draw].stencil =
-            stencil_of(draw == 2 ? StencilOp::keep : StencilOp::replace, 1 + static_cast<uint32_t>(draw));
+        scene_.draws[draw].stencil = stencil_of(draw == 2 ? StencilOp::keep : StencilOp::replace,
+                                                1 + static_cast<uint32_t>(draw));
     }
     scene_.draws[0].query = Query::precise;
     expect_none();
