@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <map>
+#include <string_view>
 #include <utility>
 
 #include "cases/base/float_bits.hpp"
@@ -210,7 +211,7 @@ std::optional<Finding> Observers::judge(size_t index, cases::SampleId id, SeenPl
     SeenPlanes so_far{seen.hits, false, false, false, false};
     std::optional<Finding> finding;
     if (!has_path(expectation_.profile, index, id, so_far)) {  // between the bounds of the hits
-        finding = finding_of(index, id, so_far, "");
+        finding = finding_of(index, id, so_far, "no path has these hits");
         so_far.hits = {};
     }
     for (const Plane& plane : kPlanes) {
@@ -219,7 +220,9 @@ std::optional<Finding> Observers::judge(size_t index, cases::SampleId id, SeenPl
         }
         so_far.*plane.is_seen = true;
         if (!has_path(expectation_.profile, index, id, so_far)) {
-            finding = finding ? std::move(finding) : finding_of(index, id, so_far, plane.name);
+            const std::string why = fmt::format(
+                "the {} is right by itself, but with the planes before it no path", plane.name);
+            finding = finding ? std::move(finding) : finding_of(index, id, so_far, why);
             so_far.*plane.is_seen = false;
         }
     }
@@ -253,7 +256,7 @@ std::string Observers::text_of(size_t index, const SeenPlanes& seen) const {
 }
 
 Finding Observers::finding_of(size_t index, cases::SampleId id, const SeenPlanes& seen,
-                              std::string_view contradicting) {
+                              const std::string& why) {
     Finding finding = finding_at(FindingKind::value, case_.target, id);
     finding.level = loosest_wrong(expectation_.profile, [&](cases::Profile profile) {
         return !has_path(profile, index, id, seen);
@@ -262,12 +265,7 @@ Finding Observers::finding_of(size_t index, cases::SampleId id, const SeenPlanes
     finding.quantity = "attachments";
     finding.expected = "all attachments written by the same fragments";
     finding.got = text_of(index, seen);
-    finding.why += contradicting.empty()
-                       ? ": no path has these hits"
-                       : fmt::format(
-                             ": the {} is right by itself, but with the planes before it "
-                             "no path",
-                             contradicting);
+    finding.why += ": " + why;
     return finding;
 }
 
