@@ -16,7 +16,7 @@ namespace diff {
 
 using Kind = ref::ColorVerdict::Kind;
 
-ref::ColorReference& ColorComparison::at(cases::Profile profile, size_t index) {
+ref::ColorReference& ColorComparison::reference(cases::Profile profile, size_t index) {
     const ref::Expectation& expectation = attribution_.at(profile, index);
     auto& slot = references_[static_cast<size_t>(profile)];
     if (!slot) {
@@ -28,7 +28,7 @@ ref::ColorReference& ColorComparison::at(cases::Profile profile, size_t index) {
 std::optional<Finding> ColorComparison::judge(size_t index, cases::SampleId id,
                                               const WitnessAt& witness) {
     const ref::ColorVerdict verdict =
-        at(expectation_.profile, index)
+        reference(expectation_.profile, index)
             .judge(index, id, capture_.color[index], witness(expectation_.profile));
     return verdict.kind == Kind::ok || verdict.kind == Kind::open
                ? std::nullopt
@@ -43,7 +43,7 @@ Finding ColorComparison::finding_of(size_t index, cases::SampleId id,
     // between.
     const cases::Profile level = loosest_wrong(expectation_.profile, [&](cases::Profile profile) {
         const std::array<uint32_t, 4>& codes = capture_.color[index];
-        ref::ColorReference& reference = at(profile, index);
+        ref::ColorReference& reference = this->reference(profile, index);
         const ref::ColorWitness told = witness(profile);
         return !reference.may_explain(index, id, codes, told) ||
                !reference.explains(index, id, codes, told);

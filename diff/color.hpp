@@ -33,20 +33,18 @@ class ColorComparison {
     // The finding at a sample, if any.
     std::optional<Finding> judge(size_t index, cases::SampleId id, const WitnessAt& witness);
 
-    // The reference at the asked profile.
-    ref::ColorReference& reference(size_t index) { return at(expectation_.profile, index); }
+    // The reference at a profile; a looser one knows this sample and those that were asked for
+    // before.
+    ref::ColorReference& reference(cases::Profile profile, size_t index);
 
     // How often a sample was hit, as far as its colour tells: 0 if it holds what it was cleared to.
     // Pictures of targets without instruments show it.
     uint8_t hits_for_pictures(size_t index);
     // Whether what is found of a colour depends on the sample's expectation, its codes and its
     // witness alone: every draw writes one colour.
-    bool is_uniform() { return at(expectation_.profile, 0).is_uniform(); }
+    bool is_uniform() { return reference(expectation_.profile, 0).is_uniform(); }
 
   private:
-    // The reference at a profile; a looser one knows this sample and those that were asked for
-    // before.
-    ref::ColorReference& at(cases::Profile profile, size_t index);
     Finding finding_of(size_t index, cases::SampleId id, const ref::ColorVerdict& verdict,
                        const WitnessAt& witness);
 

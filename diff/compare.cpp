@@ -308,7 +308,9 @@ class Comparison {
         if (has_decisions_) {
             const size_t first = cases::index_of(case_.target, pixel);
             if (std::optional<Finding> finding = decisions_.judge(
-                    pixel, of_pixel_, color_ != nullptr ? &color_->reference(first) : nullptr)) {
+                    pixel, of_pixel_,
+                    color_ != nullptr ? &color_->reference(expectation_.profile, first)
+                                      : nullptr)) {
                 add(std::move(*finding));
             }
             of_pixel_.clear();
@@ -335,9 +337,19 @@ class Comparison {
             const bool has_finding = verdict_.marks[index] > SampleMark::either;
             seen.writer = seen.writer && !has_finding;
             seen.depth = seen.depth && !has_finding;
-            seen.values = seen.stencil = false;
-            out.paths = samples_.observers().observe(profile, index,
-                                                     cases::sample_at(case_.target, index), seen);
+            seen.values = false;
+            seen.stencil = seen.stencil && !has_finding && ref::stencil::is_needed(case_);
+            const cases::SampleId id = cases::sample_at(case_.target, index);
+            const ref::ColorWitness told = samples_.observers().witness(profile, index, id, seen);
+            out.paths = told.paths;
+            if (color_ != nullptr && !has_finding) {
+                out.has_color = [=, this](const ref::path::Observed& paths) {
+                    ref::ColorWitness witness = told;
+                    witness.paths = paths;
+                    return color_->reference(profile, index)
+                        .explains(index, id, capture_.color[index], witness);
+                };
+            }
         }
         return out;
     }

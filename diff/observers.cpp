@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <map>
+#include <string_view>
 #include <utility>
 
 #include "cases/base/float_bits.hpp"
@@ -43,7 +44,7 @@ ref::path::SeenHits Observers::hits_at(size_t index) {
     if (delivery_.has_writers) {
         return any(capture_.writers[index].draw != capture::kClearId);
     }
-    if (delivery_.values.depth && cases::stores_discarded(case_) && has_clear_values(index) &&
+    if (delivery_.values.depth && !delivery_.has_values() && cases::stores_discarded(case_) &&
         !capture::is_clear_depth(case_.target, capture_.depth[index])) {
         return {};  // it may be that of a discarded fragment, which is no hit
     }
@@ -63,8 +64,8 @@ bool Observers::has_clear_values(size_t index) const {
 // Whether the values that were delivered say that something was drawn.
 bool Observers::is_covered_by_values(size_t index) {
     const ref::SampleExpectation& expected = expectation_.samples[index];
-    const bool is_depth_clear =
-        !delivery_.values.depth || capture::is_clear_depth(case_.target, capture_.depth[index]);
+    const bool is_depth_clear = !delivery_.values.depth || cases::stores_discarded(case_) ||
+                                capture::is_clear_depth(case_.target, capture_.depth[index]);
     const bool all_clear = has_clear_values(index) && is_depth_clear;
     if (!all_clear || expected.hits.total_min == 0) {
         return !all_clear;
@@ -209,13 +210,19 @@ std::optional<Finding> Observers::judge(size_t index, cases::SampleId id, SeenPl
         Plane{&SeenPlanes::stencil, "stencil"}, Plane{&SeenPlanes::depth, "depth"}};
     SeenPlanes so_far{seen.hits, false, false, false, false};
     std::optional<Finding> finding;
+    if (!has_path(expectation_.profile, index, id, so_far)) {  // between the bounds of the hits
+        finding = finding_of(index, id, so_far, "no path has these hits");
+        so_far.hits = {};
+    }
     for (const Plane& plane : kPlanes) {
         if (!(seen.*plane.is_seen)) {
             continue;
         }
         so_far.*plane.is_seen = true;
         if (!has_path(expectation_.profile, index, id, so_far)) {
-            finding = finding ? std::move(finding) : finding_of(index, id, so_far, plane.name);
+            const std::string why = fmt::format(
+                "the {} is right by itself, but with the planes before it no path", plane.name);
+            finding = finding ? std::move(finding) : finding_of(index, id, so_far, why);
             so_far.*plane.is_seen = false;
         }
     }
@@ -249,7 +256,7 @@ std::string Observers::text_of(size_t index, const SeenPlanes& seen) const {
 }
 
 Finding Observers::finding_of(size_t index, cases::SampleId id, const SeenPlanes& seen,
-                              std::string_view contradicting) {
+                              const std::string& why) {
     Finding finding = finding_at(FindingKind::value, case_.target, id);
     finding.level = loosest_wrong(expectation_.profile, [&](cases::Profile profile) {
         return !has_path(profile, index, id, seen);
@@ -258,9 +265,7 @@ Finding Observers::finding_of(size_t index, cases::SampleId id, const SeenPlanes
     finding.quantity = "attachments";
     finding.expected = "all attachments written by the same fragments";
     finding.got = text_of(index, seen);
-    finding.why =
-        fmt::format("{}: the {} is right by itself, but with the planes before it no path",
-                    finding.why, contradicting);
+    finding.why += ": " + why;
     return finding;
 }
 

@@ -9,7 +9,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "capture/capture.hpp"
@@ -78,7 +77,7 @@ class Observers {
     bool fits(cases::Profile profile, uint32_t t, size_t index, cases::SampleId id);
     ref::ValueReference& values_of(cases::Profile profile);
     Finding finding_of(size_t index, cases::SampleId id, const SeenPlanes& seen,
-                       std::string_view contradicting);
+                       const std::string& why);
 
     const cases::Case& case_;
     const ref::Expectation& expectation_;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cases/model/rule.hpp"
+#include "cases/model/rule_ids.hpp"
 #include "diff/resolve.hpp"
 #include "diff/sample/contradiction.hpp"
 
@@ -201,7 +202,7 @@ bool SampleJudge::judge_depth_alone(bool is_unhit) {
 void SampleJudge::judge_together(bool is_color_right) {
     judge_stencil();
     if (std::optional<Finding> finding = observers_.judge(index_, id_, seen_)) {
-        add(std::move(*finding));
+        add_of_sample(std::move(*finding), out_.findings);
     }
     if (is_color_right && !expectation_.samples[index_].is_open) {
         return;
@@ -263,9 +264,11 @@ void SampleJudge::add_of_sample(Finding finding, std::vector<Finding>& to) {
         if (found.empty()) {
             continue;
         }
-        // The first plane that is wrong is told; by the others, if that profile has not its rule.
+        // The first plane that is wrong is told; by the others, if that profile has not its rule,
+        // or if it is one of several that contradict each other, which are others there.
         const cases::Rule* const rule = cases::find_rule(finding.rule);
-        if (rule == nullptr || rule->profile > profile) {
+        if (rule == nullptr || rule->profile > profile ||
+            finding.rule == cases::rule::write_consistent) {
             to.insert(to.end(), found.begin(), found.end());
             return;
         }

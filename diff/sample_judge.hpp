@@ -81,7 +81,7 @@ class SampleJudge {
     std::optional<Finding> judge_color(const SeenPlanes& seen);
     void add_contradiction(ref::ReasonKind why);
     void add(Finding finding) { out_.findings.push_back(std::move(finding)); }
-    // Adds a finding of a plane that is not asked together with the others. Where looser profiles
+    // Adds a finding of planes that are not asked together with all others. Where looser profiles
     // allow what it tells, they may deny the planes together: then that is its level.
     void add_of_sample(Finding finding, std::vector<Finding>& to);
     const std::vector<Finding>& found_at(cases::Profile profile);

@@ -71,7 +71,7 @@ bool SharedDecisions::is_right(size_t index, const SeenPlanes& seen,
         if (f.is_discard_open) {
             f.is_discard_open = false;
             f.is_discarded_front = f.is_discarded_back = is_discarded;
-        } else if (is_discarded && f.set < 0) {
+        } else if (is_discarded) {
             f.set = static_cast<int>(question.sets.size());
             question.sets.push_back({0, 0});
         } else if (!is_discarded) {

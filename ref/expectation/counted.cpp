@@ -7,7 +7,7 @@
 namespace ref {
 
 CountBounds passed_at(const Expectation& e, const cases::Case& c, size_t index, uint32_t draw,
-                      const path::Observed& observed, bool with_discarded) {
+                      const ShownSample& shown, bool with_discarded) {
     const SampleExpectation& s = e.samples[index];
     std::vector<bool> of;
     for (const path::Fragment& f : e.fragments_of(s)) {
@@ -21,16 +21,35 @@ CountBounds passed_at(const Expectation& e, const cases::Case& c, size_t index, 
     if (s.is_free || most == 0) {
         return {0, most};
     }
-    const auto counted = path::counted_by(question_of(e, c, s), observed, of, with_discarded);
-    return counted ? CountBounds{counted->least, counted->most} : CountBounds{0, most};
+    const path::Question question = question_of(e, c, s);
+    path::Observed observed = shown.paths;
+    auto& counting = observed.counting.emplace(std::move(of), with_discarded);
+    const auto counted = path::counted_by(question, observed);
+    if (!counted) {
+        return {0, most};
+    }
+    CountBounds out{counted->least, counted->most};
+    // The ends of what the other planes allow may be colours that the sample has not.
+    const auto may_be = [&](uint64_t number) {
+        counting.number = static_cast<uint32_t>(number);
+        return !shown.has_color ||
+               (path::counted_by(question, observed) && shown.has_color(observed));
+    };
+    while (out.least < out.most && !may_be(out.least)) {
+        ++out.least;
+    }
+    while (out.least < out.most && !may_be(out.most)) {
+        --out.most;
+    }
+    return out;
 }
 
 CountBounds counted_at(const Expectation& e, const cases::Case& c, size_t index, uint32_t draw,
-                       const path::Observed& observed) {
-    CountBounds out = passed_at(e, c, index, draw, observed, true);
+                       const ShownSample& shown) {
+    CountBounds out = passed_at(e, c, index, draw, shown, true);
     // "Fragment shading may be performed before" the counting.
     if (e.profile == cases::Profile::vulkan && stores_discarded(c.draws[draw])) {
-        out.least = passed_at(e, c, index, draw, observed, false).least;
+        out.least = passed_at(e, c, index, draw, shown, false).least;
     }
     return out;
 }
@@ -53,7 +72,7 @@ std::vector<CountBounds> count_bounds(const Expectation& expectation, const case
                 continue;
             }
             if (here.is_right) {
-                const CountBounds bounds = counted_at(expectation, c, index, draw, here.paths);
+                const CountBounds bounds = counted_at(expectation, c, index, draw, here);
                 out[draw].least += bounds.least;
                 out[draw].most += bounds.most;
                 continue;

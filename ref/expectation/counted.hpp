@@ -33,20 +33,22 @@ struct CountBounds {
     friend bool operator==(const CountBounds&, const CountBounds&) = default;
 };
 
-// How many of a draw's fragments pass all tests at a sample, on the paths that satisfy what was
-// observed: those that show, and, `with_discarded`, those that are discarded then.
-CountBounds passed_at(const Expectation& e, const cases::Case& c, size_t index, uint32_t draw,
-                      const path::Observed& observed, bool with_discarded);
-// How many of them a query counts.
-CountBounds counted_at(const Expectation& e, const cases::Case& c, size_t index, uint32_t draw,
-                       const path::Observed& observed);
-
 // What a device shows at a sample.
 struct ShownSample {
     bool is_right = true;  // else any of the triangles may have been counted
     path::Observed paths;
     std::optional<uint32_t> hits = {};  // how many, if that is known
+    // Whether the colour is that of some path that satisfies what was observed; empty: any is.
+    std::function<bool(const path::Observed&)> has_color = {};
 };
+
+// How many of a draw's fragments pass all tests at a sample, on the paths that a device's planes
+// allow: those that show, and, `with_discarded`, those that are discarded then.
+CountBounds passed_at(const Expectation& e, const cases::Case& c, size_t index, uint32_t draw,
+                      const ShownSample& shown, bool with_discarded);
+// How many of them a query counts.
+CountBounds counted_at(const Expectation& e, const cases::Case& c, size_t index, uint32_t draw,
+                       const ShownSample& shown);
 using ShownAt = std::function<ShownSample(size_t index)>;
 
 // What the queries of a case may count, one entry a draw, with what a device shows. `shown` empty:

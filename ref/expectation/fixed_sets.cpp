@@ -40,7 +40,7 @@ bool FixedSets::may_be_taken_away(uint32_t t, const FixedPoint& p) {
     const cases::Draw& draw = case_.draws[triangles_[t].draw];
     const auto x = static_cast<uint32_t>(p.x >> kFixedBits);
     const auto y = static_cast<uint32_t>(p.y >> kFixedBits);
-    return takes_away_pixel(draw, x, y) ||
+    return setups_[t].window.is_open() || takes_away_pixel(draw, x, y) ||
            (takes_away_by_value(draw) &&
             discards_.at(t, {x, y, sample_, draw.layer}) != Sign::not_negative);
 }
@@ -51,7 +51,7 @@ bool FixedSets::add_sides(const FixedPoint& p, const Hit& hit, uint32_t member,
     // "Coverage is set for all fragments generated from shared edges" of a conservative draw.
     if (setup.area.is_on() || setup.kind != TriangleSetup::Kind::outlines ||
         setup.orientation == 0 || setup.may_be_culled || !setup.window.may_write(sample_) ||
-        !setup.window.must_touch(p) || may_be_taken_away(hit.triangle, p)) {
+        !setup.window.is_in_core(p)) {
         return false;
     }
     const bool is_literal = profile_ == cases::Profile::vulkan;
@@ -193,7 +193,8 @@ void FixedSets::add_decided_sets(const FixedPoint& p, std::span<const Hit> hits,
             }
         }
         if (!open.members.empty() && set.count >= sure && set.count - sure <= open.members.size()) {
-            open.count = open.least = set.count - sure;
+            open.count = set.count - sure;
+            open.least = set.least - std::min(set.least, sure);
             sets.push_back(std::move(open));
         }
     }
@@ -287,7 +288,10 @@ std::vector<FixedHits> FixedSets::closed_sets(const FixedPoint& p, std::span<con
     }
     std::erase_if(out, [&](FixedHits& set) {
         const int count = count_of(p, hits, set.members);
-        set.count = set.least = static_cast<uint32_t>(std::max(count, 0));
+        const auto taken = std::ranges::count_if(
+            set.members, [&](uint32_t m) { return may_be_taken_away(hits[m].triangle, p); });
+        set.count = static_cast<uint32_t>(std::max(count, 0));
+        set.least = static_cast<uint32_t>(std::max<int64_t>(count - taken, 0));
         return count < 0;
     });
     return out;

@@ -14,7 +14,8 @@
 // for every snapping; on an edge itself the shared-edge rule (Vulkan specification, "Basic Polygon
 // Rasterization") keeps the number. So p is hit that often by K. At profile
 // direct3d some triangles of K may be decided by themselves, those that do not cover p included;
-// the others share what is left of the number.
+// the others share what is left of the number. What alpha to coverage or the shader may take away
+// afterwards makes it the most that K hits p.
 #pragma once
 
 #include <cstdint>

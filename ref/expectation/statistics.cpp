@@ -275,10 +275,10 @@ CountBounds fragment_invocations(const cases::Case& c, size_t number,
         const ShownSample here = shown ? shown(index) : ShownSample{};
         // What the device shows wrong is a finding of its own.
         const uint64_t of_sample =
-            here.is_right ? passed_at(expectation, c, index, static_cast<uint32_t>(number),
-                                      here.paths, !is_vulkan)
-                                .least
-                          : 0;
+            here.is_right
+                ? passed_at(expectation, c, index, static_cast<uint32_t>(number), here, !is_vulkan)
+                      .least
+                : 0;
         of_pixel = is_by_sample ? of_pixel + of_sample : std::max(of_pixel, of_sample);
         if ((index + 1) % samples == 0) {
             out.least += of_pixel;

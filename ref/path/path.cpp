@@ -172,11 +172,6 @@ class Search {
         return std::move(out_);
     }
 
-    // Counts fragments, before run().
-    void count_passed(const std::vector<bool>& of, bool with_discarded) {
-        counted_ = &of;
-        counts_discarded_ = with_discarded;
-    }
     Counted counted() const {
         const auto [least, most] = std::ranges::minmax_element(
             layers_.back(), {}, [](const Entry& e) { return e.state.counted; });
@@ -352,7 +347,7 @@ class Search {
         if (is_discarded || fragment.is_discard_open) {
             fate(m, [](Fate& f) { f.is_discarded = true; });
             State discarded = next;
-            discarded.counted += is_counted(m) && counts_discarded_ ? 1U : 0U;
+            discarded.counted += is_counted(m) && observed_->counting->with_discarded ? 1U : 0U;
             if (fragment.is_clear) {
                 trace(discarded, m);
             }
@@ -420,7 +415,9 @@ class Search {
         }
     }
 
-    bool is_counted(size_t m) const { return counted_ != nullptr && (*counted_)[m]; }
+    bool is_counted(size_t m) const {
+        return observed_ != nullptr && observed_->counting && observed_->counting->of[m];
+    }
 
     // The number of a list of fragments, and one more.
     uint32_t trace_of(uint32_t before, uint32_t fragment) {
@@ -449,7 +446,9 @@ class Search {
             : state.stored == kClearDepth ? observed_->may_be_clear
             : keeps_stored_               ? observed_->stored[static_cast<size_t>(state.stored)]
                                           : state.stored == kRightDepth;
-        return has_hits && has_last && has_depth &&
+        const bool has_count = !observed_->counting || !observed_->counting->number ||
+                               state.counted == *observed_->counting->number;
+        return has_hits && has_last && has_depth && has_count &&
                (!observed_->stencil || *observed_->stencil == state.value);
     }
 
@@ -467,8 +466,6 @@ class Search {
     const Observed* observed_;  // null: all paths are projected
     const Kinds* kinds_;        // null: every fragment is of a kind of its own and replaces nothing
     bool is_traced_;
-    const std::vector<bool>* counted_ = nullptr;  // fragments whose passing is counted
-    bool counts_discarded_ = false;
     bool keeps_stored_;
     size_t latest_ = 0;  // the last fragment that may be the last to show, and one
     Resolution out_;
@@ -509,10 +506,8 @@ Shown shown_by(const Question& question, const Observed& observed, const Kinds* 
             answer == Answer::yes ? search.lists() : std::vector<std::vector<uint32_t>>()};
 }
 
-std::optional<Counted> counted_by(const Question& question, const Observed& observed,
-                                  const std::vector<bool>& of, bool with_discarded) {
+std::optional<Counted> counted_by(const Question& question, const Observed& observed) {
     Search search(question, Search::For::count, &observed, nullptr);
-    search.count_passed(of, with_discarded);
     return search.run() == Answer::yes ? std::optional(search.counted()) : std::nullopt;
 }
 

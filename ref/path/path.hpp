@@ -158,6 +158,15 @@ struct Observed {
     // empty where nothing is known of that. Instead of a fragment: none shows, none stored it.
     std::vector<bool> last, stored;
     bool may_be_unhit = true, may_be_clear = true;
+    // Fragments of which those are counted that pass all tests: those that show, and,
+    // `with_discarded`, those that are discarded then. `number`: how many there are, if it is
+    // known.
+    struct Counting {
+        std::vector<bool> of;
+        bool with_discarded = false;
+        std::optional<uint32_t> number;
+    };
+    std::optional<Counting> counting;
 };
 
 // What a colour tells of fragments, clears among them: those of one kind look alike, and nothing is
@@ -183,14 +192,12 @@ Answer has_path(const Question& question, const Observed& observed);
 // Such a path: of fragments that may be absent or present the first ones are absent.
 std::optional<History> find_path(const Question& question, const Observed& observed);
 
-// How many of some fragments pass all tests on the paths that satisfy what was observed: those that
-// show, and, `with_discarded`, those that are discarded then. Nothing if there are too many states,
-// or no such path.
+// How many fragments are counted on the paths that satisfy what was observed, a counting among it.
+// Nothing if there are too many states, or no such path.
 struct Counted {
     uint32_t least = 0, most = 0;
 };
-std::optional<Counted> counted_by(const Question& question, const Observed& observed,
-                                  const std::vector<bool>& of, bool with_discarded);
+std::optional<Counted> counted_by(const Question& question, const Observed& observed);
 
 // The fragments that show, and clears, on the paths that satisfy what was observed, each list once.
 // With `kinds` a list begins with the last fragment that replaces, and has the first fragments of

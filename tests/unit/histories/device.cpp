@@ -137,10 +137,9 @@ class Sample {
         });
     }
 
-    // Both of the pair are drawn, and the edge has the same ends in all coordinates. What a value
-    // may take away is left open with its pair.
+    // Both of the pair are drawn, and the edge has the same ends in all coordinates.
     bool is_pair_held(size_t number, const Triangle& triangle) const {
-        if (scene_.draws[number].discard == Discard::negative || meets_others(triangle)) {
+        if (meets_others(triangle)) {
             return false;
         }
         int drawn = 0;

@@ -89,14 +89,16 @@ std::vector<Seen> picture_of(const Scene& scene, cases::Profile profile, Random&
 bool is_allowed(const Scene& scene, cases::Profile profile, const Planes& planes,
                 const std::vector<Shown>& picture, size_t index) {
     const Freedom freedom{profile, false, 0};
-    const bool is_pixel = is_shared(scene, freedom);
+    const std::vector<Kept> decisions = decisions_of(scene, place_of(scene, index), freedom);
+    // The judge tries out eight decisions of a pixel together, and asks its samples one by one
+    // where there are more (diff/shared_decisions.hpp).
+    const bool is_pixel = is_shared(scene, freedom) && decisions.size() <= 1U << 8U;
     const size_t first = is_pixel ? first_of_pixel(scene, index) : index;
     const size_t last = is_pixel ? first + scene.samples : index + 1;
-    const std::vector<Kept> decisions = decisions_of(scene, place_of(scene, first), freedom);
-    for (size_t k = 0; k < (is_pixel ? decisions.size() : 1); ++k) {
+    for (const Kept& kept : decisions) {
         bool is_right = true;
         for (size_t i = first; i < last && is_right; ++i) {
-            const auto all = histories_of(scene, place_of(scene, i), freedom, decisions[k]);
+            const auto all = histories_of(scene, place_of(scene, i), freedom, kept);
             is_right = std::any_of(all.begin(), all.end(), [&](const Seen& seen) {
                 return shows(scene, planes, picture[i], seen);
             });

@@ -4,7 +4,8 @@
 // The judge against a plain enumerator of histories, which is written apart from it: what a history
 // shows passes at its profile and looser ones, whatever is delivered of it, and what none shows
 // fails. EDGECASE_HISTORIES_SEED=N tries one seed alone, in each test, and tells a smaller
-// scene; EDGECASE_HISTORIES_TELL tells all that is found, not only the shortest.
+// scene; EDGECASE_HISTORIES_OFFSET=N moves the seeds of each test by N; EDGECASE_HISTORIES_TELL
+// tells all that is found, not only the shortest.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <cstdlib>
 #include <functional>
 #include <iostream>
+#include <optional>
 #include <string_view>
 
 #include "share.hpp"
@@ -23,11 +25,21 @@ using histories::Tally;
 
 constexpr uint64_t kQuick = 300, kExhaustive = 20000, kEverySubset = 200;
 
+// What a variable of the environment asks for; nothing if it is no number.
+std::optional<uint64_t> asked(const char* name) {
+    const char* given = std::getenv(name);
+    const std::string_view text(given != nullptr ? given : "");
+    uint64_t number = 0;
+    const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
+    EXPECT_TRUE(given == nullptr || read.ec == std::errc{}) << name;
+    return read.ec == std::errc{} ? std::optional(number) : std::nullopt;
+}
+
 // Tries seeds, those from `first` on, and tells the shortest contradictions.
 void try_seeds(uint64_t first, uint64_t count, const std::function<void(uint64_t, Tally&)>& one) {
-    if (const char* asked = std::getenv("EDGECASE_HISTORIES_SEED")) {
-        const std::string_view text(asked);
-        ASSERT_EQ(std::from_chars(text.data(), text.data() + text.size(), first).ec, std::errc{});
+    first += asked("EDGECASE_HISTORIES_OFFSET").value_or(0);
+    if (const auto seed = asked("EDGECASE_HISTORIES_SEED")) {
+        first = *seed;
         count = 1;
     }
     Tally tally;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "random_color.hpp"
 
+#include <cmath>
+
 namespace histories {
 
 namespace {
@@ -79,6 +81,10 @@ void give_colors(const Scene& scene, Draw& draw, Random& random) {
         state.value = random_numbers(kind, scene.has_logic || kind == Kind::srgb, random);
         if (draw.alpha_to_coverage && kind != Kind::integer) {
             state.value[3] = random.of<double>({0, 0.25, 0.5, 1});
+        }
+        // Blending takes a half for either neighbour where the alpha has few bits.
+        if (target.about().bits[3] == 2 && !draw.alpha_to_coverage) {
+            state.value[3] = std::ceil(state.value[3]);
         }
         if (kind != Kind::integer && random.chance(1, 2)) {
             const bool may_take_second = is_alone && scene.colors.size() == 1;

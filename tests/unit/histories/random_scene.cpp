@@ -217,12 +217,11 @@ Scene scene_of_draws(Random& random, bool& is_control_first) {
 Scene random_scene(Random& random) {
     bool is_control_first = false;
     Scene scene = scene_of_draws(random, is_control_first);
-    Random clears = random;  // numbers of their own, so that draws and pictures keep theirs
-    while (scene.draws.size() < kMaxDraws && clears.chance(1, 3)) {
+    while (scene.draws.size() < kMaxDraws && random.chance(1, 3)) {
         const auto draws = static_cast<uint32_t>(scene.draws.size());
-        const Draw clear = random_clear(scene, scene.width - (is_control_first ? 1 : 0), clears);
+        const Draw clear = random_clear(scene, scene.width - (is_control_first ? 1 : 0), random);
         // Behind a control that comes first, before one that comes last.
-        const uint32_t at = (is_control_first ? 1 : 0) + clears.below(draws);
+        const uint32_t at = (is_control_first ? 1 : 0) + random.below(draws);
         scene.draws.insert(scene.draws.begin() + at, clear);
     }
     return scene;

@@ -211,10 +211,12 @@ bool is_near(const ColorFormat& format, const Codes& a, const Codes& b) {
             continue;
         }
         const double apart = std::abs(number_of(format, c, a[c]) - number_of(format, c, b[c]));
-        // Few bits: what each blending may round adds up.
+        // Few bits: what each blending may round adds up, its factors, products and sum, which are
+        // as precise as what is stored.
+        const double codes = format.bits[c] > 2 ? 5.5 : 2.5;
         const double steps = format.kind == Kind::floating || format.bits[c] > 16
                                  ? 0
-                                 : 2.5 / ((1U << format.bits[c]) - 1);
+                                 : codes / ((1U << format.bits[c]) - 1);
         if (format.bits[c] == 0 || format.kind == Kind::integer ||
             !(apart < std::max(1.0 / 16, steps))) {
             return false;

@@ -87,11 +87,35 @@ std::string smaller(const Scene& scene, const WrongPicture& wrong, Profile profi
             verdict.error.empty() && (is_level ? verdict.level > wrong.loosest : verdict.ok());
         return is_still ? told(f.scene, f.planes, picture, verdict) : "";
     };
-    if (is_allowed(scene, wrong.loosest, wrong.planes, wrong.picture, wrong.index)) {
-        return "";  // a count is wrong
-    }
     const Finding whole{scene, wrong.planes, wrong.picture[wrong.index]};
     const Finding small = shrunk(whole, [&](const Finding& f) { return !try_one(f).empty(); });
+    return "\nsmaller: " + try_one(small);
+}
+
+// A smaller scene with a wrong count that passes, in words.
+std::string smaller_of_count(const Scene& scene, Profile profile) {
+    const auto try_one = [&](const Finding& f) -> std::string {
+        Judge judge(f.scene);
+        for (uint64_t seed = 0; seed < 60 && judge.error().empty(); ++seed) {
+            Random random(seed);
+            const auto right = picture_of(f.scene, Profile::direct3d, random);
+            const auto wrong = wrong_count(f.scene, right, random);
+            if (!wrong || wrong->loosest > profile) {
+                continue;
+            }
+            const auto verdict = judge.judge(f.planes, shown(right), wrong->counted, profile);
+            if (verdict.error.empty() && verdict.ok()) {
+                return fmt::format("draw {} counts {} for {} at {}; ", wrong->draw,
+                                   wrong->counted[wrong->draw],
+                                   counted_of(f.scene, right)[wrong->draw],
+                                   to_string(wrong->loosest)) +
+                       told(f.scene, f.planes, shown(right), verdict);
+            }
+        }
+        return "";
+    };
+    const Finding small = shrunk({scene, whole_of(scene), shown(Seen{})},
+                                 [&](const Finding& f) { return !try_one(f).empty(); });
     return "\nsmaller: " + try_one(small);
 }
 
@@ -191,7 +215,11 @@ void try_wrong(uint64_t seed, Tally& tally) {
                          : "hole: ";
             trial.contradict(what + how, profile, wrong->planes, wrong->picture, verdict);
             if (tally.shrinks) {
-                tally.contradictions.back() += smaller(trial.scene, *wrong, profile, is_level);
+                tally.contradictions.back() +=
+                    is_allowed(trial.scene, wrong->loosest, wrong->planes, wrong->picture,
+                               wrong->index)
+                        ? smaller_of_count(trial.scene, profile)
+                        : smaller(trial.scene, *wrong, profile, is_level);
             }
             return;
         } else {

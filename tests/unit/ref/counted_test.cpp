@@ -163,7 +163,9 @@ using Range = std::pair<uint32_t, uint32_t>;
 // How many of some fragments pass where so many show.
 Range passed(const path::Question& question, uint32_t hits, const std::vector<bool>& of,
              bool with_discarded) {
-    const auto counted = path::counted_by(question, of_hits(hits).paths, of, with_discarded);
+    path::Observed observed = of_hits(hits).paths;
+    observed.counting.emplace(of, with_discarded);
+    const auto counted = path::counted_by(question, observed);
     return counted ? Range(counted->least, counted->most) : Range(~0U, ~0U);
 }
 
@@ -196,7 +198,9 @@ TEST(Counted, OthersHitsLeaveLess) {
     question.sets = {{1, 1}};
     question.fragments[0].set = question.fragments[1].set = 0;
     EXPECT_EQ(passed(question, 2, first, true), Range(1, 1));
-    EXPECT_EQ(path::counted_by(question, {}, first, true)->least, 1U);
+    path::Observed observed;
+    observed.counting.emplace(first, true);
+    EXPECT_EQ(path::counted_by(question, observed)->least, 1U);
 }
 
 }  // namespace

@@ -130,22 +130,28 @@ size_t check(const Question& question, const std::vector<History>& all, RandomQu
             of[m] = random.one_in(2);
         }
         for (const bool with_discarded : {false, true}) {
-            uint32_t least = ~0U, most = 0;
+            std::set<uint32_t> numbers;
             for (const History& h : all) {
                 const auto is_of = [&](uint32_t m) { return of[m]; };
                 const auto passed = static_cast<uint32_t>(
                     std::ranges::count_if(h.shown, is_of) +
                     (with_discarded ? std::ranges::count_if(h.discarded, is_of) : 0));
                 if (path::exact::satisfies(h, observed)) {
-                    least = std::min(least, passed);
-                    most = std::max(most, passed);
+                    numbers.insert(passed);
                 }
             }
-            const auto counted = path::counted_by(question, observed, of, with_discarded);
+            path::Observed counting = observed;
+            counting.counting.emplace(of, with_discarded);
+            const auto counted = path::counted_by(question, counting);
             EXPECT_EQ(counted.has_value(), !lists.empty());
             if (counted) {
-                EXPECT_EQ(counted->least, least);
-                EXPECT_EQ(counted->most, most);
+                EXPECT_EQ(counted->least, *numbers.begin());
+                EXPECT_EQ(counted->most, *numbers.rbegin());
+            }
+            for (uint32_t number = 0; number <= count; ++number) {
+                counting.counting->number = number;
+                EXPECT_EQ(path::has_path(question, counting) == path::Answer::yes,
+                          numbers.contains(number));
             }
         }
         denied += lists.empty() ? 1U : 0U;
