@@ -61,14 +61,16 @@ foreach(count RANGE 4)
         foreach(cull RANGE 4)
             set(name vertex_${count}_${clip}_${cull}_0_0)
             list(APPEND variants "${name} 1.1 ATTRIBUTES=${count} CLIP=${clip} CULL=${cull} LAYER=0 VIEWPORT=0 PULLED=0 INSTANCED=0")
-            string(APPEND vertex_table "    {{${count}, ${clip}, ${cull}, false, false, false, false}, ${name}},\n")
+            string(APPEND vertex_table "    {{${count}, ${clip}, ${cull}, false, false, false, Instances::one}, ${name}},\n")
             if(clip EQUAL 0 OR cull EQUAL 0)
                 set(distances "1.1 ATTRIBUTES=${count} CLIP=${clip} CULL=${cull} LAYER=0 VIEWPORT=0")
                 list(APPEND variants "${name}_pulled ${distances} PULLED=1 INSTANCED=0"
-                                     "${name}_instanced ${distances} PULLED=0 INSTANCED=1")
+                                     "${name}_shown ${distances} PULLED=0 INSTANCED=1"
+                                     "${name}_placed ${distances} PULLED=0 INSTANCED=2")
                 string(APPEND vertex_table
-                       "    {{${count}, ${clip}, ${cull}, false, false, true, false}, ${name}_pulled},\n"
-                       "    {{${count}, ${clip}, ${cull}, false, false, false, true}, ${name}_instanced},\n")
+                       "    {{${count}, ${clip}, ${cull}, false, false, true, Instances::one}, ${name}_pulled},\n"
+                       "    {{${count}, ${clip}, ${cull}, false, false, false, Instances::shown}, ${name}_shown},\n"
+                       "    {{${count}, ${clip}, ${cull}, false, false, false, Instances::placed}, ${name}_placed},\n")
             endif()
         endforeach()
     endforeach()
@@ -81,10 +83,12 @@ foreach(count RANGE 4)
         # gl_Layer and gl_ViewportIndex as in Vulkan 1.2: capabilities of SPIR-V 1.5, no extension.
         set(routed "1.2 ATTRIBUTES=${count} CLIP=0 CULL=0 LAYER=${layer} VIEWPORT=${viewport}")
         list(APPEND variants "${name} ${routed} PULLED=0 INSTANCED=0" "${name}_pulled ${routed} PULLED=1 INSTANCED=0"
-                             "${name}_instanced ${routed} PULLED=0 INSTANCED=1")
-        string(APPEND vertex_table "    {{${count}, 0, 0, ${layer} != 0, ${viewport} != 0, false, false}, ${name}},\n"
-                                   "    {{${count}, 0, 0, ${layer} != 0, ${viewport} != 0, true, false}, ${name}_pulled},\n"
-                                   "    {{${count}, 0, 0, ${layer} != 0, ${viewport} != 0, false, true}, ${name}_instanced},\n")
+                             "${name}_shown ${routed} PULLED=0 INSTANCED=1"
+                             "${name}_placed ${routed} PULLED=0 INSTANCED=2")
+        string(APPEND vertex_table "    {{${count}, 0, 0, ${layer} != 0, ${viewport} != 0, false, Instances::one}, ${name}},\n"
+                                   "    {{${count}, 0, 0, ${layer} != 0, ${viewport} != 0, true, Instances::one}, ${name}_pulled},\n"
+                                   "    {{${count}, 0, 0, ${layer} != 0, ${viewport} != 0, false, Instances::shown}, ${name}_shown},\n"
+                                   "    {{${count}, 0, 0, ${layer} != 0, ${viewport} != 0, false, Instances::placed}, ${name}_placed},\n")
     endforeach()
     edgecase_compile_shader(capture.vert vertex_routed_${count} "${variants}")
 endforeach()

@@ -16,7 +16,7 @@ using Kind = Condition::Kind;
 
 // How many triangles a draw has, without restarts.
 size_t count_triangles(const cases::Draw& draw) {
-    const size_t vertices = draw.indices ? draw.indices->size() : draw.positions.size();
+    const size_t vertices = draw.element_count();
     return draw.topology == cases::Topology::triangle_list ? vertices / 3
                                                            : std::max<size_t>(vertices, 2) - 2;
 }

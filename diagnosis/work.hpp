@@ -14,7 +14,7 @@ namespace diagnosis {
 inline uint64_t cost_of(const cases::Case& c) {
     uint64_t cost = uint64_t{c.target.width} * c.target.rows() * c.target.samples;
     for (const cases::Draw& d : c.draws) {
-        cost += 8 * (d.indices ? d.indices->size() : d.positions.size());
+        cost += 8 * d.instances * d.element_count();
     }
     return cost;
 }

@@ -67,7 +67,7 @@ std::vector<std::string> not_judged(const cases::Case& c, const capture::Deliver
                 planes.detail == capture::HitDetail::coverage,
             "number of hits");
         add(planes.detail != capture::HitDetail::faces, "faces");
-        add(planes.draws.empty(), "writer");
+        add(!delivery_of(c, planes).has_writers, "writer");
         add(planes.frag_coord.empty(), "FragCoord");
         add(c.target.has_depth && planes.depth.empty(), "depth");
         for (uint32_t a = 0; a < cases::attributes_of(c); ++a) {

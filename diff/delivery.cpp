@@ -29,7 +29,9 @@ Delivery delivery_of(const cases::Case& c) {
 Delivery delivery_of(const cases::Case& c, const capture::Delivered& planes) {
     Delivery out{false,
                  planes.detail,
-                 !planes.draws.empty(),
+                 // gl_PrimitiveID alone does not tell instances apart.
+                 !planes.draws.empty() &&
+                     std::ranges::all_of(c.draws, [](const auto& d) { return d.instances == 1; }),
                  {!planes.frag_coord.empty(), !planes.depth.empty(), {}},
                  c.target.color && !planes.color.empty(),
                  c.target.has_stencil && !planes.stencil.empty(),

@@ -170,6 +170,8 @@ Finding LastFragment::writer_finding(cases::SampleId id, const capture::Writer& 
     Finding finding = finding_at(FindingKind::order, case_.target, id);
     tell(finding, ref::ReasonKind::writer_not_last);
     const bool by_last = provokes_by_last(writer.draw);
+    const bool is_triangle = std::ranges::any_of(
+        expectation_.triangles, [&](const cases::Triangle& t) { return wrote(writer, t); });
     std::string allowed;
     for (uint32_t k = 0; k < std::min(expected.writers_count, 4U); ++k) {
         const cases::Triangle& t =
@@ -178,7 +180,8 @@ Finding LastFragment::writer_finding(cases::SampleId id, const capture::Writer& 
                                k == 0 ? "" : ", or ", t.draw, t.primitive, t.provoking);
         const bool same_primitive =
             writer.draw == t.draw && capture_.has_primitive && writer.primitive == t.primitive;
-        if (same_primitive && writer.provoking_vertex != t.provoking) {
+        // That of another instance is another triangle.
+        if (same_primitive && !is_triangle && writer.provoking_vertex != t.provoking) {
             tell(finding, by_last ? ref::ReasonKind::writer_other_last
                                   : ref::ReasonKind::writer_other_first);
         }

@@ -38,7 +38,8 @@ void add_color_plane(capture::Capture& capture, const cases::Case& c,
         const capture::Writer& writer = capture.writers[index];
         const auto wrote = [&](uint32_t t) {
             const cases::Triangle& triangle = expectation.triangles[t];
-            return triangle.draw == writer.draw && triangle.primitive == writer.primitive;
+            return triangle.draw == writer.draw && triangle.primitive == writer.primitive &&
+                   triangle.provoking == writer.provoking_vertex;
         };
         ref::ColorWitness witness;
         witness.paths.hits = {ref::path::SeenHits::Detail::total, hits, 0};

@@ -4,7 +4,7 @@
 // Passes clip-space positions through, bits unchanged. Defined by the build: ATTRIBUTES (0..4), CLIP and
 // CULL (0..4: sizes of gl_ClipDistance and gl_CullDistance), LAYER and VIEWPORT (0 or 1: gl_Layer,
 // gl_ViewportIndex), PULLED (1: no inputs, but a storage buffer), INSTANCED (1: of several instances number 7 alone is
-// drawn), MATRIX (1: positions are multiplied by one). Interpolation is decided by the fragment stage's qualifiers alone
+// drawn; 2: each is moved by its offset and has vertices of its own numbers), MATRIX (1: positions are multiplied by one). Interpolation is decided by the fragment stage's qualifiers alone
 // (Vulkan, "Interface Matching").
 #version 450
 #if LAYER || VIEWPORT
@@ -22,10 +22,12 @@ out gl_PerVertex {
 #endif
 };
 
-#if LAYER || VIEWPORT
+#if LAYER || VIEWPORT || INSTANCED == 2
 layout(push_constant) uniform Draw {
     layout(offset = 4) uint layer;
     layout(offset = 8) uint viewport_index;
+    layout(offset = 12) uint instance_vertices;
+    layout(offset = 108) uint first_instance;
 }
 draw;
 #endif
@@ -73,6 +75,9 @@ layout(location = 5) in vec4 in_clip;
 #if CULL
 layout(location = 6) in vec4 in_cull;
 #endif
+#if INSTANCED == 2
+layout(location = 7) in vec4 in_offset;
+#endif
 #endif
 
 layout(location = 0) flat out uint out_vertex;
@@ -93,7 +98,9 @@ layout(location = 4) out vec4 out_attribute3;
 #endif
 
 void main() {
-#if INSTANCED
+#if INSTANCED == 2
+    gl_Position = in_position + in_offset;
+#elif INSTANCED
     // All others lie beside the view volume; 7: shaders.hpp.
     gl_Position = gl_InstanceIndex == 7 ? in_position : vec4(2.0, 2.0, 0.5, 1.0);
 #elif MATRIX
@@ -102,6 +109,9 @@ void main() {
     gl_Position = in_position;
 #endif
     out_vertex = uint(gl_VertexIndex);
+#if INSTANCED == 2
+    out_vertex += (uint(gl_InstanceIndex) - draw.first_instance) * draw.instance_vertices;
+#endif
     out_no_primitive = 0xfffffffeU;
 #if ATTRIBUTES > 0
     out_attribute0 = in_attribute0;

@@ -12,6 +12,11 @@ namespace shaders {
 
 inline constexpr uint32_t kMaxAttributes = 4;
 
+// What capture.vert does of instances, numbered as its INSTANCED: nothing; of several
+// kShownInstance alone is drawn; each has its offset, input 7, added to the position and
+// DrawConstants::instance_vertices to the number of its vertices.
+enum class Instances : uint8_t { one, shown, placed };
+
 // What capture.vert, or capture.geom behind it, was compiled for. Vertex inputs: location 0
 // positions, 1 + k attribute k, 5 clip distances, 6 cull distances, all vec4.
 struct VertexVariant {
@@ -20,7 +25,7 @@ struct VertexVariant {
     bool layer = false;                       // writes gl_Layer
     bool viewport_index = false;              // writes gl_ViewportIndex
     bool pulled = false;                      // no inputs: a storage buffer, set 1, binding 0
-    bool instanced = false;                   // of several instances kShownInstance alone is drawn
+    Instances instances = Instances::one;
     friend auto operator<=>(const VertexVariant&, const VertexVariant&) = default;
 };
 
@@ -86,8 +91,8 @@ struct ProbeConstants {
 struct DrawConstants {
     uint32_t index = 0;  // of the draw; FragmentVariant::split: + 2^16 * number of draws
     uint32_t layer = 0, viewport_index = 0;
-    uint32_t unused = 0;
-    uint32_t color[4] = {};  // bits of the colour that is written
+    uint32_t instance_vertices = 0;  // Instances::placed
+    uint32_t color[4] = {};          // bits of the colour that is written
     // Where there are several colours, which do not go with probes, the bits of those behind the
     // first.
     union {
@@ -101,9 +106,9 @@ struct DrawConstants {
     float depth = 0, other_depth = 0;
     uint32_t other_where = 0;
     uint32_t depth_is_coord = 0;
-    uint32_t discarded_by = 0;  // the input whose sign discards (Discard::negative)
-    uint32_t unused_too = 0;
-    float second[4] = {};  // the second colour, if the shader writes one
+    uint32_t discarded_by = 0;    // the input whose sign discards (Discard::negative)
+    uint32_t first_instance = 0;  // Instances::placed
+    float second[4] = {};         // the second colour, if the shader writes one
 };
 // maxPushConstantsSize is at least 128.
 static_assert(sizeof(DrawConstants) == 128);

@@ -21,7 +21,7 @@ namespace {
 size_t most_hits(const cases::Case& c) {
     size_t triangles = 0;
     for (const cases::Draw& draw : c.draws) {
-        const size_t corners = draw.indices ? draw.indices->size() : draw.positions.size();
+        const size_t corners = draw.instances * draw.element_count();
         triangles += draw.topology == cases::Topology::triangle_list ? corners / 3 : corners;
     }
     return triangles;
@@ -130,6 +130,7 @@ void check_all(const Capabilities& capabilities, const cases::Case& c, bool read
             "the device's depth beside a stencil rounds the clear value, and a draw may round "
             "another way than a clear");
     }
+    refuse(missing_instance_support(capabilities.doors, c));
     if (c.variation.door != cases::Door::none) {
         refuse(missing_door_support(capabilities.doors, c.variation.door));
         refuse(closed_by(layout, c.variation.door));

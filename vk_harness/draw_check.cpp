@@ -185,8 +185,9 @@ void check_draw(const Capabilities& c, const cases::Draw& draw) {
     if (draw.indices) {
         for (const uint32_t index : *draw.indices) {
             const bool restart = draw.primitive_restart && index == cases::kRestartIndex;
-            if (!restart && index >= vertices) {
-                throw invalid("index {} is beyond the {} vertices of its draw", index, vertices);
+            if (!restart && index >= draw.vertex_count()) {
+                throw invalid("index {} is beyond the {} vertices of its draw", index,
+                              draw.vertex_count());
             }
         }
     }

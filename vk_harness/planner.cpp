@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 
+#include "cases/model/instances.hpp"
 #include "cases/model/sample.hpp"
 #include "vk_harness/case_check.hpp"
 #include "vk_harness/commands/render_pass.hpp"
@@ -103,7 +104,7 @@ DrawPlan Planner::plan_draw(const cases::Case& test, const cases::Draw& draw,
         key.sets_numbers = false;
         item.other_pipeline = pipelines_->get(key);
     }
-    if (is_feeding(door)) {
+    if (is_feeding(door) || cases::is_instanced(draw)) {
         item.feed = std::make_shared<Feed>(test, draw, own.way);
     }
     for (const cases::Attribute& attribute : draw.attributes) {

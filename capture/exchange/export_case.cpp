@@ -159,7 +159,7 @@ Json told(const cases::ColorOutput& c) {
 
 Json draw_json(const cases::Draw& d, const std::vector<cases::Triangle>& triangles,
                const cases::Target& target) {
-    // Number k of these is gl_PrimitiveID k.
+    // Number k of these is gl_PrimitiveID k, which begins again in each instance.
     Json assembled = Json::array(), provoking = Json::array();
     for (const cases::Triangle& t : triangles) {
         assembled.push_back(t.vertex);
@@ -176,6 +176,9 @@ Json draw_json(const cases::Draw& d, const std::vector<cases::Triangle>& triangl
     out["position_bits"] = std::move(positions.bits);
     out["triangles"] = std::move(assembled);
     out["provoking_vertices"] = std::move(provoking);
+    if (d.instances == 1) {
+        out.erase("instances");
+    }
     if (!target.color) {
         out["color"] = nullptr;
     }
@@ -269,6 +272,7 @@ class Needs {
         add(d.topology == cases::Topology::triangle_strip, "strip");
         add(d.topology == cases::Topology::triangle_fan, "fan");
         add(d.indices.has_value(), "indices");
+        add(d.instances > 1, "instances");
         add(d.primitive_restart, "restart");
         add(d.primitive_restart && d.topology == cases::Topology::triangle_list, "restart-list");
         if (d.clear) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cases/fault/bodies.hpp"
+#include "cases/model/instances.hpp"
 #include "cases/model/sample.hpp"
 
 namespace cases::fault {
@@ -17,13 +18,9 @@ bool as_first(Case& c) {
     return any_of(c.draws, [&](Draw& d) { return set(d.*field, c.draws.front().*field); });
 }
 
-size_t vertices_of(const Draw& d) {
-    return d.indices ? d.indices->size() : d.positions.size();
-}
-
 template <Topology from, Topology to>
 bool assembled_as(Draw& d) {
-    return vertices_of(d) > 3 && replace(d.topology, from, to);
+    return d.element_count() > 3 && replace(d.topology, from, to);
 }
 
 // Keeps the vertices of a draw from vertex or index `first` on, `left_out` fewer of them.
@@ -32,7 +29,7 @@ bool cut_vertices(Draw& d, size_t first, size_t left_out) {
     if (d.indices) {
         all = *d.indices;
     } else {
-        for (uint32_t v = 0; v < d.positions.size(); ++v) {
+        for (uint32_t v = 0; v < d.vertex_count(); ++v) {
             all.push_back(v);
         }
     }
@@ -46,7 +43,7 @@ bool cut_vertices(Draw& d, size_t first, size_t left_out) {
 }
 
 bool name_next_vertices(Draw& d) {
-    if (!d.indices) {
+    if (!d.indices || d.instances > 1) {
         return false;
     }
     for (uint32_t& i : *d.indices) {
@@ -77,7 +74,34 @@ bool read_halves(Draw& d) {
         (*d.indices)[k] = half == 0xffffU && d.primitive_restart ? kRestartIndex : half;
     }
     return std::ranges::all_of(
-        *d.indices, [&](uint32_t i) { return i == kRestartIndex || i < d.positions.size(); });
+        *d.indices, [&](uint32_t i) { return i == kRestartIndex || i < d.vertex_count(); });
+}
+
+bool read_inputs_of_first(Draw& d) {
+    bool is_changed = false;
+    const auto copy_first = [&](std::vector<glm::vec4>& list) {
+        for (size_t v = d.vertex_count(); v < list.size(); ++v) {
+            is_changed = set(list[v], list[v - d.vertex_count()]) || is_changed;
+        }
+    };
+    copy_first(d.positions);
+    for (Attribute& a : d.attributes) {
+        copy_first(a.values);
+    }
+    return is_changed;
+}
+
+bool ignore_divisors(Draw& d) {
+    bool is_changed = false;
+    for (Attribute& a : d.attributes) {
+        if (a.divisor.value_or(0) > 1) {
+            std::vector<glm::vec4> elements = elements_read(d, a.values, a.divisor);
+            elements.resize(d.instances, elements.back());
+            is_changed =
+                set(a.values, for_all_instances(d, elements, 1, d.vertex_count())) || is_changed;
+        }
+    }
+    return is_changed;
 }
 
 bool draw_each_twice(Case& c) {
@@ -186,13 +210,13 @@ const Body kGeometryBodies[] = {
      [](Case& c) { return c.draws.size() > 1 && (std::swap(c.draws[0], c.draws[1]), true); }},
     {"first-triangle-lost"_fault,
      [](Draw& d) {
-         return d.topology == Topology::triangle_list && d.positions.size() > 3 &&
+         return d.topology == Topology::triangle_list && d.vertex_count() > 3 &&
                 cut_vertices(d, 3, 0);
      }},
     {"last-triangle-lost"_fault,
      [](Draw& d) {
          const bool is_list = d.topology == Topology::triangle_list;
-         return vertices_of(d) > 3 && cut_vertices(d, 0, is_list ? 3 : 1);
+         return d.element_count() > 3 && cut_vertices(d, 0, is_list ? 3 : 1);
      }},
     {"first-vertex-late"_fault, [](Draw& d) { return !d.indices && cut_vertices(d, 1, 0); }},
     {"first-index-late"_fault, [](Draw& d) { return d.indices && cut_vertices(d, 1, 0); }},
@@ -201,6 +225,8 @@ const Body kGeometryBodies[] = {
     {"strip-as-list"_fault, assembled_as<Topology::triangle_strip, Topology::triangle_list>},
     {"list-as-strip"_fault, assembled_as<Topology::triangle_list, Topology::triangle_strip>},
     {"fan-as-strip"_fault, assembled_as<Topology::triangle_fan, Topology::triangle_strip>},
+    {"instance-input-of-first"_fault, read_inputs_of_first},
+    {"instance-divisor-ignored"_fault, ignore_divisors},
     {"position-w-one"_fault, [](glm::vec4& p) { return set(p.w, 1.0F); }},
     {"position-z-zero"_fault,
      [](glm::vec4& p) {

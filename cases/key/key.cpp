@@ -117,6 +117,9 @@ constexpr auto kDraw = std::to_array<Key>({
     other("vertices").silent().shape(),
     other("generate").shape(),
     other("indices").plain("none").shape(),
+    whole("instances", 1, kMaxInstances).plain("1"),
+    whole("first_instance", 0, kMaxInstances - 1).tries(kFew).plain("0"),
+    other("offsets").plain("0 for all instances").shape(),
     flag("matrix").pipeline(),
     table("viewport", kViewportKeys).plain("the target"),
     other("scissor").plain("the target"),
@@ -249,6 +252,7 @@ constexpr auto kAttribute = std::to_array<Key>({
     other("sample", 0, 15).as("probe_sample"),
     other("offset"),
     other("texture"),
+    whole("divisor", 0, kMaxInstances).tries(kFew).plain("read at each vertex").pipeline(),
 });
 
 constexpr auto kDistance = std::to_array<Key>({

@@ -10,6 +10,7 @@
 
 #include "cases/generate/generate.hpp"
 #include "cases/load/attribute_probe.hpp"
+#include "cases/model/instances.hpp"
 
 namespace cases {
 
@@ -41,6 +42,10 @@ class AttributeReader {
         }
         const size_t errors = context_.errors().size();
         context_.read_all(table_, kAttributeKeys, attribute_);
+        if (attribute_.divisor && attribute_.source != Source::vertex) {
+            context_.error(table_.find("divisor")->where,
+                           "a divisor is of values that are read; leave it or source out");
+        }
         if (context_.errors().size() > errors ||
             !read_source(context_, table_, source_.target, attribute_) ||
             (attribute_.source == Source::vertex && !read_vertex_values()) ||
@@ -61,6 +66,9 @@ class AttributeReader {
                            fmt::format("[[draw.attribute]] has {} of the keys values, constant, "
                                        "plane and from; write exactly one",
                                        sources));
+            return false;
+        }
+        if (attribute_.divisor && !take_elements()) {
             return false;
         }
         const TomlValue* from = table_.find("from");
@@ -90,6 +98,22 @@ class AttributeReader {
         attribute_.values = std::move(values_.all);
         attribute_.components = values_.components;
         return is_read;
+    }
+
+    // With a divisor there is a value for each element that an instance reads.
+    bool take_elements() {
+        for (const std::string_view key : {"plane", "from"}) {
+            if (const TomlValue* of_vertex = table_.find(key)) {
+                context_.error(of_vertex->where,
+                               fmt::format("{} is of vertices, and the attribute has a divisor; "
+                                           "write values or constant",
+                                           key));
+                return false;
+            }
+        }
+        values_.all.resize(elements_of(source_.draw, attribute_.divisor, 0));
+        values_.entries = "elements, which the instances read";
+        return true;
     }
 
     bool barycentric(const TomlValue& from) {

@@ -15,6 +15,7 @@
 #include "cases/load/distances.hpp"
 #include "cases/load/parts.hpp"
 #include "cases/load/transform.hpp"
+#include "cases/model/instances.hpp"
 #include "cases/model/matrix.hpp"
 #include "cases/model/sample.hpp"
 #include "cases/model/words.hpp"
@@ -83,7 +84,8 @@ class DrawLoader {
         const std::optional<std::vector<uint32_t>> order = vertex_order(
             context_, table_, draw_.topology, draw_.indices.has_value(), vertices_.size());
         const AttributeSource source{
-            vertices_, space_, draw_.viewport, draw_.topology, draw_.indices.has_value(), target_};
+            vertices_, space_, draw_.viewport, draw_.topology, draw_.indices.has_value(),
+            target_,   draw_};
         if (const TomlValue* value = table_.find("attribute")) {
             draw_.attributes = read_attributes(context_, *value, source);
         }
@@ -106,10 +108,11 @@ class DrawLoader {
         check_matrix();
         check_written_depth();
         for (Attribute& attribute : draw_.attributes) {
-            if (attribute.source == Source::vertex) {
+            if (attribute.source == Source::vertex && !attribute.divisor) {
                 attribute.values = ordered(std::move(attribute.values), *order);
             }
         }
+        read_instances();
         return std::move(draw_);
     }
 
@@ -245,6 +248,66 @@ class DrawLoader {
             context_.error(where,
                            "matrix needs positions that a product with 8 or 1/4 keeps: numbers "
                            "between 2^-100 and 2^100, and 0");
+        }
+    }
+
+    // Offsets, and what the vertices of all instances have.
+    void read_instances() {
+        const TomlValue* offsets = table_.find("offsets");
+        if (offsets != nullptr && context_.array(*offsets, "offsets")) {
+            read_offsets(*offsets);
+        }
+        if (!context_.errors().empty() || !is_instanced(draw_)) {
+            return;
+        }
+        if (draw_.matrix || (draw_.distances.clip_count > 0 && draw_.distances.cull_count > 0)) {
+            context_.error(table_.where,
+                           "a draw of instances goes with no matrix, and with clip or cull "
+                           "distances, but not with both");
+            return;
+        }
+        const size_t vertices = draw_.positions.size();
+        const auto spread = [&](std::vector<glm::vec4>& values, std::optional<uint32_t> divisor) {
+            if (!values.empty()) {
+                values = for_all_instances(draw_, values, divisor, vertices);
+            }
+        };
+        spread(draw_.positions, std::nullopt);
+        for (size_t v = 0; v < draw_.positions.size(); ++v) {
+            const glm::vec4 by = draw_.offsets.empty() ? glm::vec4(0) : draw_.offsets[v / vertices];
+            const std::optional<glm::vec4> sum = offset_by(draw_.positions[v], by);
+            if (!sum) {
+                context_.error(offsets != nullptr ? offsets->where : table_.where,
+                               fmt::format("of instance {} no binary32 is the sum of a vertex and "
+                                           "its offset, or one of the three is denormal; write "
+                                           "rounder numbers",
+                                           v / vertices));
+                return;
+            }
+            draw_.positions[v] = *sum;
+        }
+        for (Attribute& attribute : draw_.attributes) {
+            spread(attribute.values, attribute.divisor);
+        }
+        spread(draw_.distances.clip, std::nullopt);
+        spread(draw_.distances.cull, std::nullopt);
+    }
+
+    void read_offsets(const TomlValue& value) {
+        if (value.array.size() != draw_.instances) {
+            context_.error(value.where, fmt::format("offsets has {} entries for {} instances",
+                                                    value.array.size(), draw_.instances));
+            return;
+        }
+        for (const TomlValue& one : value.array) {
+            const std::optional<std::vector<Number>> numbers = context_.numbers(one, "offsets", 4);
+            glm::vec4& offset = draw_.offsets.emplace_back(0);
+            for (size_t k = 0; numbers && k < 4; ++k) {
+                // 0 has no sign here, so that no sum has one that depends on it.
+                offset[static_cast<glm::vec4::length_type>(k)] =
+                    context_.binary32((*numbers)[k], one.array[k].where, "offsets").value_or(0) +
+                    0.0F;
+            }
         }
     }
 
@@ -450,7 +513,8 @@ class DrawLoader {
     // A surface has its positions already, and nothing that exact vertices are needed for.
     void refuse_with_surface() {
         for (const Key& key : kDrawKeys.keys) {
-            const bool is_refused = key.has(Key::kShape) || key.name == "attribute";
+            const bool is_refused = key.has(Key::kShape) || key.name == "attribute" ||
+                                    key.name == "instances" || key.name == "first_instance";
             const TomlValue* value = is_refused ? table_.find(key.name) : nullptr;
             if (value != nullptr && key.name != "generate") {
                 context_.error(value->where,

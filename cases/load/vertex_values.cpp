@@ -38,8 +38,8 @@ bool VertexValues::read_values(const TomlValue& value, bool is_constant) {
         return false;
     }
     if (!is_constant && value.array.size() != all.size()) {
-        context_.error(value.where, fmt::format("values has {} entries for {} vertices",
-                                                value.array.size(), all.size()));
+        context_.error(value.where, fmt::format("values has {} entries for {} {}",
+                                                value.array.size(), all.size(), entries));
         return false;
     }
     for (size_t v = 0; v < all.size(); ++v) {

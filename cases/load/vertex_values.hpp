@@ -22,6 +22,7 @@ struct AttributeSource {
     Topology topology;
     bool indexed;
     const Target& target;
+    const Draw& draw;  // its instances
 };
 
 // The numbers that are allowed.
@@ -50,6 +51,7 @@ class VertexValues {
     bool store(size_t vertex, size_t component, const Number& n, const SourceLocation& where);
 
     std::vector<glm::vec4> all;
+    std::string_view entries = "vertices";  // what there is one for each of, in errors
     uint32_t components = 1;
 
   private:

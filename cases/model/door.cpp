@@ -79,7 +79,8 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
      "The strides are dynamic state, given with the buffers, and those of the pipeline are "
      "others."},
     {Door::interleaved, "interleaved", kVertices, kRight, rule::door_layout,
-     "All that a vertex has lies together, in one binding."},
+     "All that a vertex has lies together, in one binding.", "no draw of instances",
+     when::has_no_instances},
     {Door::three_components, "three-components", kVertices, kRight, rule::door_layout,
      "Positions whose w is 1 are read as three numbers; the fourth is 1 by the format.",
      "a draw whose positions all have w = 1", when::has_w_one},
@@ -94,23 +95,24 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
     {Door::instance_rate, "instance-rate", kVertices, kRight, rule::door_instance,
      "What is the same at every vertex is read once an instance, and the only instance is number "
      "2: firstInstance is 2.",
-     "a draw with an attribute or distances that are the same at every vertex",
+     "a draw with an attribute or distances that are the same at every vertex, no draw of "
+     "instances",
      when::has_constant_input},
     {Door::instance_divisor, "divisor", kVertices, kRight, rule::door_instance,
      "What is the same at every vertex is read once for three instances: eight are drawn, of which "
      "only the last has its triangles within the view volume; it reads element 2.",
-     "a draw with an attribute or distances that are the same at every vertex, no draw with both "
-     "clip and cull distances",
+     "a draw with an attribute or distances that are the same at every vertex, no draw of "
+     "instances or with both clip and cull distances",
      when::has_divided_input},
     {Door::instance_divisor_zero, "divisor-zero", kVertices, kRight, rule::door_instance,
      "As divisor, with a divisor of 0: all instances read the first element.",
-     "a draw with an attribute or distances that are the same at every vertex, no draw with both "
-     "clip and cull distances",
+     "a draw with an attribute or distances that are the same at every vertex, no draw of "
+     "instances or with both clip and cull distances",
      when::has_divided_input},
     {Door::vertices_pulled, "vertices-pulled", kVertices, kRight, rule::door_layout,
      "The pipeline has no inputs: the vertex shader reads its vertex from a storage buffer, by "
      "gl_VertexIndex.",
-     "no draw with both clip and cull distances", when::has_one_kind_of_distances},
+     "no draw of instances or with both clip and cull distances", when::can_be_pulled},
     {Door::indirect, "indirect", kVertices, kSame, rule::door_indirect,
      "Draws are indirect: their parameters are read from a buffer, from firstVertex or "
      "vertexOffset 5 on, behind a draw that is not asked for."},
@@ -119,7 +121,8 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
      "indices are bound at an offset."},
     {Door::multi_indirect, "multi-indirect", kVertices, kSame, rule::door_indirect,
      "One command has three indirect draws, 32 bytes apart, from firstVertex or vertexOffset 5 on: "
-     "the first half of a list's triangles, none, the second half."},
+     "the first half of a list's triangles, none, the second half. Several instances stay one "
+     "draw."},
     {Door::indirect_after_count, "indirect-after-count", kVertices, kSame, rule::door_indirect,
      "The same, directly after a command that reads the number of its draws from a buffer, which "
      "is "
@@ -258,12 +261,14 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
      "Vertices are written to a buffer by transform feedback, in a rendering without attachments, "
      "and "
      "drawn from there.",
-     "lists without indices and distances, the corners of each triangle in three places",
+     "lists without indices, distances and instances, the corners of each triangle in three "
+     "places",
      when::are_plain_lists},
     {Door::mesh_shader, "mesh-shader", kStages, kAlone, rule::door_stage,
      "A mesh shader makes the triangles, one a group, of vertices in a storage buffer; those of "
      "strips and fans begin or end with the vertex that provokes.",
-     "no draw with both clip and cull distances, no barycentrics, up to 65535 triangles",
+     "no draw of instances or with both clip and cull distances, no barycentrics, up to 65535 "
+     "triangles",
      when::can_be_meshes},
     {Door::stage_unused, "stage-unused", kStages, kRight, rule::door_state,
      "Shaders have outputs that nobody reads, one of the vertex shader and, where the device has a "
@@ -351,11 +356,10 @@ uint32_t vertex_shift(Door door) {
 uint32_t split_of(Door door, const Draw& draw) {
     if ((door != Door::multi_indirect && door != Door::indirect_after_count &&
          door != Door::multi_draw) ||
-        draw.topology != Topology::triangle_list || draw.primitive_restart) {
+        draw.topology != Topology::triangle_list || draw.primitive_restart || draw.instances > 1) {
         return 0;
     }
-    const size_t elements = draw.indices ? draw.indices->size() : draw.positions.size();
-    return static_cast<uint32_t>(elements / 3 / 2);
+    return static_cast<uint32_t>(draw.element_count() / 3 / 2);
 }
 
 bool are_half_floats(std::span<const glm::vec4> positions) {
@@ -366,7 +370,7 @@ bool are_half_floats(std::span<const glm::vec4> positions) {
 
 uint32_t largest_index(const Draw& draw) {
     if (!draw.indices) {
-        return draw.positions.empty() ? 0 : static_cast<uint32_t>(draw.positions.size() - 1);
+        return draw.positions.empty() ? 0 : static_cast<uint32_t>(draw.vertex_count() - 1);
     }
     uint32_t largest = 0;
     for (const uint32_t index : *draw.indices) {

@@ -12,6 +12,7 @@
 #include "cases/model/case.hpp"
 #include "cases/model/derive.hpp"
 #include "cases/model/door.hpp"
+#include "cases/model/instances.hpp"
 #include "cases/model/sample.hpp"
 #include "cases/model/triangle.hpp"
 
@@ -222,6 +223,10 @@ bool is_plain_image(const Case& c) {
     return c.target.samples == 1 && c.target.layers == 1;
 }
 
+bool can_be_pulled(const Case& c) {
+    return has_one_kind_of_distances(c) && has_no_instances(c);
+}
+
 bool has_one_kind_of_distances(const Case& c) {
     return all_draws(c, [](const Draw& draw) {
         return draw.distances.clip_count == 0 || draw.distances.cull_count == 0;
@@ -271,14 +276,18 @@ bool can_be_tessellated(const Case& c) {
 
 bool are_plain_lists(const Case& c) {
     return all_draws(c, [](const Draw& draw) {
-        return draw.topology == Topology::triangle_list && !draw.indices &&
+        return draw.topology == Topology::triangle_list && !draw.indices && !is_instanced(draw) &&
                draw.distances.clip_count == 0 && draw.distances.cull_count == 0 &&
                are_corners_apart(draw.positions);
     });
 }
 
+bool has_no_instances(const Case& c) {
+    return all_draws(c, [](const Draw& draw) { return !is_instanced(draw); });
+}
+
 bool has_constant_input(const Case& c) {
-    return any_input(c, is_constant);
+    return any_input(c, is_constant) && has_no_instances(c);
 }
 
 bool has_divided_input(const Case& c) {
@@ -317,9 +326,9 @@ bool can_be_moved(const Case& c) {
 }
 
 bool can_be_meshes(const Case& c) {
-    return can_take_geometry(c) && all_draws(c, [](const Draw& draw) {
+    return can_take_geometry(c) && has_no_instances(c) && all_draws(c, [](const Draw& draw) {
                constexpr size_t kMostGroups = 65535;
-               const size_t elements = draw.indices ? draw.indices->size() : draw.positions.size();
+               const size_t elements = draw.element_count();
                const bool is_list = draw.topology == Topology::triangle_list;
                return (is_list ? elements / 3 : elements) <= kMostGroups;
            });

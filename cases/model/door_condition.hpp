@@ -23,7 +23,7 @@ bool can_be_cleared_by_draw(const Case& c);
 bool can_take_geometry(const Case& c);
 bool can_be_strips(const Case& c);
 bool can_be_tessellated(const Case& c);
-bool has_constant_input(const Case& c);
+bool has_constant_input(const Case& c);  // and no instances
 bool has_exact_formats(const Case& c);
 bool has_several_draws(const Case& c);
 
@@ -35,7 +35,12 @@ bool can_use_largest(const Case& c, uint32_t largest);
 // Support" demands neither).
 bool is_plain_image(const Case& c);
 
-// The shader that reads vertices from a storage buffer is built with distances of one kind.
+// All that a vertex has lies together where nothing is read once an instance.
+bool has_no_instances(const Case& c);
+
+// The shader that reads vertices from a storage buffer is built with distances of one kind, and
+// reads nothing by gl_InstanceIndex.
+bool can_be_pulled(const Case& c);
 bool has_one_kind_of_distances(const Case& c);
 
 // No dynamic state says how many samples are shaded at least.

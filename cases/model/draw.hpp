@@ -101,6 +101,9 @@ inline constexpr uint32_t kMaxAttributes = 4;
 inline constexpr uint32_t kMaxFragmentSide = 4;    // VUID-VkGraphicsPipelineCreateInfo-04500, 04501
 inline constexpr float kMaxConservativeExtra = 4;  // pixels; known devices have up to 0.75
 inline constexpr uint32_t kRestartIndex = 0xffffffffU;  // primitive restart, 32-bit indices
+// Enough for each divisor to be met by some instances that share an element and by a last one that
+// does not. Devices take far more (maxDrawIndexedIndexValue, maxVertexAttribDivisor).
+inline constexpr uint32_t kMaxInstances = 16;
 inline constexpr float kMaxAttributeMagnitude =
     0x1p126F;  // larger ones could look like the clear value
 
@@ -144,6 +147,8 @@ struct Attribute {
     std::array<float, 2> probe_offset{};     // pixels from the centre; at_offset
     uint32_t probe_sample = 0;               // at_sample
     std::array<uint32_t, 2> texture_size{};  // texels, lod
+    // Read once for so many instances, 0: for all; nothing: at each vertex.
+    std::optional<uint32_t> divisor = {};
     static void fields(auto&& visit, auto&... a) {
         visit("name", a.name...);
         visit("interpolation", a.interpolation...);
@@ -154,6 +159,7 @@ struct Attribute {
         visit("probe_sample", a.probe_sample...);
         visit("probe_offset", a.probe_offset...);
         visit("texture_size", a.texture_size...);
+        visit({"divisor", kNotExported}, a.divisor...);  // values are those of all instances
         visit("values", a.values...);
     }
     friend bool operator==(const Attribute&, const Attribute&) = default;
@@ -314,6 +320,11 @@ struct Draw {
     std::optional<Clear> clear = {};
     Topology topology = Topology::triangle_list;
     std::vector<glm::vec4> positions;  // clip space, binary32, bits as they reach the device
+    // instanceCount, firstInstance. Positions, values and distances are those of all instances, one
+    // behind the other: instance i has those from i * vertex_count() on. The vertex shader has
+    // added its offset (instances.hpp) to the positions; none: 0 to all.
+    uint32_t instances = 1, first_instance = 0;
+    std::vector<glm::vec4> offsets = {};
     bool matrix = false;  // the vertex shader makes them of others by a matrix (matrix.hpp)
     std::optional<std::vector<uint32_t>> indices;
     bool primitive_restart = false;     // only with indices
@@ -345,11 +356,18 @@ struct Draw {
     uint32_t layer = 0;           // below Target::layers; gl_Layer of all its primitives
     uint32_t viewport_index = 0;  // below 16; gl_ViewportIndex of all its primitives
     SourceLocation where;
+    // Of one instance.
+    size_t vertex_count() const { return positions.size() / instances; }
+    // What input assembly reads of one instance: indices, or vertices without them.
+    size_t element_count() const { return indices ? indices->size() : vertex_count(); }
     static void fields(auto&& visit, auto&... d) {
         visit({"clear", kLeftOutIfEmpty}, d.clear...);
         visit("topology", d.topology...);
         visit("positions", d.positions...);
         visit({"matrix", kNotExported}, d.matrix...);  // the positions are those
+        visit("instances", d.instances...);
+        visit({"first_instance", kNotExported}, d.first_instance...);  // nor how they come about
+        visit({"offsets", kNotExported}, d.offsets...);
         visit("indices", d.indices...);
         visit("primitive_restart", d.primitive_restart...);
         visit("viewport", d.viewport...);

@@ -230,8 +230,13 @@ constexpr std::array kRules = {
          "has an invocation (practice).",
          "interfaces-builtin-variables-fragcoord", "", "ref/value/sample_values.hpp"},
     Rule{rule::order_primitive, Profile::vulkan, "Primitives write in drawing order",
-         "Of the triangles that hit a sample, the last one drawn is the one that stays.",
-         "primsrast-order", "", "ref/expectation/narrowing.cpp"},
+         "Of the triangles that hit a sample, the last one drawn is the one that stays. All of an "
+         "instance are drawn before those of the next one, and gl_PrimitiveID begins at 0 in each.",
+         "drawing-primitive-order", "", "ref/expectation/narrowing.cpp"},
+    Rule{rule::instance_input, Profile::vulkan, "An instance reads the inputs of its number",
+         "Instance i reads element firstInstance + floor((i - firstInstance) / divisor) of what is "
+         "read once an instance, element firstInstance if the divisor is 0. gl_InstanceIndex is i.",
+         "fxvertex-input-address-calculation", "", "cases/model/instances.hpp"},
     Rule{rule::provoking_first, Profile::vulkan, "Flat values come from the first vertex",
          "The provoking vertex is 3i in a list, i in a strip, i+1 in a fan; values are copied "
          "before clipping.",

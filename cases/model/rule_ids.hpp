@@ -48,6 +48,7 @@ inline constexpr char interp_centroid[] = "interp.centroid";
 inline constexpr char interp_sample[] = "interp.sample";
 inline constexpr char fragcoord_sample[] = "fragcoord.sample";
 inline constexpr char order_primitive[] = "order.primitive";
+inline constexpr char instance_input[] = "instance.input";
 inline constexpr char provoking_first[] = "provoking.first";
 inline constexpr char provoking_last[] = "provoking.last";
 inline constexpr char interp_linear[] = "interp.linear";

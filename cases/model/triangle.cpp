@@ -10,16 +10,19 @@ namespace cases {
 
 namespace {
 
-// Assembles the vertices of one run between restarts. Numbers from first on count up the
-// primitives.
+// Assembles the vertices of one run between restarts, of an instance whose vertices begin at
+// `begin`. Numbers from first on count up the primitives.
 void assemble_run(const Draw& draw, uint32_t draw_index, std::span<const uint32_t> run,
-                  uint32_t& primitive, std::vector<Triangle>& out) {
+                  uint32_t begin, uint32_t& primitive, std::vector<Triangle>& out) {
     const bool is_last = draw.provoking == ProvokingVertex::last;
     const auto add = [&](uint32_t a, uint32_t b, uint32_t c, uint32_t last) {
-        const auto size = draw.positions.size();
+        const auto size = draw.vertex_count();
         // A vertex number out of range has no position; the loader refuses it.
         if (a < size && b < size && c < size) {
-            out.push_back({draw_index, primitive, {a, b, c}, is_last ? last : a});
+            out.push_back({draw_index,
+                           primitive,
+                           {begin + a, begin + b, begin + c},
+                           begin + (is_last ? last : a)});
         }
         ++primitive;
     };
@@ -46,19 +49,13 @@ void assemble_run(const Draw& draw, uint32_t draw_index, std::span<const uint32_
     }
 }
 
-void assemble_draw(const Draw& draw, uint32_t draw_index, std::vector<Triangle>& out) {
+void assemble_instance(const Draw& draw, uint32_t draw_index, uint32_t begin,
+                       std::vector<Triangle>& out) {
     uint32_t primitive = 0;
-    const size_t cleared = draw.clear ? draw.clear->rects.size() * draw.clear->layers : 0;
-    while (primitive < cleared) {
-        out.push_back({draw_index, primitive++, {0, 1, 2}, 0});
-    }
-    if (draw.clear) {
-        return;
-    }
     if (!draw.indices) {
-        std::vector<uint32_t> run(draw.positions.size());
+        std::vector<uint32_t> run(draw.vertex_count());
         std::iota(run.begin(), run.end(), 0U);
-        assemble_run(draw, draw_index, run, primitive, out);
+        assemble_run(draw, draw_index, run, begin, primitive, out);
         return;
     }
     std::span<const uint32_t> rest(*draw.indices);
@@ -68,10 +65,20 @@ void assemble_draw(const Draw& draw, uint32_t draw_index, std::vector<Triangle>&
             break;
         }
         const auto size = static_cast<size_t>(restart - rest.begin());
-        assemble_run(draw, draw_index, rest.first(size), primitive, out);
+        assemble_run(draw, draw_index, rest.first(size), begin, primitive, out);
         rest = rest.subspan(size + 1);
     }
-    assemble_run(draw, draw_index, rest, primitive, out);
+    assemble_run(draw, draw_index, rest, begin, primitive, out);
+}
+
+void assemble_draw(const Draw& draw, uint32_t draw_index, std::vector<Triangle>& out) {
+    const size_t cleared = draw.clear ? draw.clear->rects.size() * draw.clear->layers : 0;
+    for (uint32_t k = 0; k < cleared; ++k) {
+        out.push_back({draw_index, k, {0, 1, 2}, 0});
+    }
+    for (uint32_t i = 0; i < draw.instances && !draw.clear; ++i) {
+        assemble_instance(draw, draw_index, i * static_cast<uint32_t>(draw.vertex_count()), out);
+    }
 }
 
 }  // namespace

@@ -17,8 +17,8 @@ namespace cases {
 // which changes nothing else.
 struct Triangle {
     uint32_t draw = 0;
-    uint32_t primitive =
-        0;  // gl_PrimitiveID: counts per draw, culled ones included, not reset by restart
+    uint32_t primitive = 0;  // gl_PrimitiveID: counts per instance of a draw, culled ones
+                             // included, not reset by restart
     std::array<uint32_t, 3> vertex{};
     uint32_t provoking = 0;  // one of vertex[0..2]; vertex[0] with the first-vertex convention
 };
@@ -31,7 +31,8 @@ inline uint32_t layer_of(const Draw& draw, const Triangle& t) {
     return draw.layer + (draw.clear ? t.primitive % draw.clear->layers : 0);
 }
 
-// All triangles of a case in drawing order. Incomplete ones at the end (or before a restart) are
+// All triangles of a case in drawing order: draw by draw, instance by instance [Vulkan
+// specification, "Primitive Order"]. Incomplete ones at the end (or before a restart) are
 // dropped.
 std::vector<Triangle> assemble(const Case& c);
 // Those of draw number `draw` alone.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "cases/model/instances.hpp"
 #include "cases/model/matrix.hpp"
 #include "cases/model/sample.hpp"
 #include "cases/model/texels.hpp"
@@ -116,12 +117,13 @@ glm::vec4 coordinates_of(size_t vertex) {
     return {texels(vertex % 2, 3 * vertex), texels(vertex / 2 % 2, 5 * vertex + vertex / 8), 0, 0};
 }
 
-// The values of the attribute by which a texture is read.
-Attribute read_at(ColorFrom from, size_t vertices) {
+// The values of the attribute by which a texture is read; all instances read the same.
+Attribute read_at(ColorFrom from, const Draw& draw) {
     Attribute at;
     at.name = "at";
     at.components = 2;
-    for (size_t v = 0; v < vertices; ++v) {
+    for (size_t k = 0; k < draw.positions.size(); ++k) {
+        const size_t v = k % draw.vertex_count();
         // Of a mask a corner of each triangle is cut off.
         at.values.push_back(from == ColorFrom::mask
                                 ? glm::vec4(v % 3 == 0 ? -0.375F : 0.625F, v / 3 % 2, 0, 0)
@@ -147,7 +149,7 @@ std::optional<Case> from(const Case& c) {
             draw.color.from = kFrom;
             draw.attributes.clear();
             if (is_texture(kFrom)) {
-                draw.attributes.push_back(read_at(kFrom, draw.positions.size()));
+                draw.attributes.push_back(read_at(kFrom, draw));
             }
             if (kFrom == ColorFrom::mask) {
                 draw.color.value.w = 1;
@@ -179,8 +181,12 @@ std::optional<Case> from_input(const Case& c, bool is_flat) {
         at.name = "color";
         at.components = 4;
         at.interpolation = is_flat ? Interpolation::flat : Interpolation::smooth;
+        // A flat one is another in each instance, and not at each vertex.
+        const bool is_of_instance = is_flat && draw.instances > 1;
+        at.divisor = is_of_instance ? std::optional(1U) : std::nullopt;
         for (size_t v = 0; v < draw.positions.size(); ++v) {
-            at.values.push_back(color_of(16 * k + v));
+            const size_t vertices = draw.vertex_count();
+            at.values.push_back(color_of(16 * k + (is_of_instance ? v / vertices : v % vertices)));
         }
         draw.attributes = {std::move(at)};
         draw.color = {};
@@ -258,10 +264,10 @@ std::optional<Case> prepass(const Case& c) {
     constexpr size_t kMostTriangles = 16;
     size_t triangles = 0;
     for (const Draw& draw : c.draws) {
-        const size_t corners = draw.indices ? draw.indices->size() : draw.positions.size();
-        triangles += draw.topology == Topology::triangle_list ? corners / 3
-                     : corners < 3                            ? 0
-                                                              : corners - 2;
+        const size_t corners = draw.element_count();
+        triangles += draw.instances * (draw.topology == Topology::triangle_list ? corners / 3
+                                       : corners < 3                            ? 0
+                                                                                : corners - 2);
     }
     if (!is_colorless(c) || !c.target.has_depth || c.target.has_stencil || tests_depth(c) ||
         triangles > kMostTriangles || !std::ranges::all_of(c.draws, is_simple)) {
@@ -289,7 +295,8 @@ std::optional<Case> prepass(const Case& c) {
 std::optional<Case> by_matrix(const Case& c) {
     const auto is_plain = [](const Draw& draw) {
         return draw.layer == 0 && draw.viewport_index == 0 && draw.distances.clip_count == 0 &&
-               draw.distances.cull_count == 0 && takes_matrix(draw.positions);
+               draw.distances.cull_count == 0 && !is_instanced(draw) &&
+               takes_matrix(draw.positions);
     };
     std::optional<Case> out = from<ColorFrom::constant>(c);
     if (!out || !std::ranges::all_of(c.draws, is_plain)) {
@@ -377,8 +384,8 @@ constexpr std::array kWays = {
     WayRow{"bare-color-matrix",
            "One rgba8-unorm colour alone is drawn to; the vertex shader multiplies positions by a "
            "matrix of powers of two.",
-           "cases without a colour target, discards, shader masks, layers, viewport indices, clip "
-           "and cull distances, and numbers near the ends of binary32",
+           "cases without a colour target, discards, shader masks, layers, viewport indices, "
+           "instances, clip and cull distances, and numbers near the ends of binary32",
            by_matrix},
     WayRow{"bare-color-sampled",
            "One rgba8-unorm colour alone is drawn to, an image without transfer usage, which a "

@@ -270,8 +270,12 @@ constexpr Statement kStatements[] = {
      {"stencil.count", "stencil.compare", "stencil.operation", "stencil.mask", "stencil.faces",
       "stencil.depth-outcome"},
      ""},
+    {"inputs of instances", exact, exact,
+     "Each instance lies at its own offset and has the values of its own element, whatever firstInstance and the divisor "
+     "are.",
+     {"instance.input"}, ""},
     {"primitive order", exact, exact,
-     "The last one drawn stays, and blending runs in drawing order.",
+     "The last one drawn stays, and blending runs in drawing order, instance by instance.",
      {"order.primitive", "blend.equation"}, ""},
     {"vkCmdResolveImage", Strictness::free, tolerance,
      "",

@@ -11,6 +11,7 @@
 #include "cases/base/float_bits.hpp"
 #include "cases/load/color.hpp"
 #include "cases/model/derive.hpp"
+#include "cases/model/instances.hpp"
 #include "cases/model/sample.hpp"
 #include "cases/model/words.hpp"
 #include "cases/write/table_tree.hpp"
@@ -224,12 +225,12 @@ TomlValue colors_value(const Draw& draw, const Target& target) {
 }
 
 // The tables of clip or cull distances.
-void add_distances(TableTree& table, const char* name, const std::vector<glm::vec4>& distances,
-                   uint32_t count) {
+void add_distances(TableTree& table, const char* name, const Draw& draw,
+                   const std::vector<glm::vec4>& distances, uint32_t count) {
     std::vector<TomlValue> tables;
     for (uint32_t k = 0; k < std::min(count, 4U); ++k) {
         TableTree one(kDistanceKeys);
-        add_values(one, distances, k, 1);
+        add_values(one, elements_read(draw, distances, std::nullopt), k, 1);
         tables.push_back(one.value());
     }
     if (!tables.empty()) {
@@ -237,14 +238,16 @@ void add_distances(TableTree& table, const char* name, const std::vector<glm::ve
     }
 }
 
-TomlValue attribute_tree(const Attribute& attribute, size_t index) {
+TomlValue attribute_tree(const Draw& draw, size_t index) {
+    const Attribute& attribute = draw.attributes[index];
     TableTree table(kAttributeKeys);
     table.add_all(attribute);
     if (attribute.name != fmt::format("attribute{}", index)) {
         table.add("name", tree::text(attribute.name));
     }
     if (attribute.source == Source::vertex) {
-        add_values(table, attribute.values, 0, attribute.components);
+        add_values(table, elements_read(draw, attribute.values, attribute.divisor), 0,
+                   attribute.components);
     }
     if (attribute.probe == Probe::at_sample) {
         table.add("sample", tree::number(attribute.probe_sample));
@@ -286,6 +289,13 @@ TomlValue draw_tree(const Draw& draw, const Target& target) {
     if (draw.indices) {
         table.add("indices", indices_of(draw));
     }
+    std::vector<TomlValue> offsets;
+    for (const glm::vec4& offset : draw.offsets) {
+        offsets.push_back(color_value(offset));
+    }
+    if (!offsets.empty()) {
+        table.add("offsets", tree::list(std::move(offsets)));
+    }
     add_viewport(table, draw.viewport, target);
     add_scissor(table, draw.scissor, target);
     if (draw.fragment_size != Draw().fragment_size) {
@@ -303,11 +313,11 @@ TomlValue draw_tree(const Draw& draw, const Target& target) {
         table.add("color", colors_value(draw, target));
     }
     const ClipDistances& d = draw.distances;
-    add_distances(table, "clip_distance", d.clip, d.clip_count);
-    add_distances(table, "cull_distance", d.cull, d.cull_count);
+    add_distances(table, "clip_distance", draw, d.clip, d.clip_count);
+    add_distances(table, "cull_distance", draw, d.cull, d.cull_count);
     std::vector<TomlValue> attributes;
     for (size_t i = 0; i < draw.attributes.size(); ++i) {
-        attributes.push_back(attribute_tree(draw.attributes[i], i));
+        attributes.push_back(attribute_tree(draw, i));
     }
     if (!attributes.empty()) {
         table.add("attribute", tree::list(std::move(attributes)));

@@ -11,6 +11,7 @@
 
 #include "cases/base/float_bits.hpp"
 #include "cases/generate/vertices.hpp"
+#include "cases/model/instances.hpp"
 #include "cases/toml/binary32.hpp"
 #include "cases/write/table_tree.hpp"
 
@@ -137,7 +138,8 @@ std::vector<TomlValue> joined(const std::vector<std::array<TomlValue, 4>>& verti
     return out;
 }
 
-std::optional<std::vector<TomlValue>> in_pixels(const Draw& draw) {
+std::optional<std::vector<TomlValue>> in_pixels(const Draw& draw,
+                                                const std::vector<glm::vec4>& positions) {
     const Viewport& v = draw.viewport;
     if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.width) ||
         !std::isfinite(v.height)) {
@@ -153,7 +155,7 @@ std::optional<std::vector<TomlValue>> in_pixels(const Draw& draw) {
     std::vector<ExactVertex> exact_vertices;
     std::vector<std::array<TomlValue, 4>> values;
     size_t numbers = 2;
-    for (const glm::vec4& p : draw.positions) {
+    for (const glm::vec4& p : positions) {
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z) ||
             !std::isfinite(p.w) || std::fpclassify(p.w) == FP_ZERO) {
             return std::nullopt;
@@ -182,8 +184,8 @@ std::optional<std::vector<TomlValue>> in_pixels(const Draw& draw) {
         return same_bits(a.x, b.x) && same_bits(a.y, b.y) && same_bits(a.z, b.z) &&
                same_bits(a.w, b.w);
     };
-    if (!clip || !std::equal(clip->begin(), clip->end(), draw.positions.begin(),
-                             draw.positions.end(), same)) {
+    if (!clip ||
+        !std::equal(clip->begin(), clip->end(), positions.begin(), positions.end(), same)) {
         return std::nullopt;
     }
     return joined(values, numbers);
@@ -192,11 +194,12 @@ std::optional<std::vector<TomlValue>> in_pixels(const Draw& draw) {
 }  // namespace
 
 VertexTree vertex_tree(const Draw& draw) {
-    if (std::optional<std::vector<TomlValue>> pixels = in_pixels(draw)) {
+    const std::vector<glm::vec4> positions = base_positions(draw);
+    if (std::optional<std::vector<TomlValue>> pixels = in_pixels(draw, positions)) {
         return {true, std::move(*pixels)};
     }
     VertexTree out;
-    for (const glm::vec4& p : draw.positions) {
+    for (const glm::vec4& p : positions) {
         out.vertices.push_back(
             tree::list({number_value(p.x, Reading::exact), number_value(p.y, Reading::exact),
                         number_value(p.z, Reading::exact), number_value(p.w, Reading::exact)}));

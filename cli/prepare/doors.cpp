@@ -107,7 +107,7 @@ uint64_t drawing_cost(const cases::Case& c) {
     constexpr uint64_t kBytesOfVertex = 64;
     uint64_t vertices = 0;
     for (const cases::Draw& draw : c.draws) {
-        vertices += draw.indices ? draw.indices->size() : draw.positions.size();
+        vertices += draw.instances * draw.element_count();
     }
     return capture::capture_bytes(c) + kBytesOfVertex * vertices;
 }

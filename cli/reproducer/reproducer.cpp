@@ -12,6 +12,7 @@
 #include "cases/format/color_format.hpp"
 #include "cases/format/depth_format.hpp"
 #include "cases/model/derive.hpp"
+#include "cases/model/instances.hpp"
 #include "cases/model/sample.hpp"
 #include "cli/reproducer/draw_tables.hpp"
 #include "cli/reproducer/expected_tables.hpp"
@@ -77,6 +78,7 @@ std::string_view missing_of(const cases::Draw& d) {
     }
     return first_of({
         {d.clear.has_value(), "a clear among the draws"},
+        {cases::is_instanced(d), "instances"},
         {d.viewport_index != 0, "several viewports"},
         {d.conservative != cases::Conservative::none, "conservative rasterization"},
         {cases::asks_shading_rate(d), "a fragment size"},

@@ -70,6 +70,17 @@ class Assembler {
         }
     }
 
+    // Those that follow are of an instance whose vertices begin at `begin`.
+    void begin_instance(uint32_t begin) {
+        begin_ = begin;
+        count_ = 0;
+        odd_ = false;
+        run_ = 0;
+        if (fault_ != "instance-primitive-id-continues"_fault) {
+            next_id_ = 0;
+        }
+    }
+
     std::vector<Primitive> take() { return std::move(out_); }
 
   private:
@@ -78,7 +89,13 @@ class Assembler {
         if (is_last_ && fault_ == "provoking-turns"_fault) {
             std::swap(vertex[0], vertex[2]);
         }
-        out_.push_back({vertex, provoking, next_id_, values_of(vertex)});
+        const auto number = static_cast<uint32_t>(out_.size());
+        Primitive& made = out_.emplace_back(vertex, provoking, next_id_, values_of(vertex), number);
+        for (uint32_t k = 0; k < 3; ++k) {
+            made.vertex[k] += begin_;
+            made.values[k] += begin_;
+        }
+        made.provoking += fault_ == "instance-flat-of-first"_fault ? 0 : begin_;
         ++next_id_;
         ++run_;
     }
@@ -99,6 +116,7 @@ class Assembler {
     std::array<uint32_t, 2> window_{};
     uint32_t count_ = 0;  // vertices in the window
     bool odd_ = false;
+    uint32_t begin_ = 0;
     uint32_t next_id_ = 0;
     uint32_t run_ = 0;  // triangles since the start or the last restart
     std::vector<Primitive> out_;
@@ -108,18 +126,23 @@ class Assembler {
 
 std::vector<Primitive> assemble_primitives(const cases::Draw& draw, Fault fault) {
     Assembler assembler(draw, fault);
-    const auto vertex_count = static_cast<uint32_t>(draw.positions.size());
-    if (draw.indices && fault != "indices-ignored"_fault) {
-        for (const uint32_t index : *draw.indices) {
-            if (index == cases::kRestartIndex && draw.primitive_restart) {
-                assembler.restart();
-            } else if (index < vertex_count) {
-                assembler.push(index);
+    const auto vertex_count = static_cast<uint32_t>(draw.vertex_count());
+    const uint32_t instances = fault == "instances-first-only"_fault ? 1 : draw.instances;
+    for (uint32_t k = 0; k < instances; ++k) {
+        const uint32_t i = fault == "instances-reversed"_fault ? instances - 1 - k : k;
+        assembler.begin_instance(i * vertex_count);
+        if (draw.indices && fault != "indices-ignored"_fault) {
+            for (const uint32_t index : *draw.indices) {
+                if (index == cases::kRestartIndex && draw.primitive_restart) {
+                    assembler.restart();
+                } else if (index < vertex_count) {
+                    assembler.push(index);
+                }
             }
-        }
-    } else {
-        for (uint32_t v = 0; v < vertex_count; ++v) {
-            assembler.push(v);
+        } else {
+            for (uint32_t v = 0; v < vertex_count; ++v) {
+                assembler.push(v);
+            }
         }
     }
     std::vector<Primitive> primitives = assembler.take();

@@ -20,6 +20,7 @@ struct Primitive {
     uint32_t provoking = 0;            // vertex number
     uint32_t id = 0;                   // gl_PrimitiveID
     std::array<uint32_t, 3> values{};  // whose values that vary the three vertices have
+    uint32_t number = 0;               // in its draw
 };
 
 // The triangles of a draw, as an input assembler walks the index stream: a window of the last

@@ -44,11 +44,14 @@ Stream read_stream(const cases::Draw& draw) {
             }
         }
     } else {
-        for (size_t k = 0; k < draw.positions.size(); ++k) {
+        for (size_t k = 0; k < draw.vertex_count(); ++k) {
             next();
         }
     }
     end();
+    for (uint64_t* count : {&out.all, &out.whole, &out.partial, &out.restarts}) {
+        *count *= draw.instances;
+    }
     return out;
 }
 

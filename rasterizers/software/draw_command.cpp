@@ -381,7 +381,7 @@ void DrawCommand::cover_areas(const Facet& facet, Pieces& pieces) {
 void DrawCommand::cover_area(const Facet& facet, const TrianglePlanes& planes,
                              const std::vector<WindowVertex>& polygon) {
     const std::vector<SampleOffset>& samples = fragments_.samples();
-    const uint32_t id = facet.primitive.id;
+    const uint32_t id = facet.primitive.number;
     const AreaTest test(polygon, draw_, device_);
     const int64_t pixel = int64_t{1} << device_.subpixel_bits;
     PixelRect rect = rect_;

@@ -260,7 +260,7 @@ void FragmentStage::shade_in_layer(Fragment at) {
     const auto end = [&](Ending ending) {
         const bool is_first = (at.covered & ((1U << at.s) - 1)) == 0;
         attachments_.queries.count(number_, ending, is_first,
-                                   {at.i >> 1, at.j >> 1, at.facet.primitive.id});
+                                   {at.i >> 1, at.j >> 1, at.facet.primitive.number});
     };
     if (!invocation.is_written) {
         end(Ending::masked);
@@ -330,7 +330,7 @@ void FragmentStage::show(const Fragment& at, float bias) {
             fault == "attributes-swapped"_fault && draw_.attributes.size() > 1 && a < 2 ? 1 - a : a;
         out_.attributes[location][index] = shader_.attribute_value(at, a);
     }
-    write_color(index, facet.primitive.id);
+    write_color(index, facet.primitive.number);
 }
 
 void FragmentStage::write_color(size_t at, uint32_t primitive) {

@@ -169,6 +169,16 @@ bool shows_face(const View& view, std::string_view) {
            });
 }
 
+bool is_of_instance(const View& view, std::string_view) {
+    return is_written_by(view, [&](uint32_t t) {
+        const cases::Draw& draw = view.facts.draw_of(t);
+        return !draw.clear &&
+               (!draw.offsets.empty() || std::ranges::any_of(draw.attributes, [](const auto& a) {
+                   return a.divisor.has_value();
+               }));
+    });
+}
+
 bool is_beside_bad_number(const View& view, std::string_view) {
     return is_surely_hit(view) && view.facts.has_bad_number();
 }

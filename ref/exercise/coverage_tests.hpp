@@ -23,4 +23,7 @@ bool reaches_volume(const View& view, std::string_view rule);
 // With instruments, which count front and back faces apart.
 bool shows_face(const View& view, std::string_view rule);
 
+// Of an instance that reads what no vertex has.
+bool is_of_instance(const View& view, std::string_view rule);
+
 }  // namespace ref

@@ -50,7 +50,7 @@ bool are_complementary(const cases::Draw& a, const cases::Draw& b) {
         a.conservative == cases::Conservative::none && b.conservative == cases::Conservative::none;
     return is_by_samples && !a.rasterizer_discard && !b.rasterizer_discard && da.clip_count > 0 &&
            da.clip_count == db.clip_count && da.cull_count == db.cull_count &&
-           a.topology == b.topology && a.indices == b.indices &&
+           a.topology == b.topology && a.indices == b.indices && a.instances == b.instances &&
            a.primitive_restart == b.primitive_restart && a.viewport == b.viewport &&
            a.scissor == b.scissor && a.cull == b.cull && a.front_face == b.front_face &&
            a.provoking == b.provoking && a.depth == b.depth && a.multisample == b.multisample &&

@@ -23,7 +23,8 @@ using cases::Topology;
 
 namespace {
 
-// What a draw hands to the input assembly.
+// What a draw hands to the input assembly, which does "the set of primitives ... once for each
+// instance" [Vulkan specification, "Programmable Primitive Shading"].
 struct Assembly {
     uint64_t vertices = 0;    // of complete primitives,
     uint64_t distinct = 0;    // each once,
@@ -35,7 +36,7 @@ struct Assembly {
 
 Assembly assembly_of(const Draw& draw) {
     Assembly out;
-    std::vector<uint32_t> all(draw.positions.size());
+    std::vector<uint32_t> all(draw.vertex_count());
     std::iota(all.begin(), all.end(), 0U);
     all = draw.indices.value_or(all);
     std::set<uint32_t> distinct;
@@ -59,6 +60,10 @@ Assembly assembly_of(const Draw& draw) {
     }
     add_piece(std::span(all).subspan(begin));
     out.distinct = distinct.size();
+    for (uint64_t* count : {&out.vertices, &out.distinct, &out.leftover, &out.restarts,
+                            &out.primitives, &out.incomplete}) {
+        *count *= draw.instances;
+    }
     return out;
 }
 

@@ -499,6 +499,7 @@ VkResult create_with_lines(const vulkan_layer::Instance& instance, VkPhysicalDev
 
 void draw_call(VkCommandBuffer commands, DrawCall call, uint32_t instances) {
     Recording& recording = recording_of(commands);
+    call.instances = instances;
     call.topology = recording.topology;
     call.number = recording.draws++;
     call.in_secondary = recording.is_secondary;
@@ -524,12 +525,20 @@ void draw_call(VkCommandBuffer commands, DrawCall call, uint32_t instances) {
             driver.CmdSetPrimitiveRestartEnable(commands, *call.restart ? VK_TRUE : VK_FALSE);
         }
         change_state(commands, asked, call.state);
-        for (uint32_t n = 0; n < call.times; ++n) {
+        const auto draw = [&](uint32_t first, uint32_t count) {
             if (call.indexed) {
-                driver.CmdDrawIndexed(commands, call.count, instances, call.first,
-                                      call.vertex_offset, call.first_instance);
+                driver.CmdDrawIndexed(commands, call.count, count, call.first, call.vertex_offset,
+                                      first);
             } else {
-                driver.CmdDraw(commands, call.count, instances, call.first, call.first_instance);
+                driver.CmdDraw(commands, call.count, count, call.first, first);
+            }
+        };
+        for (uint32_t n = 0; n < call.times; ++n) {
+            if (!call.is_reversed) {
+                draw(call.first_instance, call.instances);
+            }
+            for (uint32_t i = call.is_reversed ? call.instances : 0; i > 0; --i) {
+                draw(call.first_instance + i - 1, 1);
             }
         }
         change_state(commands, call.state, asked);

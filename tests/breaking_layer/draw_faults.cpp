@@ -36,6 +36,26 @@ bool drop_last(std::vector<uint32_t>& order) {
     return true;
 }
 
+bool read_first_of_zero(PipelineCopy& p) {
+    bool altered = false;
+    for (const VkVertexInputBindingDivisorDescriptionEXT& divisor : p.divisors) {
+        for (VkVertexInputBindingDescription& binding : p.bindings) {
+            if (divisor.divisor == 0 && binding.binding == divisor.binding) {
+                altered = change(binding.stride, 0) || altered;
+            }
+        }
+    }
+    return altered;
+}
+
+bool double_divisors(PipelineCopy& p) {
+    bool altered = false;
+    for (VkVertexInputBindingDivisorDescriptionEXT& divisor : p.divisors) {
+        altered = (divisor.divisor > 1 && change(divisor.divisor, 2 * divisor.divisor)) || altered;
+    }
+    return altered;
+}
+
 constexpr std::array kDrawFaults = {
     Fault{"draw-dropped",
           "draws-nothing"_fault,
@@ -98,6 +118,36 @@ constexpr std::array kDrawFaults = {
     Fault{"vertex-offset-one",
           "index-names-next-vertex"_fault,
           {.draw = [](DrawCall& d) { return d.indexed && change(d.vertex_offset, 1); }}},
+    Fault{"instances-first-only",
+          "instances-first-only"_fault,
+          {.draw = [](DrawCall& d) { return d.instances > 1 && change(d.instances, 1); }}},
+    Fault{
+        "instances-last-lost",
+        "The last of several instances is lost.",
+        {.draw =
+             [](DrawCall& d) { return d.instances > 1 && change(d.instances, d.instances - 1); }}},
+    Fault{"instances-first-lost",
+          "Several instances begin one instance late.",
+          {.draw =
+               [](DrawCall& d) {
+                   const bool has_several = d.instances > 1;
+                   d.instances -= has_several ? 1 : 0;
+                   d.first_instance += has_several ? 1 : 0;
+                   return has_several;
+               }}},
+    Fault{"instances-reversed",
+          "instances-reversed"_fault,
+          {.draw =
+               [](DrawCall& d) {  // by which each instance would begin anew
+                   return d.instances > 1 && !d.pipeline.has_divisors &&
+                          change(d.is_reversed, true);
+               }}},
+    Fault{"instance-divisor-zero-from-zero",
+          "A divisor of 0 reads the first element of the buffer, whatever firstInstance is.",
+          {.pipeline = read_first_of_zero}},
+    Fault{"instance-divisor-doubled",
+          "A divisor above 1 counts twice.",
+          {.pipeline = double_divisors}},
     Fault{"draws-reversed", "draws-reversed"_fault, {.order = reverse}},
     Fault{"draws-swapped", "draws-swapped"_fault, {.order = swap_first_two}},
 };

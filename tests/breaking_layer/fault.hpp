@@ -42,7 +42,8 @@ struct DrawCall {
     bool in_secondary = false;  // in a secondary command buffer
     bool may_repeat = false;    // Recording
     uint32_t times = 1;         // how often the driver is asked
-    uint32_t first_instance = 0;
+    uint32_t instances = 1, first_instance = 0;
+    bool is_reversed = false;  // set by a fault: later instances are drawn first, one by one
     VkIndexType index_type = VK_INDEX_TYPE_UINT32;  // indexed only
     bool has_restart = false;                       // primitive restart is on
     uint32_t subpass = 0;                           // of a render pass object

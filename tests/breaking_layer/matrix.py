@@ -47,6 +47,7 @@ FOCUS = [  # families that are about the faults whose names match
     ("discard", ["discard/**", "depth-test/**"]),
     ("scissor", ["scissor/**", "tiled/**", "viewport/**"]),
     ("cull|front-face", ["facing/**", "stencil/**", "topology/**"]),
+    ("instance|divisor", ["instances/**", "order/**", "attributes/**"]),
     ("strip|list|fan|restart|index|vertex|draw", ["topology/**", "batch/**", "order/**", "combination/**", "mesh/**"]),
 ]
 

@@ -33,6 +33,8 @@ PipelineFacts facts_of(const VkGraphicsPipelineCreateInfo& info) {
                 stage.pSpecializationInfo != nullptr ? stage.pSpecializationInfo->mapEntryCount : 0;
         }
     }
+    out.has_divisors =
+        info.pVertexInputState != nullptr && info.pVertexInputState->pNext != nullptr;
     for (const auto* s = static_cast<const VkBaseInStructure*>(info.pNext); s != nullptr;
          s = s->pNext) {
         if (s->sType == VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO) {

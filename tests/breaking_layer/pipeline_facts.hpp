@@ -22,6 +22,7 @@ struct PipelineFacts {
     VkShaderStageFlags stages = 0;
     std::optional<ShaderFacts> fragment;  // nothing without such a shader
     bool has_matrix = false;              // in the vertex shader
+    bool has_divisors = false;            // others than 1
     uint32_t constants = 0;               // that specialize it
     std::vector<VkFormat> colors;         // of a dynamic rendering, as are the next two
     VkFormat depth = VK_FORMAT_UNDEFINED, stencil = VK_FORMAT_UNDEFINED;

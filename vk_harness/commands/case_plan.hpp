@@ -34,7 +34,7 @@ struct DrawPlan {
     DistancePlaces distances{};
     VkDeviceSize indices = 0;
     bool is_split = false;                    // TargetLayout::split
-    std::shared_ptr<Feed> feed;               // of a door that feeds vertices in another way
+    std::shared_ptr<Feed> feed;               // of instances, or of a door that feeds vertices
     std::optional<OutputState> outputs = {};  // of the door state_output: set before the draw
     std::shared_ptr<const PipelineKey> rasterization;  // of the door state_rasterization
     // Of the door shader_objects, instead of a pipeline; the state is that of the key.

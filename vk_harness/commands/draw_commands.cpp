@@ -69,6 +69,8 @@ void push_constants(const Device& device, const PipelineCache& pipelines, VkComm
         plan.is_split ? static_cast<uint32_t>(test.draws.size()) << 16 | draw_index : draw_index;
     constants.layer = draw.layer;
     constants.viewport_index = draw.viewport_index;
+    constants.instance_vertices = static_cast<uint32_t>(draw.vertex_count());
+    constants.first_instance = draw.first_instance;
     for (size_t k = 0; k < draw.attributes.size(); ++k) {
         constants.probes.offsets[k][0] = draw.attributes[k].probe_offset[0];
         constants.probes.offsets[k][1] = draw.attributes[k].probe_offset[1];

@@ -43,7 +43,7 @@ void write_vertices(const CasePlan& plan, std::span<std::byte> memory, bool is_m
     for (const DrawPlan& item : plan.draws) {
         const cases::Draw& draw = *item.draw;
         if (item.feed) {
-            item.feed->write(memory);
+            item.feed->write(memory, is_mirrored);
             continue;
         }
         const size_t array = draw.positions.size() * sizeof(glm::vec4);

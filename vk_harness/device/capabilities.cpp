@@ -132,7 +132,7 @@ void query_optional_features(Capabilities& c) {
     const bool has_old_divisor =
         has_device_extension(c.physical, VK_EXT_VERTEX_ATTRIBUTE_DIVISOR_EXTENSION_NAME);
     if (!has_old_divisor) {  // the name since it became one of Khronos; structures are the same
-        c.doors.divisor_extension = "VK_KHR_vertex_attribute_divisor";
+        c.doors.divisor_extension = kDivisorExtension;
     }
     query_features(c);
     if (!c.core.independent_blend) {

@@ -11,7 +11,17 @@
 
 namespace vk_harness {
 
+using cases::Door;
+
 namespace {
+
+// VkPhysicalDeviceVertexAttributeDivisorPropertiesKHR, which is newer than Debian 12's headers.
+struct DivisorProperties {
+    VkStructureType type = static_cast<VkStructureType>(1000525000);
+    void* pNext = nullptr;
+    uint32_t most = 0;
+    VkBool32 first_instance = VK_FALSE;
+};
 
 constexpr uint32_t kDrawsInOne = 3;  // of a command with several draws, feed.cpp
 
@@ -63,6 +73,11 @@ void query_door_limits(VkPhysicalDevice physical, const VkPhysicalDeviceLimits& 
         get_properties(physical, draws);
         doors.multi_draw = draws.maxMultiDrawCount >= kDrawsInOne;
     }
+    if (has_device_extension(physical, kDivisorExtension)) {
+        DivisorProperties divisor;
+        get_properties(physical, divisor);
+        doors.divisor_first_instance = divisor.first_instance == VK_TRUE;
+    }
     if (doors.mesh) {
         VkPhysicalDeviceMeshShaderPropertiesEXT mesh =
             Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MESH_SHADER_PROPERTIES_EXT};
@@ -78,6 +93,34 @@ void query_door_limits(VkPhysicalDevice physical, const VkPhysicalDeviceLimits& 
     }
     doors.vertex_formats = offered_vertex_formats(physical);
     doors.linear = has_linear_attachments(physical);
+}
+
+std::optional<std::string> missing_instance_support(const DoorSupport& support,
+                                                    const cases::Case& c) {
+    const Door door = c.variation.door;
+    const bool is_indirect = door == Door::indirect || door == Door::indirect_count ||
+                             door == Door::multi_indirect || door == Door::indirect_after_count;
+    for (const cases::Draw& draw : c.draws) {
+        // VUID-VkDrawIndirectCommand-firstInstance-00501
+        if (is_indirect && draw.first_instance > 0 && !support.indirect_first_instance) {
+            return "the device lacks drawIndirectFirstInstance";
+        }
+        for (const cases::Attribute& a : draw.attributes) {
+            const uint32_t divisor = a.divisor.value_or(1);
+            const bool lacks = divisor == 0 ? !support.divisor_zero : !support.divisor;
+            if (divisor != 1 && lacks) {
+                return fmt::format(
+                    "the device lacks {}",
+                    needs_of(divisor == 0 ? Door::instance_divisor_zero : Door::instance_divisor));
+            }
+            // VUID-vkCmdDraw-pNext-09461
+            if (divisor != 1 && draw.first_instance > 0 && !support.divisor_first_instance) {
+                return "the device has no divisor but 1 where firstInstance is not 0 "
+                       "(supportsNonZeroFirstInstance)";
+            }
+        }
+    }
+    return std::nullopt;
 }
 
 std::optional<std::string> missing_mesh_layers(const DoorSupport& support, const cases::Case& c) {
@@ -96,8 +139,6 @@ std::optional<std::string> missing_mesh_layers(const DoorSupport& support, const
 }
 
 namespace {
-
-using cases::Door;
 
 struct Need {
     Door door;

@@ -116,6 +116,7 @@ struct EnabledFeatures::Table {
             {{},
              {},
              {{&doors.multi_indirect, {&f.multiDrawIndirect}},
+              {&doors.indirect_first_instance, {&f.drawIndirectFirstInstance}},
               {&doors.tessellation, {&f.tessellationShader}},
               {&doors.fragment_stores, {&f.fragmentStoresAndAtomics}}},
              0,

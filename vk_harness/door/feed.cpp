@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "capture/capture.hpp"
+#include "cases/model/instances.hpp"
 #include "cases/model/triangle.hpp"
 #include "vk_harness/device/clip_support.hpp"
 #include "vk_harness/target/shader_interface.hpp"
@@ -89,24 +90,29 @@ Feed::Feed(const cases::Case& c, const cases::Draw& draw, const VertexWay& way)
     : draw_(&draw),
       door_(c.variation.door),
       way_(way),
-      bindings_(bindings_of(input_count(c), draw.distances.clip_count, draw.distances.cull_count)) {
-    values_[0] = draw.positions;
+      bindings_(bindings_of(input_count(c), draw.distances.clip_count, draw.distances.cull_count,
+                            way.instances == shaders::Instances::placed)) {
+    values_[0] = cases::base_positions(draw);
     for (uint32_t k = 0; k < input_count(c); ++k) {
         const cases::Attribute* attribute = input_attribute(c, draw, k);
         if (attribute != nullptr && attribute->source == cases::Source::vertex) {
-            values_[1 + k] = attribute->values;
+            values_[1 + k] = cases::elements_read(draw, attribute->values, attribute->divisor);
         } else {
-            values_[1 + k].assign(draw.positions.size(),
+            values_[1 + k].assign(draw.vertex_count(),
                                   glm::vec4(attribute ? 0.0F : capture::kClearValue));
         }
     }
-    values_[kClipBinding] = draw.distances.clip;
-    values_[kCullBinding] = draw.distances.cull;
+    values_[kClipBinding] = cases::elements_read(draw, draw.distances.clip, std::nullopt);
+    values_[kCullBinding] = cases::elements_read(draw, draw.distances.cull, std::nullopt);
+    values_[kOffsetBinding] = draw.offsets;
     make_indices();
-    if (way_.has_instances()) {
-        instances_ = kInstances;
+    if (way_.instances == shaders::Instances::placed) {
+        instances_ = draw.instances;
+        first_instance_ = draw.first_instance;
+        values_[kOffsetBinding].resize(draw.instances, glm::vec4(0));
     } else if (way_.instance_rate != 0) {
-        first_instance_ = kInstance;
+        (way_.instances == shaders::Instances::shown ? instances_ = kInstances
+                                                     : first_instance_ = kInstance);
     }
     if (door_ == Door::mesh_shader) {
         make_triangles(c);
@@ -132,14 +138,14 @@ void Feed::make_indices() {
     index_type_ = index_type_of(door_);
     const uint32_t shift = cases::vertex_shift(door_);
     if (!is_indexed_) {
-        count_ = static_cast<uint32_t>(draw_->positions.size());
+        count_ = static_cast<uint32_t>(draw_->vertex_count());
         first_ = shift;
         return;
     }
     if (draw_->indices) {
         indices_ = *draw_->indices;
     } else {
-        for (uint32_t k = 0; k < draw_->positions.size(); ++k) {
+        for (uint32_t k = 0; k < draw_->vertex_count(); ++k) {
             indices_.push_back(k);
         }
     }
@@ -171,7 +177,9 @@ VkDeviceSize Feed::index_size() const {
 VkDeviceSize Feed::place(VkDeviceSize begin) {
     arrays_.clear();
     const VkDeviceSize before = cases::vertex_shift(door_);  // vertices
-    const VkDeviceSize vertices = before + draw_->positions.size();
+    const VkDeviceSize vertices = before + draw_->vertex_count();
+    // More than are read, so that a wrong number is read, too.
+    const VkDeviceSize elements = std::max(kInstances, 2 * first_instance_ + instances_);
     VkDeviceSize at = begin;
     if (way_.interleaved) {
         const VkDeviceSize size = vertices * 16 * bindings_.count;
@@ -184,9 +192,8 @@ VkDeviceSize Feed::place(VkDeviceSize begin) {
             array.begin = at;
             // A multiple of 4, of which more is never demanded of numbers of 32 bits.
             array.offset = door_ == Door::bind_offset ? at + 20 + 8 * binding : at;
-            const bool is_of_instance = (way_.instance_rate >> binding & 1U) != 0;
-            array.end =
-                array.offset + (is_of_instance ? kInstances : vertices) * stride_of(way_, binding);
+            array.end = array.offset + (way_.is_of_instance(binding) ? elements : vertices) *
+                                           stride_of(way_, binding);
             at = aligned(array.end);
             arrays_.push_back(array);
         }
@@ -212,7 +219,7 @@ VkDeviceSize Feed::place_commands(VkDeviceSize begin) {
     return commands_ + kCommands * kCommandStride;
 }
 
-void Feed::write_vertices(std::span<std::byte> memory) const {
+void Feed::write_vertices(std::span<std::byte> memory, bool is_mirrored) const {
     const size_t before = cases::vertex_shift(door_);
     for (const Array& array : arrays_) {
         for (VkDeviceSize at = array.begin; at + 4 <= array.end; at += 4) {
@@ -238,7 +245,9 @@ void Feed::write_vertices(std::span<std::byte> memory) const {
         const size_t stride = stride_of(way_, array.binding);
         const cases::VertexFormat format = way_.formats.at(array.binding);
         const bool is_usual = format == cases::VertexFormat::rgba32_float;
-        const auto put = [&](size_t vertex, const glm::vec4& value) {
+        const bool is_place = array.binding == 0 || array.binding == kOffsetBinding;
+        const auto put = [&](size_t vertex, glm::vec4 value) {
+            value.x = is_mirrored && is_place ? -value.x : value.x;
             std::byte* to = memory.data() + array.offset + vertex * stride;
             if (is_usual) {
                 std::memcpy(to, &value, sizeof value);
@@ -246,12 +255,14 @@ void Feed::write_vertices(std::span<std::byte> memory) const {
                 cases::encode_vertex(format, value, to);
             }
         };
-        if ((way_.instance_rate >> array.binding & 1U) != 0) {
-            put(way_.divisor == 0 ? 0 : kInstance, values.front());
+        if (way_.is_of_instance(array.binding) &&
+            way_.instances != shaders::Instances::placed) {  // all are the same
+            put(way_.divisors.at(array.binding) == 0 ? 0 : kInstance, values.front());
             continue;
         }
+        const size_t first = way_.is_of_instance(array.binding) ? first_instance_ : before;
         for (size_t v = 0; v < values.size(); ++v) {
-            put(before + v, values[v]);
+            put(first + v, values[v]);
         }
     }
 }
@@ -288,11 +299,13 @@ void Feed::write_commands(std::span<std::byte> memory) const {
     for (uint32_t k = 0; k < kCommands; ++k) {
         const VkDeviceSize at = commands_ + k * kCommandStride;
         if (is_indexed_) {
-            const std::array<uint32_t, 5> words = {parts[k].count, 1, parts[k].first,
-                                                   static_cast<uint32_t>(vertex_offset_), 0};
+            const std::array<uint32_t, 5> words = {parts[k].count, instances_, parts[k].first,
+                                                   static_cast<uint32_t>(vertex_offset_),
+                                                   first_instance_};
             put(at, words);
         } else {
-            const std::array<uint32_t, 4> words = {parts[k].count, 1, parts[k].first, 0};
+            const std::array<uint32_t, 4> words = {parts[k].count, instances_, parts[k].first,
+                                                   first_instance_};
             put(at, words);
         }
     }
@@ -315,8 +328,8 @@ std::array<Feed::Part, Feed::kCommands> Feed::parts_of() const {
                       : std::array{Part{first_, split}, none, Part{first_ + split, count_ - split}};
 }
 
-void Feed::write(std::span<std::byte> memory) const {
-    write_vertices(memory);
+void Feed::write(std::span<std::byte> memory, bool is_mirrored) const {
+    write_vertices(memory, is_mirrored);
     write_indices(memory);
     write_commands(memory);
 }
@@ -468,14 +481,15 @@ void Feed::draw(const Device& device, VkCommandBuffer commands, VkBuffer vertice
                 for (uint32_t k = 0; k < kCommands; ++k) {
                     draws[k] = {parts[k].first, parts[k].count, vertex_offset_};
                 }
-                vk.vkCmdDrawMultiIndexedEXT(commands, kCommands, draws.data(), 1, 0,
-                                            sizeof draws[0], nullptr);
+                vk.vkCmdDrawMultiIndexedEXT(commands, kCommands, draws.data(), instances_,
+                                            first_instance_, sizeof draws[0], nullptr);
             } else {
                 std::array<VkMultiDrawInfoEXT, kCommands> draws{};
                 for (uint32_t k = 0; k < kCommands; ++k) {
                     draws[k] = {parts[k].first, parts[k].count};
                 }
-                vk.vkCmdDrawMultiEXT(commands, kCommands, draws.data(), 1, 0, sizeof draws[0]);
+                vk.vkCmdDrawMultiEXT(commands, kCommands, draws.data(), instances_, first_instance_,
+                                     sizeof draws[0]);
             }
             return;
         }

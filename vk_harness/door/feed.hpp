@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The vertices of a draw on another way to the pipeline: other indices, other places, other
-// commands. One object a draw of a case that goes through a door of the group `vertices`.
+// commands. One object a draw of instances, or of a case that goes through a door of the group
+// `vertices`.
 #pragma once
 
 #include <array>
@@ -23,7 +24,8 @@ class Feed {
     // Assigns places from byte `begin` of the vertex buffer on; returns the end.
     VkDeviceSize place(VkDeviceSize begin);
     // Writes vertices, indices and parameters there; what lies between them must not be read.
-    void write(std::span<std::byte> memory) const;
+    // `is_mirrored`: with the opposite of each x.
+    void write(std::span<std::byte> memory, bool is_mirrored) const;
     // Buffers and memory of their own, if the door gives them; after place() and write().
     // `pulled`: the layout of the descriptor set from which a shader reads vertices.
     void make_buffers(const Device& device, std::span<const std::byte> memory,
@@ -59,7 +61,7 @@ class Feed {
                      VkDescriptorSetLayout layout);
     VkDeviceSize index_size() const;
     VkDeviceSize place_commands(VkDeviceSize begin);
-    void write_vertices(std::span<std::byte> memory) const;
+    void write_vertices(std::span<std::byte> memory, bool is_mirrored) const;
     void write_indices(std::span<std::byte> memory) const;
     void write_commands(std::span<std::byte> memory) const;
 
@@ -67,8 +69,8 @@ class Feed {
     cases::Door door_;
     VertexWay way_;
     Bindings bindings_;
-    std::array<std::vector<glm::vec4>, 7> values_;  // by binding
-    std::vector<uint32_t> indices_;                 // as they are written
+    std::array<std::vector<glm::vec4>, kBindings> values_;  // by binding
+    std::vector<uint32_t> indices_;                         // as they are written
     bool is_indexed_ = false;
     VkIndexType index_type_ = VK_INDEX_TYPE_UINT32;
     // Of the drawing command.

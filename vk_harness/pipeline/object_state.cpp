@@ -14,8 +14,9 @@ void set_inputs(const Device& device, VkCommandBuffer commands, const PipelineKe
     const VertexInputState own(key);
     std::vector<VkVertexInputBindingDescription2EXT> bindings;
     for (const VkVertexInputBindingDescription& b : own.bindings) {
-        bindings.push_back({VK_STRUCTURE_TYPE_VERTEX_INPUT_BINDING_DESCRIPTION_2_EXT, nullptr,
-                            b.binding, b.stride, b.inputRate, 1});
+        bindings.push_back(
+            {VK_STRUCTURE_TYPE_VERTEX_INPUT_BINDING_DESCRIPTION_2_EXT, nullptr, b.binding, b.stride,
+             b.inputRate, key.way.is_of_instance(b.binding) ? key.way.divisors.at(b.binding) : 1});
     }
     std::vector<VkVertexInputAttributeDescription2EXT> inputs;
     for (const VkVertexInputAttributeDescription& i : own.inputs) {

@@ -224,9 +224,8 @@ PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw,
 shaders::VertexVariant vertex_variant(const PipelineKey& key) {
     // The last stage before rasterization chooses layer and viewport.
     const bool is_last = key.stages == StageWay::vertex;
-    return {
-        key.attribute_count,           key.clip_count, key.cull_count,         is_last && key.layer,
-        is_last && key.viewport_index, key.way.pulled, key.way.has_instances()};
+    return {key.attribute_count,           key.clip_count, key.cull_count,   is_last && key.layer,
+            is_last && key.viewport_index, key.way.pulled, key.way.instances};
 }
 
 shaders::VertexVariant geometry_variant(const PipelineKey& key) {

@@ -16,7 +16,8 @@ VertexInputState::VertexInputState(const PipelineKey& key) {
     // but if all lie together.
     const Bindings read = key.way.pulled
                               ? Bindings{}
-                              : bindings_of(key.attribute_count, key.clip_count, key.cull_count);
+                              : bindings_of(key.attribute_count, key.clip_count, key.cull_count,
+                                            key.way.instances == shaders::Instances::placed);
     uint32_t offset = 0;
     for (const uint32_t binding : read) {
         const uint32_t size = size_of(key.way, binding);
@@ -26,11 +27,11 @@ VertexInputState::VertexInputState(const PipelineKey& key) {
             offset += size;
             continue;
         }
-        const bool is_of_instance = (key.way.instance_rate >> binding & 1U) != 0;
+        const bool is_of_instance = key.way.is_of_instance(binding);
         const VkVertexInputRate rate =
             is_of_instance ? VK_VERTEX_INPUT_RATE_INSTANCE : VK_VERTEX_INPUT_RATE_VERTEX;
-        if (is_of_instance && key.way.divisor != 1) {
-            divisors.push_back({binding, key.way.divisor});
+        if (is_of_instance && key.way.divisors.at(binding) != 1) {
+            divisors.push_back({binding, key.way.divisors.at(binding)});
         }
         const uint32_t stride =
             key.way.dynamic_stride ? kIgnoredStride : stride_of(key.way, binding);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "cases/model/instances.hpp"
 #include "vk_harness/device/clip_support.hpp"
 #include "vk_harness/target/shader_interface.hpp"
 
@@ -40,11 +41,12 @@ uint32_t constant_bindings(const cases::Case& c, const cases::Draw& draw) {
 // The numbers of different bindings and draws lie in different formats, where there are several.
 void choose_formats(const cases::Case& c, const cases::Draw& draw, uint32_t offered,
                     VertexWay& way) {
-    const size_t salt = draw.positions.size() / 3;
+    const std::vector<glm::vec4> positions = cases::base_positions(draw);
+    const size_t salt = positions.size() / 3;
     const auto choose = [&](uint32_t binding, std::span<const glm::vec4> values) {
         way.formats.at(binding) = cases::other_vertex_format(values, offered, salt + binding);
     };
-    choose(0, draw.positions);
+    choose(0, positions);
     for (uint32_t k = 0; k < input_count(c); ++k) {
         const cases::Attribute* attribute = input_attribute(c, draw, k);
         if (attribute != nullptr && attribute->source == cases::Source::vertex) {
@@ -53,6 +55,7 @@ void choose_formats(const cases::Case& c, const cases::Draw& draw, uint32_t offe
     }
     choose(kClipBinding, draw.distances.clip);
     choose(kCullBinding, draw.distances.cull);
+    choose(kOffsetBinding, draw.offsets);
 }
 
 }  // namespace
@@ -76,12 +79,12 @@ VertexWay vertex_way(const cases::Case& c, const cases::Draw& draw, uint32_t for
             way.pulled = true;
             break;
         case cases::Door::three_components:
-            if (cases::holds(cases::VertexFormat::rgb32_float, draw.positions)) {
+            if (cases::holds(cases::VertexFormat::rgb32_float, cases::base_positions(draw))) {
                 way.formats[0] = cases::VertexFormat::rgb32_float;
             }
             break;
         case cases::Door::half_floats:
-            if (cases::holds(cases::VertexFormat::rgba16_float, draw.positions)) {
+            if (cases::holds(cases::VertexFormat::rgba16_float, cases::base_positions(draw))) {
                 way.formats[0] = cases::VertexFormat::rgba16_float;
             }
             break;
@@ -90,17 +93,31 @@ VertexWay vertex_way(const cases::Case& c, const cases::Draw& draw, uint32_t for
             break;
         case cases::Door::instance_divisor:
             way.instance_rate = constant_bindings(c, draw);
-            way.divisor = 3;
+            way.divisors.fill(3);
             break;
         case cases::Door::instance_divisor_zero:
             way.instance_rate = constant_bindings(c, draw);
-            way.divisor = 0;
+            way.divisors.fill(0);
             break;
         case cases::Door::instance_rate:
             way.instance_rate = constant_bindings(c, draw);
             break;
         default:
             break;
+    }
+    if (way.instance_rate != 0 && way.divisors.front() != 1) {
+        way.instances = shaders::Instances::shown;
+    }
+    if (cases::is_instanced(draw)) {
+        way.instances = shaders::Instances::placed;
+        way.instance_rate = 1U << kOffsetBinding;
+        for (uint32_t k = 0; k < input_count(c); ++k) {
+            const cases::Attribute* attribute = input_attribute(c, draw, k);
+            if (attribute != nullptr && attribute->divisor) {
+                way.instance_rate |= 1U << (1 + k);
+                way.divisors.at(1 + k) = *attribute->divisor;
+            }
+        }
     }
     return way;
 }
@@ -117,7 +134,8 @@ uint32_t stride_of(const VertexWay& way, uint32_t binding) {
     return size_of(way, binding) + (way.padded ? 12 + 4 * binding : 0);
 }
 
-Bindings bindings_of(uint32_t attribute_count, uint32_t clip_count, uint32_t cull_count) {
+Bindings bindings_of(uint32_t attribute_count, uint32_t clip_count, uint32_t cull_count,
+                     bool has_offsets) {
     Bindings out;
     for (uint32_t binding = 0; binding <= attribute_count; ++binding) {
         out.numbers[out.count++] = binding;
@@ -127,6 +145,9 @@ Bindings bindings_of(uint32_t attribute_count, uint32_t clip_count, uint32_t cul
     }
     if (cull_count > 0) {
         out.numbers[out.count++] = kCullBinding;
+    }
+    if (has_offsets) {
+        out.numbers[out.count++] = kOffsetBinding;
     }
     return out;
 }

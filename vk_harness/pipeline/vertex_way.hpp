@@ -14,17 +14,20 @@
 
 namespace vk_harness {
 
+// Positions, attributes, clip distances, cull distances, offsets of instances.
+inline constexpr uint32_t kOffsetBinding = 7, kBindings = 8;
+
 // As constructed: every input is an array of vec4 of its own.
 struct VertexWay {
-    bool padded = false;                           // stride_of() has room between vertices
-    bool dynamic_stride = false;                   // the strides are given with the buffers
-    bool interleaved = false;                      // all inputs lie in binding 0
-    std::array<cases::VertexFormat, 7> formats{};  // by binding
-    bool pulled = false;                           // the shader reads them from a storage buffer
-    uint32_t instance_rate = 0;  // bit b: binding b is read once for `divisor` instances
-    uint32_t divisor = 1;        // 0: for all of them
-    // Several instances are drawn, and the shader leaves shaders::kShownInstance of them.
-    bool has_instances() const { return instance_rate != 0 && divisor != 1; }
+    bool padded = false;                                   // stride_of() has room between vertices
+    bool dynamic_stride = false;                           // the strides are given with the buffers
+    bool interleaved = false;                              // all inputs lie in binding 0
+    std::array<cases::VertexFormat, kBindings> formats{};  // by binding
+    bool pulled = false;         // the shader reads them from a storage buffer
+    uint32_t instance_rate = 0;  // bit b: binding b is read once for divisors[b] instances
+    std::array<uint32_t, kBindings> divisors{1, 1, 1, 1, 1, 1, 1, 1};  // 0: for all of them
+    shaders::Instances instances = shaders::Instances::one;
+    bool is_of_instance(uint32_t binding) const { return (instance_rate >> binding & 1U) != 0; }
     friend auto operator<=>(const VertexWay&, const VertexWay&) = default;
 };
 
@@ -45,14 +48,15 @@ uint32_t stride_of(const VertexWay& way, uint32_t binding);
 // What a pipeline says of a stride that is dynamic: another one.
 inline constexpr uint32_t kIgnoredStride = 112;
 
-// The bindings that a draw reads: positions, attributes, clip and cull distances. With the
+// The bindings that a draw reads: positions, attributes, clip and cull distances, offsets. With the
 // interleaved way they are places in binding 0, one vec4 after the other in this order.
 struct Bindings {
-    uint32_t numbers[7] = {};
+    uint32_t numbers[kBindings] = {};
     uint32_t count = 0;
     const uint32_t* begin() const { return numbers; }
     const uint32_t* end() const { return numbers + count; }
 };
-Bindings bindings_of(uint32_t attribute_count, uint32_t clip_count, uint32_t cull_count);
+Bindings bindings_of(uint32_t attribute_count, uint32_t clip_count, uint32_t cull_count,
+                     bool has_offsets);
 
 }  // namespace vk_harness

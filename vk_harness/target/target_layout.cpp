@@ -17,7 +17,7 @@ namespace {
 bool ids_fit(const cases::Case& test) {
     size_t most = 0;
     for (const cases::Draw& draw : test.draws) {
-        most = std::max(most, draw.indices ? draw.indices->size() : draw.positions.size());
+        most = std::max(most, draw.element_count());
     }
     return test.draws.size() < 0x10000 &&
            (most + 2) * std::max(test.draws.size(), size_t{1}) < kMaxId;

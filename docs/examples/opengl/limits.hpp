@@ -30,6 +30,7 @@ inline std::string refusal(const Context& gl, const Json& c) {
     static const std::map<std::string, std::string> never = {
         {"barycentrics", "OpenGL has no barycentric coordinates"},
         {"clear", "this program clears before all draws alone"},
+        {"instances", "this program draws one instance"},
         {"alpha-to-coverage", "this program does not turn it on"},
         {"alpha-to-one", "OpenGL has it with several samples alone"},
         {"conservative-rasterization", "OpenGL has no conservative rasterization"},

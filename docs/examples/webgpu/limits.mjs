@@ -32,6 +32,7 @@ const NEVER = {
   'depth-volume': 'WebGPU has no view volume from -w',
   'cull-distance': 'WebGPU has no cull distances',
   clear: 'WebGPU has no clears among draws',
+  instances: 'this program draws one instance',
   'rasterizer-discard': 'WebGPU has no rasterizer discard',
   'conservative-rasterization': 'WebGPU has no conservative rasterization',
   'fragment-size': 'WebGPU has fragments of one pixel',

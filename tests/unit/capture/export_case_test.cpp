@@ -93,12 +93,13 @@ std::vector<Change> target_changes() {
 }
 
 std::vector<Change> draw_changes() {
-    [[maybe_unused]] const auto& [cleared, topology, positions, matrix, indices, primitive_restart,
-                                  attributes, viewport, scissor, cull, front_face, provoking,
-                                  rasterizer_discard, conservative, conservative_extra,
-                                  fragment_size, discard, discard_attribute, discard_by,
-                                  early_tests, frag_depth, query, depth, stencil, distances,
-                                  multisample, color,
+    [[maybe_unused]] const auto& [cleared, topology, positions, instances, first_instance,
+                                  offsets,  // the last two are not told
+                                  matrix, indices, primitive_restart, attributes, viewport, scissor,
+                                  cull, front_face, provoking, rasterizer_discard, conservative,
+                                  conservative_extra, fragment_size, discard, discard_attribute,
+                                  discard_by, early_tests, frag_depth, query, depth, stencil,
+                                  distances, multisample, color,
                                   other_colors,  // not told
                                   layer, viewport_index, where] = cases::Draw{};
     [[maybe_unused]] const auto& [x, y, width, height, min_depth, max_depth] = cases::Viewport{};
@@ -109,6 +110,7 @@ std::vector<Change> draw_changes() {
         {"clear", [](Case& c) { draw(c).clear.emplace(); }},
         {"topology", [](Case& c) { draw(c).topology = cases::Topology::triangle_strip; }},
         {"positions", [](Case& c) { draw(c).positions[3].w = 2; }},
+        {"instances", [](Case& c) { draw(c).instances = 2; }},
         {"indices", [](Case& c) { draw(c).indices->back() = 3; }},
         {"no indices", [](Case& c) { draw(c).indices.reset(); }},
         {"primitive_restart", [](Case& c) { draw(c).primitive_restart = true; }},
@@ -222,7 +224,7 @@ std::vector<Change> color_changes() {
 
 std::vector<Change> attribute_changes() {
     [[maybe_unused]] const auto& [name, interpolation, components, values, auxiliary, source, probe,
-                                  offset, sample, size] = cases::Attribute{};
+                                  offset, sample, size, divisor] = cases::Attribute{};
     using cases::Probe;
     const auto probed = [](Probe to, const std::function<void(cases::Attribute&)>& more) {
         return [to, more](Case& c) {

@@ -104,7 +104,7 @@ std::vector<std::string> values_of(const Key& key) {
             return {"true", "false"};
         case KeyKind::whole:
         case KeyKind::bits:
-            return {std::to_string(key.least), std::to_string(std::min<int64_t>(key.most, 1))};
+            return {std::to_string(key.least), std::to_string(std::min(key.most, key.least + 1))};
         case KeyKind::number:
         case KeyKind::share:
             return {"0.75", "0.5"};

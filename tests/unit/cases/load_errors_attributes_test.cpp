@@ -176,6 +176,19 @@ vertices = [[0,0,0,1],[1,0,0,1],[0,1,0,0]]
 [[draw.attribute]]
 plane = "x")~"),
      R"~(f:10:9: error: plane has no x and y at vertex 2, whose w is 0)~"},
+    {triangle(R"~(instances = 3
+[[draw.attribute]]
+divisor = 2
+values = [1, 2, 3])~"),
+     R"~(f:11:10: error: values has 3 entries for 2 elements, which the instances read)~"},
+    {attribute("divisor = 17\nvalues = [1]"),
+     R"~(f:9:11: error: divisor is not an integer from 0 to 16)~"},
+    {attribute("divisor = 1\nplane = \"x\""),
+     R"~(f:10:9: error: plane is of vertices, and the attribute has a divisor; write values or constant)~"},
+    {attribute("divisor = 1\nfrom = \"random\""),
+     R"~(f:10:8: error: from is of vertices, and the attribute has a divisor; write values or constant)~"},
+    {attribute("divisor = 1\nsource = \"barycentric\""),
+     R"~(f:9:11: error: a divisor is of values that are read; leave it or source out)~"},
 };
 // clang-format on
 

@@ -133,6 +133,34 @@ vertices = [[0,0],[8,0],[0,8]])~"),
      R"~(f:8:16: error: an index: "reset" is not a number: the name reset is unknown; names are the keys of [matrix])~"},
     {triangle(R"~(indices = [0,1,-1])~"),
      R"~(f:8:16: error: an index is not an integer from 0 to 2)~"},
+    {triangle(R"~(instances = 0)~"), R"~(f:8:13: error: instances is not an integer from 1 to 16)~"},
+    {triangle(R"~(instances = 17)~"), R"~(f:8:13: error: instances is not an integer from 1 to 16)~"},
+    {triangle(R"~(first_instance = 16)~"),
+     R"~(f:8:18: error: first_instance is not an integer from 0 to 15)~"},
+    {triangle(R"~(instances = 2
+offsets = [[0,0,0,0]])~"),
+     R"~(f:9:11: error: offsets has 1 entries for 2 instances)~"},
+    {triangle(R"~(offsets = [[0,0]])~"),
+     R"~(f:8:12: error: offsets has 2 numbers instead of 4)~"},
+    {triangle(R"~(instances = 2
+offsets = [[0,0,0,0],["1/16777216",0,0,0]])~"),
+     R"~(f:9:11: error: of instance 1 no binary32 is the sum of a vertex and its offset, or one of the three is denormal; write rounder numbers)~"},
+    {draw(R"~(space = "clip"
+vertices = [[nan,0,0,1],[1,0,0,1],[0,1,0,1]]
+instances = 2)~"),
+     R"~(f:6:1: error: of instance 0 no binary32 is the sum of a vertex and its offset, or one of the three is denormal; write rounder numbers)~"},
+    {draw(R"~(instances = 2
+generate = { kind = "surface", columns = 9, rows = 9 })~"),
+     R"~(f:7:13: error: instances does not go with the generator "surface"; leave it out)~"},
+    {target("size = [8, 8]\nattachments = \"color\"\ncolor = { format = \"rgba8-unorm\" }") +
+         "instances = 2\nmatrix = true\ncolor = { value = [0, 0, 0, 1], from = \"constant\" }\n",
+     R"~(f:8:1: error: a draw of instances goes with no matrix, and with clip or cull distances, but not with both)~"},
+    {triangle(R"~(instances = 2
+[[draw.clip_distance]]
+constant = 1
+[[draw.cull_distance]]
+constant = 1)~"),
+     R"~(f:6:1: error: a draw of instances goes with no matrix, and with clip or cull distances, but not with both)~"},
     {triangle(R"~(depth = "less")~"), R"~(f:8:9: error: depth is the string "less"; write a table)~"},
     {triangle(R"~(depth = { compair = "less" })~"),
      R"~(f:8:11: error: depth has no key "compair"; did you mean "compare"?)~"},

@@ -214,6 +214,21 @@ TEST(Delivered, AMissingPlaneIsNamed) {
     EXPECT_FALSE(take(f.right, kDepth).is_empty());
 }
 
+// Both instances draw primitive 0, so that nobody is judged by it.
+TEST(Delivered, PrimitivesDoNotTellInstancesApart) {
+    Fixture f;
+    f.c.draws[0].instances = 2;
+    f.e = ref::expect(f.c, ref::Limits{8}, Profile::direct3d);
+    f.right = perfect_capture(f.c, f.e);
+    const uint32_t all = kEnd - 1 - kCoverage - kTotal;
+    EXPECT_THAT(diff::not_judged(f.c, take(f.right, all)), ElementsAre("writer"));
+    for (uint32_t planes = 1; planes < kEnd; ++planes) {
+        if (is_possible(planes)) {
+            EXPECT_TRUE(diff::compare_delivered(f.c, f.e, take(f.right, planes)).ok()) << planes;
+        }
+    }
+}
+
 // Another picture is judged on the same planes as the delivered one, coverage alone included.
 TEST(Delivered, APictureIsCutToThePlanesThatWereDelivered) {
     const Fixture f;

@@ -60,6 +60,43 @@ TEST(DoorSupport, EveryNeedIsAskedFor) {
     }
 }
 
+TEST(DoorSupport, InstancesNeedDivisorsAndFirstInstances) {
+    cases::Case test = two_triangles(cases::Door::indirect);
+    DoorSupport support;
+    EXPECT_EQ(missing_instance_support(support, test), std::nullopt);
+    test.draws[0].first_instance = 2;
+    EXPECT_EQ(missing_instance_support(support, test),
+              "the device lacks drawIndirectFirstInstance");
+    support.indirect_first_instance = true;
+    EXPECT_EQ(missing_instance_support(support, test), std::nullopt);
+    support.indirect_first_instance = false;
+    test.variation.door = cases::Door::none;
+    EXPECT_EQ(missing_instance_support(support, test), std::nullopt);
+    std::optional<uint32_t>& divisor = test.draws[0].attributes.emplace_back().divisor;
+    divisor = 1;
+    EXPECT_EQ(missing_instance_support(support, test), std::nullopt);
+    divisor = 2;
+    EXPECT_EQ(missing_instance_support(support, test),
+              "the device lacks vertexAttributeInstanceRateDivisor "
+              "(VK_EXT_vertex_attribute_divisor)");
+    support.divisor = true;
+    EXPECT_EQ(missing_instance_support(support, test), std::nullopt);
+    divisor = 0;
+    EXPECT_EQ(missing_instance_support(support, test),
+              "the device lacks vertexAttributeInstanceRateDivisor and "
+              "vertexAttributeInstanceRateZeroDivisor (VK_EXT_vertex_attribute_divisor)");
+    support.divisor_zero = true;
+    support.divisor_first_instance = false;
+    EXPECT_EQ(missing_instance_support(support, test),
+              "the device has no divisor but 1 where firstInstance is not 0 "
+              "(supportsNonZeroFirstInstance)");
+    divisor = 1;
+    EXPECT_EQ(missing_instance_support(support, test), std::nullopt);
+    divisor = 0;
+    test.draws[0].first_instance = 0;
+    EXPECT_EQ(missing_instance_support(support, test), std::nullopt);
+}
+
 TEST(DoorSupport, AMeshShaderNamesSoManyLayers) {
     cases::Case test = two_triangles(cases::Door::mesh_shader);
     test.target.layers = 9;

@@ -220,8 +220,7 @@ TEST(SpirvVariant, EveryEmbeddedModuleIsValid) {
 
 TEST(SpirvVariant, AnUnusedOutputIsAdded) {
     for (const std::span<const uint32_t> code :
-         {shaders::capture_vertex({0, 0, 0, false, false, false, false}),
-          shaders::capture_vertex({2, 1, 0, false, false, true, false}),
+         {shaders::capture_vertex({}), shaders::capture_vertex({2, 1, 0, false, false, true}),
           shaders::capture_fragment({}), shaders::clear_depth()}) {
         auto once = shaders::with_unused_output(code, 8);
         ASSERT_TRUE(once) << once.error();
