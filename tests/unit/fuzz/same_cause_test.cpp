@@ -163,6 +163,8 @@ TEST(SameCause, AWrongInputMayLookLikeWrongHits) {
     for (const char* symptom :
          {"missing of cover.inside [vulkan]", "double of cover.outside [vulkan]",
           "extra of discard.value [direct3d]"}) {
+        EXPECT_TRUE(is_same_cause(input, entry("value of write.consistent [practice]",
+                                               also("draw.discard=negative"))));
         EXPECT_TRUE(is_same_cause(input, entry(symptom, also("attachments=color")))) << symptom;
         EXPECT_TRUE(is_same_cause(input, entry(symptom, also("attachments=color+depth"))));
         EXPECT_TRUE(is_same_cause(input, entry(symptom, also("draw.discard=negative"))));
