@@ -202,10 +202,8 @@ bool is_of_value(const Entry& earlier, const Entry& fresh) {
     const Essential discard = key("draw.discard", "negative");
     Essentials but = special;
     but.insert(discard);
-    const bool is_of_hits =
-        !is_value(fresh.symptom) || fresh.symptom.rule == "write.consistent";
-    const bool is_discard = is_input && is_of_hits &&
-                            fresh.essentials.contains(discard) &&
+    const bool is_of_hits = !is_value(fresh.symptom) || fresh.symptom.rule == "write.consistent";
+    const bool is_discard = is_input && is_of_hits && fresh.essentials.contains(discard) &&
                             std::ranges::none_of(without(fresh.essentials, but), decides_hits);
     return is_value(earlier.symptom) && !special.empty() &&
            (is_discard ||

@@ -81,9 +81,9 @@ TEST(SameCause, WhatIsStoredWronglyRoundedIsHandedOn) {
     EXPECT_TRUE(explains(stored, *parse_symptom("missing of cover.inside [direct3d]"),
                          {parse_essentials({"attachments=color", "draw.color.logic=equivalent"}),
                           cases::ColorFormat::r5g6b5_unorm}));
-    EXPECT_FALSE(explains(stored, *parse_symptom("missing of cover.inside [direct3d]"),
-                          {parse_essentials({"draw.color.logic=equivalent"}),
-                           cases::ColorFormat::r5g6b5_unorm}));
+    EXPECT_FALSE(explains(
+        stored, *parse_symptom("missing of cover.inside [direct3d]"),
+        {parse_essentials({"draw.color.logic=equivalent"}), cases::ColorFormat::r5g6b5_unorm}));
     EXPECT_FALSE(explains(stored, *parse_symptom("value of depth.linear [direct3d]"), facts));
     EXPECT_FALSE(
         explains(stored, *parse_symptom("value of logic.operation [direct3d]"),
@@ -163,8 +163,8 @@ TEST(SameCause, AWrongInputMayLookLikeWrongHits) {
     for (const char* symptom :
          {"missing of cover.inside [vulkan]", "double of cover.outside [vulkan]",
           "extra of discard.value [direct3d]"}) {
-        EXPECT_TRUE(is_same_cause(input, entry("value of write.consistent [practice]",
-                                               also("draw.discard=negative"))));
+        EXPECT_TRUE(is_same_cause(
+            input, entry("value of write.consistent [practice]", also("draw.discard=negative"))));
         EXPECT_TRUE(is_same_cause(input, entry(symptom, also("attachments=color")))) << symptom;
         EXPECT_TRUE(is_same_cause(input, entry(symptom, also("attachments=color+depth"))));
         EXPECT_TRUE(is_same_cause(input, entry(symptom, also("draw.discard=negative"))));
