@@ -88,9 +88,6 @@ bool load_other_color(Target& t) {
     return t.color &&
            set(t.color->clear, is_integer(t.color->format) ? glm::vec4(1) : glm::vec4(kOther));
 }
-bool is_loaded(LoadOp op) {
-    return op == LoadOp::load || op == LoadOp::none;
-}
 bool exchanges(const Target& t) {
     return t.has_depth && t.has_stencil && t.depth_load != t.stencil_load &&
            t.depth_load != LoadOp::dont_care && t.stencil_load != LoadOp::dont_care;

@@ -59,9 +59,7 @@ void check_aspect(LeafContext& context, const Aspect& aspect, const Case& c) {
             fmt::format("{} = \"none\" leaves contents that nothing may test nor store; write {} = "
                         "\"none\", and no test of it",
                         aspect.load_key, aspect.store_key));
-    } else if (aspect.store == StoreOp::none &&
-               (aspect.load == LoadOp::clear || aspect.load == LoadOp::dont_care ||
-                any(&Use::writes))) {
+    } else if (aspect.store == StoreOp::none && (!is_loaded(aspect.load) || any(&Use::writes))) {
         context.error(
             aspect.table.find(aspect.store_key)->where,
             fmt::format("{} = \"none\" keeps what an earlier pass has left, if nothing is written; "

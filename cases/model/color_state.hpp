@@ -138,11 +138,15 @@ struct ColorOutput {
 inline constexpr uint32_t kMaxColorTargets = 4;  // every device has as many outputs
 
 // What a pass begins with (VkAttachmentLoadOp): the clear value, by a clear or as the contents that
-// an earlier pass has left; or what nobody knows. With none of both operations, or with load and
-// none, the pass leaves those contents alone, as long as nothing is drawn there.
+// an earlier pass has left; what nobody knows; or those contents, which the pass does not read.
 enum class LoadOp : uint8_t { clear, load, dont_care, none };
-// Whether it keeps what it ends with.
+// Whether a pass keeps what it ends with. By none the contents of the earlier pass stay, as long as
+// nothing is written.
 enum class StoreOp : uint8_t { store, dont_care, none };
+// Whether an earlier pass leaves the clear value there.
+constexpr bool is_loaded(LoadOp op) {
+    return op == LoadOp::load || op == LoadOp::none;
+}
 
 // One more colour attachment, judged by its stored bits.
 struct ColorTarget {

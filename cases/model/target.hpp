@@ -70,8 +70,9 @@ struct Target {
     }
     // Whether some aspect's load operation is none.
     bool loads_nothing() const {
+        const auto is_none = [](const ColorTarget& t) { return t.load == LoadOp::none; };
         return depth_load == LoadOp::none || stencil_load == LoadOp::none ||
-               (color && color->load == LoadOp::none);
+               (color && is_none(*color)) || std::ranges::any_of(other_colors, is_none);
     }
     // Whether some aspect has other operations than to be cleared and stored.
     bool has_operations() const {

@@ -478,6 +478,13 @@ class Known(FuzzTest):
         self.assertTrue(told, [(c["symptom"], c["essentials"], c["is_reduced"], c["count"]) for c in self.ledger("faulty")["causes"]])
         self.assertFalse([c for c in told if {"several samples", "draw.scissor beyond 32767"} & set(c["essentials"])], told)
 
+    def test_what_a_line_calls_a_flake_is_known(self):
+        lines = (self.suite.parent / "expectations" / "llvmpipe-scissor.txt").read_text()
+        (self.folder / "flakes.txt").write_text(re.sub(r"^([^#\s]\S*\s+)fail ", r"\1flake ", lines, flags=re.M))
+        self.fuzz("scissor/**", "--cases=512", "--expect", "flakes.txt")
+        known = [c for c in self.ledger()["causes"] if c["is_known"]]
+        self.assertTrue([c for c in known if "of scissor.half-open" in c["symptom"]], known)
+
     def test_doors_that_an_expectation_file_leaves_out_are_left_out_and_counted(self):
         # Cases 96 to 111 of seed 1 go through the door interleaved.
         (self.folder / "doors.txt").write_text("# edgecase-expectations 2\n# device: llvmpipe*\n"

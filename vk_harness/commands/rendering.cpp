@@ -180,17 +180,13 @@ void clear_resolved(const Device& device, VkCommandBuffer commands, const CasePl
     memory_barrier(device, commands, cleared, cleared);
 }
 
-// Whether the pass begins with what an earlier one has left.
-bool is_loaded(const Attachment& a) {
-    return a.load == cases::LoadOp::load || a.load == cases::LoadOp::none;
-}
 // What is loaded is never cleared to what it holds.
 VkClearValue own_clear(const Attachment& a) {
-    return is_loaded(a) ? other_clear(a) : a.clear;
+    return is_loaded(a.load) ? other_clear(a) : a.clear;
 }
 // What an earlier pass leaves: what is loaded.
 VkClearValue earlier_clear(const Attachment& a) {
-    return is_loaded(a) ? a.clear : other_clear(a);
+    return is_loaded(a.load) ? a.clear : other_clear(a);
 }
 
 constexpr VkAttachmentLoadOp kLoadOps[] = {VK_ATTACHMENT_LOAD_OP_CLEAR, VK_ATTACHMENT_LOAD_OP_LOAD,

@@ -161,6 +161,26 @@ TEST(CaseCheck, SampleLocations) {
                     "the sample location 15/16 is outside the device's range of 0 to 0.875 pixels");
 }
 
+TEST(CaseCheck, LoadOperationNoneIsOfAnExtension) {
+    cases::Case c = good();
+    c.target.depth_load = cases::LoadOp::none;
+    Capabilities m = made_up();
+    expect_rejected(
+        m, c, Rendered::Status::unsupported,
+        "the device lacks VK_EXT_load_store_op_none, which the load operation none needs");
+    m.has_load_none = true;
+    EXPECT_FALSE(check_case(m, c).has_value());
+    // Of any colour: what is asked of its format needs a device.
+    for (const bool is_beside : {false, true}) {
+        cases::Target target;
+        target.color = cases::ColorTarget{};
+        target.other_colors = {cases::ColorTarget{}};
+        EXPECT_FALSE(target.loads_nothing());
+        (is_beside ? target.other_colors[0] : *target.color).load = cases::LoadOp::none;
+        EXPECT_TRUE(target.loads_nothing()) << is_beside;
+    }
+}
+
 TEST(CaseCheck, Layers) {
     using enum Rendered::Status;
     Capabilities m = made_up();
