@@ -55,9 +55,12 @@ Scene scene_of(const cases::Case& c, const cases::Triangle& t, Profile profile) 
     const cases::Draw all = d;
     d.topology = cases::Topology::triangle_list;
     d.indices.reset();
+    d.instances = 1;  // positions and values of all instances have their offsets and divisors
+    d.offsets.clear();
     if (cases::discards_by_value(d)) {
         d.attributes = {all.attributes[all.discard_attribute]};
         d.attributes[0].values.clear();
+        d.attributes[0].divisor.reset();
         d.discard_attribute = 0;
         for (const uint32_t v : t.vertex) {
             const bool is_flat = d.attributes[0].interpolation == cases::Interpolation::flat;
