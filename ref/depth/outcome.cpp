@@ -14,6 +14,7 @@
 #include "cases/model/sample.hpp"
 #include "ref/depth/compare.hpp"
 #include "ref/value/accept/judge_candidates.hpp"
+#include "ref/value/fragment/promise.hpp"
 
 namespace ref {
 
@@ -64,6 +65,7 @@ struct DepthTest::Impl {
     };
     struct Loaded {
         value::Primitive primitive;
+        bool has_depth = false;  // something is promised of it
         std::tuple<Known<Ball>, Known<mpq_class>> known;
     };
 
@@ -116,7 +118,13 @@ struct DepthTest::Impl {
     Loaded& load(uint32_t t) {
         if (!loaded[t]) {
             loaded[t] = std::make_unique<Loaded>();
-            loaded[t]->primitive = value::make_primitive(c, triangles[t], limits);
+            const value::Primitive& made = loaded[t]->primitive =
+                value::make_primitive(c, triangles[t], limits);
+            if (made.is_finite) {
+                const value::Promise of = value::promises_of(made, {&depth, 1}).front();
+                loaded[t]->has_depth =
+                    of.is_number && (of.is_guaranteed || profile != cases::Profile::vulkan);
+            }
         }
         return *loaded[t];
     }
@@ -147,7 +155,7 @@ struct DepthTest::Impl {
                                      static_cast<uint32_t>(p.y >> kFixedBits))) {
             return range_at<T>(*z);
         }
-        if (!primitive.is_finite) {
+        if (!load(t).has_depth) {
             return DepthRange<T>{true, {}, {}};
         }
         std::optional<value::CandidateSet<T>>& set = known<T>(t).set;

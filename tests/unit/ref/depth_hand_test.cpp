@@ -99,6 +99,18 @@ TEST(DepthHand, EveryCompareOperation) {
     }
 }
 
+// c = (-1, 0, 0, 0) is the direction to the left, so the triangle is a strip of depth 1/2, behind the
+// plane of depth 1/4. Devices set depths up from 1/w of the vertices, and that of c has no value: no
+// profile asks for a depth (value/fragment/promise.cpp), so none may ask for a test of it either.
+TEST(DepthHand, NothingIsAskedOfATestOfADepthWithoutANumber) {
+    cases::Case c = case_of({half_plane(0.25), half_plane(0.5)});
+    c.draws[1].positions = {{0, -1, 0.5, 1}, {0, 0.5, 0.5, 1}, {-1, 0, 0, 0}};
+    c.draws[1].depth.compare = CompareOp::less;
+    expect_hits(c, 1, 2);
+    c.draws[1].positions[2] = {-0x1p20F, 0, 0x1p-2F, 0x1p-1F};  // one that has
+    expect_hits(c, 1, 1);
+}
+
 // Both planes are clamped to 1: equal in every format, by no interpolation.
 TEST(DepthHand, ClampedDepthsAreEqual) {
     struct Row {
