@@ -5,6 +5,7 @@
 // date with a run.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -144,6 +145,15 @@ run::Update make_update(const Program& program, const ExpectOptions& options,
     if (const std::string why = mismatch(file, run.device, run.profile); !why.empty()) {
         throw stop_with(report::kExitDevice,
                         "the expectation file '" + options.file + "' does not fit the run: " + why);
+    }
+    if (const auto brief = std::ranges::count_if(
+            run.cases, [](const report::CaseRecord& record) { return record.drawn.is_brief; });
+        brief > 0) {
+        throw stop_with(
+            report::kExitInvalidFile,
+            fmt::format("the run knows of {} no more than their symptoms, and a line says how "
+                        "often a case breaks each rule; run again with --tell all",
+                        cases::counted(static_cast<uint64_t>(brief), "failure")));
     }
     SuiteOptions suite = options.suite;
     if (suite.suite.empty()) {

@@ -23,9 +23,11 @@
 #include "cli/prepare/prepare_run.hpp"
 #include "cli/prepare/run_console.hpp"
 #include "cli/renderers/renderers.hpp"
+#include "cli/seen_results.hpp"
 #include "report/files/ci.hpp"
 #include "report/journal/journal.hpp"
 #include "report/record/levels.hpp"
+#include "report/text/console.hpp"
 #include "run/process/library.hpp"
 #include "run/process/pool.hpp"
 #include "run/worker/derived.hpp"
@@ -123,7 +125,14 @@ class Conduct {
           config_(std::move(config)),
           signals_(signals),
           teller_(teller),
-          is_resumed_(!header_.device.name.empty()) {}
+          is_resumed_(!header_.device.name.empty()) {
+        const bool tells_all =
+            teller_ != nullptr || options_.verbose || options_.capture == run::KeepPictures::all;
+        config_.most_told = options_.tell.value_or(tells_all ? SIZE_MAX : kTold);
+        if (options_.diagnosis && options_.capture == run::KeepPictures::none) {
+            config_.judging.pictures = run::KeepPictures::failed;  // seen_ needs them
+        }
+    }
 
     int run(run::WorkerClient worker) {
         try {
@@ -144,6 +153,8 @@ class Conduct {
         report::Journal journal = begin_journal(prepared_, is_resumed_);
         owns_folder_ = true;
         const std::vector<std::string> ids = this->ids();
+        choose_told(prepared_.plan);
+        look_.emplace(prepared_.plan);
         RunConsole console(options_, prepared_.folder, ids, prepared_.plan.size(),
                            teller_ != nullptr);
         console.begin(header_);
@@ -156,11 +167,11 @@ class Conduct {
             goes_on_ = on_record(console, *limits_);
         }
         // Judgements that are left to themselves use it still.
-        const auto plan = std::make_shared<const std::vector<run::Task>>(std::move(prepared_.plan));
-        const std::string failure = draw(plan, std::move(first), console, journal);
+        plan_ = std::make_shared<const std::vector<run::Task>>(std::move(prepared_.plan));
+        const std::string failure = draw(std::move(first), console, journal);
         Ending ending{failure, "the run stopped early", {}, "interrupted" + way_on()};
         if (options_.diagnosis && teller_ == nullptr && !header_.interrupted) {
-            ending.complete = [&](Run& run) { find_out(run, *plan, journal); };
+            ending.complete = [&](Run& run) { find_out(run, journal); };
         }
         return conclude(prepared_.folder, options_, chosen_ci(options_.ci), console.file(),
                         console.style(), ending);
@@ -191,10 +202,6 @@ class Conduct {
         }
         header_.device = device;
         config_.judging.limits = run::limits_of(device);
-        config_.add_commands = [this, judged = judged_device(device)](const cases::Case& c,
-                                                                      CaseRecord& record) {
-            add_command_lines(program_, options_, judged, c, record);
-        };
         check_required_device(options_, device);
     }
 
@@ -228,6 +235,30 @@ class Conduct {
                                   : !options_.fail_fast || !report::makes_fail(header_, record);
     }
 
+    // What over half of the plainest cases get wrong is told when all of them are judged.
+    void look_at(const CaseRecord& record, RunConsole& console) {
+        seen_.add(record);
+        if (!look_->ends_with(record) || !options_.diagnosis || options_.quiet ||
+            teller_ != nullptr) {
+            return;
+        }
+        Run run = seen_.of(header_, header_.device, &look_->ids());
+        run.seconds = std::chrono::duration<double>(run::Clock::now() - begin_).count();
+        if (report::first_look_text(run, console.style()).empty()) {
+            return;
+        }
+        diagnose_seen(run);
+        console.print(report::first_look_text(run, console.style()));
+    }
+
+    void diagnose_seen(Run& run) const {
+        diagnose(run, [this](const auto& visit) {
+            for (const run::Task& task : *plan_) {
+                visit(task.data);
+            }
+        });
+    }
+
     // How the run goes on if it ends before all is judged.
     std::string way_on() const {
         return "; go on with 'edgecase run --resume " + shell_quote(prepared_.folder.string()) +
@@ -235,15 +266,27 @@ class Conduct {
     }
 
     // Draws and judges the plan. Returns why the run stopped early; empty if it did not.
-    std::string draw(const run::RunLoop::Plan& plan, ReadyWorker first, RunConsole& console,
-                     report::Journal& journal) {
+    std::string draw(ReadyWorker first, RunConsole& console, report::Journal& journal) {
         run::SignalFd::set_last_words(cases::printable(
             fmt::format("interrupted, and no reports were written within a second{}, or have them "
                         "by 'edgecase report {}'",
                         way_on(), console.style().folder)));
-        const run::Clock::time_point begin = run::Clock::now();
+        config_.complete = [&](const cases::Case& c, CaseRecord& record) {
+            add_command_lines(program_, options_, judged_device(header_.device), c, record);
+            look_at(record, console);
+            if (options_.capture == run::KeepPictures::none) {
+                record.evidence = {};
+            }
+        };
+        config_.judged = [&](const cases::Case& c, const CaseRecord& record) {
+            if (look_->holds(record)) {
+                CaseRecord told = record;
+                add_command_lines(program_, options_, judged_device(header_.device), c, told);
+                look_at(told, console);
+            }
+        };
         run::RunLoop loop(
-            config_, plan, &journal, signals_,
+            config_, plan_, &journal, signals_,
             [&](const CaseRecord& record) { return on_record(console, record); },
             [&](size_t done, size_t unconfirmed) {
                 console.show(done, unconfirmed);
@@ -257,7 +300,7 @@ class Conduct {
         }
         console.end();
         header_.ended = utc_now(false);
-        header_.seconds += std::chrono::duration<double>(run::Clock::now() - begin).count();
+        header_.seconds += std::chrono::duration<double>(run::Clock::now() - begin_).count();
         header_.interrupted = end.interrupted;
         if (auto written = journal.write_stop(header_); !written && end.failure.empty()) {
             end.failure = written.error().message;
@@ -266,15 +309,14 @@ class Conduct {
     }
 
     // What the device does wrong, when all records are there.
-    void find_out(Run& run, const std::vector<run::Task>& plan, report::Journal& journal) const {
+    void find_out(Run& run, report::Journal& journal) const {
         if (is_resumed_) {
             diagnose_again(program_, run);
         } else {
-            diagnose(run, [&](const auto& visit) {
-                for (const run::Task& task : plan) {
-                    visit(task.data);
-                }
-            });
+            Run seen = seen_.of(run, run.device);
+            seen.seconds = run.seconds;
+            diagnose_seen(seen);
+            run.diagnoses = std::move(seen.diagnoses);
         }
         keep_diagnoses(run, journal);
     }
@@ -287,6 +329,10 @@ class Conduct {
     run::SignalFd& signals_;
     const RunTeller* teller_;
     bool is_resumed_;
+    run::RunLoop::Plan plan_;
+    SeenResults seen_;
+    std::optional<FirstLook> look_;
+    run::Clock::time_point begin_ = run::Clock::now();
     std::optional<CaseRecord> limits_;  // of the device: a case that no worker draws
     bool goes_on_ = true;
     bool owns_folder_ = true;

@@ -55,13 +55,20 @@ std::vector<Choice> by_turn(const report::Run& run, const CaseOf& case_of, const
     return in_turns(std::move(kinds), most);
 }
 
+std::string family_of(const std::string& id) {
+    return id.substr(0, id.find('/'));
+}
+
 std::string family_of(const CaseRecord& record) {
-    return record.id.substr(0, record.id.find('/'));
+    return family_of(record.id);
+}
+
+std::string first_rule(const CaseRecord& record) {
+    return record.outcome.groups.empty() ? "" : record.outcome.groups.front().rule;
 }
 
 std::string family_and_rule(const CaseRecord& record) {
-    return family_of(record) +
-           (record.outcome.groups.empty() ? "" : ' ' + record.outcome.groups.front().rule);
+    return family_of(record) + ' ' + first_rule(record);
 }
 
 std::string file_of(const CaseRecord& record) {

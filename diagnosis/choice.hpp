@@ -31,8 +31,11 @@ using KindOf = std::function<std::string(const report::CaseRecord&)>;
 std::vector<Choice> by_turn(const report::Run& run, const CaseOf& case_of, const Takes& takes,
                             const KindOf& kind, size_t most);
 
-// Kinds; the second is the family and the first rule that a case breaks.
+// The first part of a case's id.
+std::string family_of(const std::string& id);
+// Kinds; the second is the first rule that a case breaks, the third the family and that rule.
 std::string family_of(const report::CaseRecord& record);
+std::string first_rule(const report::CaseRecord& record);
 std::string family_and_rule(const report::CaseRecord& record);
 std::string file_of(const report::CaseRecord& record);
 

@@ -116,7 +116,7 @@ std::vector<Condition> conditions_at(const Subject& subject, const capture::Capt
     const cases::Case& c = *subject.data;
     std::vector<Spot> spots;
     std::vector<cases::SampleId> ids;
-    const std::vector<uint8_t>& marks = subject.record->evidence.pictures.marks;
+    const std::vector<uint8_t>& marks = marks_of(*subject.record);
     for (size_t k = 0; k < marks.size(); ++k) {
         if (is_wrong_mark(marks[k])) {
             ids.push_back(cases::sample_at(c.target, k));

@@ -48,8 +48,19 @@ class Diagnoser {
         const auto is_failed = [&](const cases::Case& c, const CaseRecord& record) {
             return counts(record) && can_match(c, record);
         };
-        more_failed_ = by_turn(run, case_of, is_failed, family_and_rule, run.cases.size());
-        failed_ = more_failed_.size();
+        // One that breaks each rule, then some of each family and rule.
+        more_failed_ = by_turn(run, case_of, is_failed, first_rule, kMaxOfRules);
+        const std::vector<Choice> of_families =
+            by_turn(run, case_of, is_failed, family_and_rule, run.cases.size());
+        const size_t of_rules = more_failed_.size();
+        failed_ = of_families.size();
+        std::ranges::copy_if(
+            of_families, std::back_inserter(more_failed_), [&](const Choice& choice) {
+                const auto end = more_failed_.begin() + static_cast<std::ptrdiff_t>(of_rules);
+                return std::find_if(more_failed_.begin(), end, [&](const Choice& c) {
+                           return c.record == choice.record;
+                       }) == end;
+            });
         more_failed_.resize(std::min(failed_, kMaxSubjects + kMaxMore));
         size_t tried = std::min(more_failed_.size(), kMaxSubjects);
         std::set<std::string> families;

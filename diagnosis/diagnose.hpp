@@ -41,6 +41,7 @@ std::vector<report::Diagnosis> diagnose(const report::Run& run, const CaseOf& ca
                                         const Bound& bound = {});
 
 inline constexpr size_t kMaxSubjects = 64;
+inline constexpr size_t kMaxOfRules = 24;   // of them: one for each rule that leads
 inline constexpr size_t kMaxNearby = 256;   // cases that passed, of the families that fail
 inline constexpr size_t kMaxMore = 192;     // failed cases beyond, that may contradict a condition
 inline constexpr size_t kMaxSeeds = 24;     // failed cases that all errors are tried on

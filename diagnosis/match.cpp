@@ -71,6 +71,11 @@ auto key_of(const diff::Finding& f) {
 
 }  // namespace
 
+const std::vector<uint8_t>& marks_of(const report::CaseRecord& record) {
+    const report::Pictures& p = record.evidence.pictures;
+    return p.plain_marks.empty() ? p.marks : p.plain_marks;
+}
+
 bool is_wrong_mark(uint8_t mark) {
     return mark > static_cast<uint8_t>(diff::SampleMark::either);
 }
@@ -133,9 +138,14 @@ bool can_match(const cases::Case& c, const report::CaseRecord& record) {
     const report::Pictures& p = record.evidence.pictures;
     const bool is_whole =
         p.width == c.target.width && p.height == c.target.rows() && !p.marks.empty();
-    return is_whole && std::ranges::none_of(record.outcome.groups, [](const auto& g) {
-               return g.rule.starts_with("repeat.") || g.rule.starts_with("write.");
-           });
+    const auto& groups = record.outcome.groups;
+    return is_whole &&
+           std::ranges::none_of(groups,
+                                [](const auto& g) {
+                                    return g.rule.starts_with("repeat.") ||
+                                           g.rule.starts_with("write.");
+                                }) &&
+           !std::ranges::all_of(groups, [](const auto& g) { return !g.door.empty(); });
 }
 
 std::optional<double> number_at(const capture::Capture& capture, size_t index,
@@ -163,15 +173,15 @@ std::optional<double> number_at(const capture::Capture& capture, size_t index,
 
 bool may_match(const Subject& subject, const capture::Capture& drawn) {
     const report::Pictures& pictures = subject.record->evidence.pictures;
+    const std::vector<uint8_t>& marks = marks_of(*subject.record);
     uint64_t wrong = 0;
     uint64_t other = 0;
     // Hits that nobody counted are those that the reference allows.
     const bool counts_hits =
         std::ranges::find(subject.record->drawn.not_judged, "number of hits") ==
         subject.record->drawn.not_judged.end();
-    for (size_t k = 0; k < pictures.marks.size() && counts_hits; ++k) {
-        if (is_wrong_mark(pictures.marks[k]) && k < pictures.device_hits.size() &&
-            k < drawn.hits.size()) {
+    for (size_t k = 0; k < marks.size() && counts_hits; ++k) {
+        if (is_wrong_mark(marks[k]) && k < pictures.device_hits.size() && k < drawn.hits.size()) {
             ++wrong;
             const float hits = std::min(255.0F, drawn.hits[k].x + drawn.hits[k].y);
             other += pictures.device_hits[k] == static_cast<uint8_t>(hits) ? 0U : 1U;
@@ -184,8 +194,9 @@ bool may_match(const Subject& subject, const capture::Capture& drawn) {
     other = 0;
     for (const diff::Finding& f : subject.record->outcome.findings) {
         const size_t index = cases::index_of(subject.data->target, diff::sample_of(f));
-        const std::optional<double> number =
-            f.kind == diff::FindingKind::value ? number_at(drawn, index, f.quantity) : std::nullopt;
+        const std::optional<double> number = f.kind == diff::FindingKind::value && f.door.empty()
+                                                 ? number_at(drawn, index, f.quantity)
+                                                 : std::nullopt;
         if (number) {
             ++values;
             const double got = std::strtod(f.got.c_str(), nullptr);
@@ -198,7 +209,7 @@ bool may_match(const Subject& subject, const capture::Capture& drawn) {
 
 Match match(const report::CaseRecord& device, const diff::Verdict& other) {
     Match out;
-    const std::vector<uint8_t>& marks = device.evidence.pictures.marks;
+    const std::vector<uint8_t>& marks = marks_of(device);
     for (size_t k = 0; k < marks.size(); ++k) {
         const auto mark =
             k < other.marks.size() ? static_cast<uint8_t>(other.marks[k]) : uint8_t{0};
@@ -217,6 +228,9 @@ Match match(const report::CaseRecord& device, const diff::Verdict& other) {
     const auto key = [](const diff::Finding* f) { return key_of(*f); };
     std::ranges::sort(told, {}, key);
     for (const diff::Finding& f : device.outcome.findings) {
+        if (!f.door.empty()) {
+            continue;
+        }
         const auto at = std::ranges::lower_bound(told, key_of(f), {}, key);
         const bool is_told = at != told.end() && key_of(**at) == key_of(f);
         const bool is_kept_by_both = is_told || other.findings.size() < diff::kMaxFindings;

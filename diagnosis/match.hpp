@@ -56,9 +56,13 @@ std::optional<Subject> make_subject(const cases::Case& c, const report::CaseReco
 // elsewhere need not deliver all planes.
 diff::Verdict verdict_of(const Subject& subject, const capture::Capture& picture);
 
-// True if the record has what match() needs: the picture of the whole target, and no finding that
-// comes of several renderings or of memory beside the attachments.
+// True if the record has what match() needs: the picture of the whole target, a finding of it, and
+// none that comes of several renderings or of memory beside the attachments. Pictures through doors
+// that differ say nothing.
 bool can_match(const cases::Case& c, const report::CaseRecord& record);
+
+// The marks of the plain picture of a record: only that one is drawn again.
+const std::vector<uint8_t>& marks_of(const report::CaseRecord& record);
 
 // Whether a sample with this mark (diff::SampleMark) of a picture is wrong.
 bool is_wrong_mark(uint8_t mark);

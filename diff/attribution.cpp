@@ -182,7 +182,7 @@ void Attribution::attribute_at_level(Finding& finding, const ref::path::SeenHits
     if (const auto like = like_.find(key); like != like_.end() && explained_ >= explains_) {
         earlier = &like->second;
     } else if (const auto alike = alike_.find(rough);
-               alike != alike_.end() && explained_ >= kMostExplained) {
+               alike != alike_.end() && explained_ >= most_explained_) {
         earlier = &alike->second;
     }
     if (earlier != nullptr) {

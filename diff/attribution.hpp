@@ -32,11 +32,18 @@ struct LastHit {
 // are asked, as far as they are.
 class Attribution {
   public:
-    Attribution(const cases::Case& c, const ref::Expectation& expectation)
+    // Explaining a sample costs as much as judging thousands, and more with each triangle of the
+    // case. After `most` findings, or kTriangles set up for them, one that looks like an earlier
+    // one (same kind, level, draw that hit last and numbers) takes over its rule, and after
+    // kTimesAlike as many one of the same kind, level and draw: a driver that breaks everything is
+    // judged in seconds, too.
+    static constexpr size_t kExplained = 16, kBrief = 2;
+    Attribution(const cases::Case& c, const ref::Expectation& expectation, size_t most = kExplained)
         : case_(c),
           expectation_(expectation),
           explains_(std::clamp(kTriangles / std::max(expectation.triangles.size(), size_t{1}),
-                               size_t{2}, kExplained)) {}
+                               size_t{2}, most)),
+          most_explained_(kTimesAlike * most) {}
 
     // Fills rule, level, expected, got and why of a finding whose kind and sample are set, for a
     // sample whose hits are wrong, as far as they are known.
@@ -72,13 +79,7 @@ class Attribution {
     void explain_hits(Finding& finding, const ref::HitBounds& asked, uint32_t total,
                       const LastHit& last);
 
-    // Explaining a sample costs as much as judging thousands, and more with each triangle of the
-    // case. After kExplained findings, or kTriangles set up for them, one that looks like an
-    // earlier one (same kind, level, draw that hit last and numbers) takes over its rule, and after
-    // kMostExplained one of the same kind, level and draw: a driver that breaks everything is
-    // judged in seconds, too.
-    static constexpr size_t kExplained = 16;
-    static constexpr size_t kMostExplained = 64;
+    static constexpr size_t kTimesAlike = 4;
     static constexpr size_t kTriangles = 1024;
 
     const cases::Case& case_;
@@ -86,6 +87,7 @@ class Attribution {
     std::optional<ref::Expectation> looser_[2];
     std::optional<ref::Explainer> explainers_[3];  // by profile, made when first asked for
     size_t explains_;  // how many findings are explained before one takes over another's rule
+    size_t most_explained_;
     size_t explained_ = 0;
     std::map<std::string, Finding> like_;  // by kind, level, draw, expected and got
     std::map<std::tuple<FindingKind, cases::Profile, uint32_t>, Finding> alike_;

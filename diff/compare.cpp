@@ -49,6 +49,7 @@ class Comparison {
                     !cases::stores_discarded(c) &&
                     (delivery.has_instruments || delivery.has_color_alone())),
           run_judge_(c, expectation, capture_, samples_.values()) {
+        verdict_.is_brief = wanted == Wanted::brief;
         verdict_.profile = expectation.profile;
         verdict_.level = expectation.profile;
         verdict_.must_samples = expectation.must_samples;
@@ -80,6 +81,7 @@ class Comparison {
         for (size_t index = 0; index < count;) {
             if (is_enough()) {
                 verdict_.error = not_copied_from(index);
+                verdict_.has_unmarked = true;
                 break;
             }
             if (const size_t judged = judge_run(index, index - index % row + row); judged > 0) {
@@ -128,7 +130,11 @@ class Comparison {
     }
 
   private:
-    bool is_enough() const { return stops_at_first_ && !verdict_.findings.empty(); }
+    bool is_enough() const {
+        return (stops_at_first_ && !verdict_.findings.empty()) ||
+               (verdict_.is_brief && verdict_.finding_total() >= kBriefEnough &&
+                verdict_.level == cases::Profile::vulkan);
+    }
 
     // What is said of a sample that was not copied, and of the first one from `index` on.
     std::string not_copied(cases::SampleId id) const {

@@ -21,7 +21,8 @@ SampleJudge::SampleJudge(const cases::Case& c, const ref::Expectation& expectati
       expectation_(expectation),
       capture_(capture),
       delivery_(delivery),
-      attribution_(c, expectation),
+      attribution_(c, expectation,
+                   wanted == Wanted::brief ? Attribution::kBrief : Attribution::kExplained),
       values_(c, expectation.limits, expectation.profile),
       last_fragment_(c, expectation, capture_, delivery_, attribution_, values_),
       observers_(c, expectation, capture_, delivery_, last_fragment_, attribution_, values_),
@@ -30,7 +31,7 @@ SampleJudge::SampleJudge(const cases::Case& c, const ref::Expectation& expectati
       stores_discarded_(cases::stores_discarded(c)) {
     values_.judge_only(delivery.values);
     last_fragment_.need_ratios(wanted == Wanted::all);
-    if (wanted == Wanted::symptoms) {
+    if (wanted == Wanted::symptoms || wanted == Wanted::brief) {
         values_.tell_loosest_levels();
     }
     values_.tell_only([this, is_told = std::move(is_told)](const ref::ValueMismatch& m) {

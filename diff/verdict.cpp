@@ -37,6 +37,9 @@ bool Verdict::keeps(FindingKind kind, std::string_view rule, cases::Profile of_l
     const auto group = std::find_if(groups.begin(), groups.end(), [&](const FindingGroup& g) {
         return g.kind == kind && g.rule == rule && g.level == of_level;
     });
+    if (is_brief) {  // the loosest level leads
+        return findings.empty() || of_level < std::ranges::min(findings, {}, &Finding::level).level;
+    }
     return findings.size() < kMaxFindings && (group == groups.end() || group->count < kMaxOfGroup);
 }
 

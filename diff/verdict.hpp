@@ -132,6 +132,7 @@ enum class SampleMark : uint8_t { ok, either, missing, extra, double_hit, value,
 // What is kept of a case's findings: so many of each group, and so many in all. All are counted.
 inline constexpr size_t kMaxOfGroup = 16;
 inline constexpr size_t kMaxFindings = 64;
+inline constexpr uint64_t kBriefEnough = 16;
 
 // What a comparison says of a case: all of it that the records of a run keep.
 struct Outcome {
@@ -188,8 +189,10 @@ struct Verdict : Outcome {
     // Counts a finding of a target; keeps it if keeps() says so. The first finding at a sample
     // gives it its mark; one of the whole case marks none.
     void add(Finding finding, const cases::Target& target);
+    bool is_brief = false;  // Wanted::brief
     // Whether the next finding of a group will be kept: it is among the group's first kMaxOfGroup,
-    // and fewer than kMaxFindings are kept. Of any other nobody reads the texts.
+    // and fewer than kMaxFindings are kept; in brief it is the first of its level and looser ones.
+    // Of any other nobody reads the texts.
     bool keeps(FindingKind kind, std::string_view rule, cases::Profile level) const;
     // Counts `count` findings like `finding`, without a word of each.
     void count(const Finding& finding, uint64_t count);
@@ -210,6 +213,9 @@ enum class Wanted : uint8_t {
     // What is broken alone: kinds and rules, with the loosest levels of the first values of each
     // quantity (ValueReference::tell_loosest_levels).
     symptoms,
+    // The symptoms, as far as kBriefEnough findings show them if one is of the loosest level; the
+    // first of that level is kept alone, and few are explained (Attribution::kBrief).
+    brief,
     // `error` and the first finding, but for its ratio; the rest says little.
     first_finding
 };

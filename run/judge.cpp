@@ -45,6 +45,23 @@ bool keep_verdict(CaseRecord& record, const diff::Verdict& verdict, KeepPictures
            (pictures == KeepPictures::failed && record.status != Status::pass);
 }
 
+diff::Wanted wanted_for(KeepPictures pictures) {
+    return pictures == KeepPictures::symptoms ? diff::Wanted::symptoms
+           : pictures == KeepPictures::brief  ? diff::Wanted::brief
+                                              : diff::Wanted::all;
+}
+
+// The marks of the plain picture, where those of its doors have joined them.
+void keep_plain_marks(CaseRecord& record, const std::vector<diff::SampleMark>& plain,
+                      const std::vector<diff::SampleMark>& marks) {
+    report::Pictures& pictures = record.evidence.pictures;
+    if (plain != marks && pictures.marks.size() == plain.size()) {
+        for (const diff::SampleMark mark : plain) {
+            pictures.plain_marks.push_back(static_cast<uint8_t>(mark));
+        }
+    }
+}
+
 // Through which doors the case was drawn, and which the device lacks.
 void note_doors(CaseRecord& record, std::span<const cases::Derivation> derivations,
                 std::span<const diff::Consistency> found) {
@@ -133,10 +150,9 @@ void judge(CaseRecord& record, const cases::Case& filed, const capture::CaptureV
         }
         ref::Expectation expectation =
             c.blit ? ref::Expectation{} : ref::expect(c, limits, profile);
-        diff::Verdict verdict = c.blit ? diff::compare_blit(c, profile, capture)
-                                : pictures == KeepPictures::symptoms
-                                    ? diff::compare(c, expectation, capture, diff::Wanted::symptoms)
-                                    : diff::compare(c, expectation, capture);
+        diff::Verdict verdict = c.blit
+                                    ? diff::compare_blit(c, profile, capture)
+                                    : diff::compare(c, expectation, capture, wanted_for(pictures));
         try_viewport_grid(c, limits, capture, expectation, verdict);
         if (verdict.ok() && !c.blit && !c.target.has_instruments &&
             diff::may_stay_clear(c, expectation)) {
@@ -146,10 +162,12 @@ void judge(CaseRecord& record, const cases::Case& filed, const capture::CaptureV
                 "choose another colour, depth or clear value";
         }
         std::string lacking;
+        std::vector<diff::SampleMark> plain_marks;
         if (verdict.error.empty()) {
             const std::vector<cases::Derivation> derivations = cases::derivations(c);
             lacking = lacking_doors(c, derivations, found.consistency);
             note_doors(record, derivations, found.consistency);
+            plain_marks = verdict.marks;
             diff::add_differences(c, derivations, found.consistency, verdict);
             diff::add_stray_writes(c, found.stray_writes, verdict);
         }
@@ -158,6 +176,7 @@ void judge(CaseRecord& record, const cases::Case& filed, const capture::CaptureV
         }
         if (keep_verdict(record, verdict, pictures)) {
             keep_evidence(record, c, verdict, expectation, capture, limits);
+            keep_plain_marks(record, plain_marks, verdict.marks);
         } else if (pictures > KeepPictures::none) {
             keep_reference(record, c, verdict, expectation, limits);
         }

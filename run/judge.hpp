@@ -17,9 +17,9 @@
 
 namespace run {
 
-// What is kept of a judged case; with `symptoms` no pictures, and neither how often a rule is
-// broken at which level nor by how much.
-enum class KeepPictures { symptoms, none, failed, all };
+// What is kept of a judged case; with `symptoms` and `brief` (diff::Wanted) no pictures, and
+// neither how often a rule is broken at which level nor by how much.
+enum class KeepPictures { symptoms, brief, none, failed, all };
 
 // What is known of a case before it has run: what the file says of it.
 report::PlannedCase planned_case(const cases::Case& c);

@@ -17,21 +17,15 @@ constexpr uint64_t kMostBytes = uint64_t{128} << 20;
 
 }  // namespace
 
-Judging::Judging(const JudgingOptions& options) : judge_(options.judge), pool_(cases::cores()) {
-    if (!judge_) {
-        judge_ = [limits = options.limits, profile = options.profile, pictures = options.pictures](
-                     auto& record, const auto&... drawn) {
-            judge(record, drawn..., limits, profile, pictures);
-        };
-    }
-}
+Judging::Judging(const JudgingOptions& options) : options_(options), pool_(cases::cores()) {}
 
 bool Judging::is_full() const {
     return bytes_ > kMostBytes;
 }
 
 void Judging::submit(std::shared_ptr<const cases::Case> c, CaseResult&& result,
-                     report::CaseRecord planned, std::function<void(report::CaseRecord)> finish) {
+                     report::CaseRecord planned, std::function<void(report::CaseRecord)> finish,
+                     std::optional<KeepPictures> pictures) {
     const uint64_t bytes = capture::capture_bytes(*c);
     bytes_ += bytes;
     auto record = std::make_shared<report::CaseRecord>(std::move(planned));
@@ -40,8 +34,14 @@ void Judging::submit(std::shared_ptr<const cases::Case> c, CaseResult&& result,
     const auto keep = result.keep;
     pool_.submit(
         [c = std::move(c), result = std::make_shared<CaseResult>(std::move(result)), record,
-         judge = judge_] {
-            judge(*record, *c, result->view, {result->consistency, result->rendered.stray_writes});
+         judge = options_.judge, limits = options_.limits, profile = options_.profile,
+         pictures = pictures.value_or(options_.pictures)] {
+            const WorkerFindings found{result->consistency, result->rendered.stray_writes};
+            if (judge) {
+                judge(*record, *c, result->view, found);
+            } else {
+                run::judge(*record, *c, result->view, found, limits, profile, pictures);
+            }
             cases::give_back_memory();
         },
         [this, bytes, record, keep, finish = std::move(finish)] {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "cases/model/case.hpp"
 #include "report/record/run.hpp"
@@ -27,9 +28,11 @@ class Judging {
   public:
     explicit Judging(const JudgingOptions& options);
     // Judges what was drawn of a case, and gives collect() the record, its verdict included. A
-    // judgement may outlive this object (abandon()), so it shares the case.
+    // judgement may outlive this object (abandon()), so it shares the case. `pictures`: what is
+    // kept of this one, if that is not what the options say.
     void submit(std::shared_ptr<const cases::Case> c, CaseResult&& result,
-                report::CaseRecord record, std::function<void(report::CaseRecord)> finish);
+                report::CaseRecord record, std::function<void(report::CaseRecord)> finish,
+                std::optional<KeepPictures> pictures = {});
     // Whether captures of too many bytes wait for anything more to be drawn.
     bool is_full() const;
     // Of the pool (process/pool.hpp).
@@ -38,7 +41,7 @@ class Judging {
     void abandon() { pool_.abandon(); }
 
   private:
-    Judge judge_;
+    JudgingOptions options_;
     uint64_t bytes_ = 0;  // of the captures that wait
     Pool pool_;
 };

@@ -346,13 +346,25 @@ void RunLoop::on_result(Slot& slot, CaseResult& result) {
 }
 
 void RunLoop::judge(size_t k, CaseResult& result) {
-    judging_.submit({plan_, &cases_[k].data}, std::move(result), fresh_record(k, Status::not_run),
-                    [this, k](CaseRecord record) { on_judged(k, std::move(record)); });
+    const bool is_told = this->is_told(k);
+    // How often a rule is broken is asked where an expectation knows it.
+    judging_.submit(
+        {plan_, &cases_[k].data}, std::move(result), fresh_record(k, Status::not_run),
+        [this, k, is_told](CaseRecord record) { on_judged(k, is_told, std::move(record)); },
+        is_told              ? std::nullopt
+        : cases_[k].expected ? std::optional(KeepPictures::none)
+                             : std::optional(KeepPictures::brief));
 }
 
-void RunLoop::on_judged(size_t k, CaseRecord record) {
+void RunLoop::on_judged(size_t k, bool is_told, CaseRecord record) {
+    failed_ += record.status == Status::fail ? 1U : 0U;
+    record.drawn.is_brief = !is_told && record.status == Status::fail;
+    if (config_.judged) {
+        config_.judged(cases_[k].data, record);
+    }
     const bool unexpected = record.status != Status::pass && is_unexpected(k, record);
-    const auto as = unexpected                      ? Schedule::Judged::unexpected_failure
+    const auto as = !is_told                        ? Schedule::Judged::good
+                    : unexpected                    ? Schedule::Judged::unexpected_failure
                     : record.status == Status::fail ? Schedule::Judged::known_failure
                                                     : Schedule::Judged::good;
     if (schedule_.judged(k, as)) {
@@ -471,8 +483,8 @@ void RunLoop::finish(size_t k, CaseRecord record) {
     if (config_.requires_support) {
         require_support(record);
     }
-    if (config_.add_commands) {
-        config_.add_commands(cases_[k].data, record);
+    if (config_.complete) {
+        config_.complete(cases_[k].data, record);
     }
     if (journal_ != nullptr) {
         check(journal_->write_end(record));

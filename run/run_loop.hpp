@@ -32,8 +32,9 @@ struct Task {
     cases::Case data;
     report::PlannedCase planned;  // of it
     std::optional<ExpectationLine> expected;
-    std::string error;   // not empty: not rendered, status error
-    bool alone = false;  // was in flight when an earlier run was cut off
+    std::string error;     // not empty: not rendered, status error
+    bool alone = false;    // was in flight when an earlier run was cut off
+    bool is_told = false;  // if it fails: whatever LoopConfig::most_told says
 };
 
 struct LoopConfig {
@@ -45,10 +46,15 @@ struct LoopConfig {
     // large the next one is. A case alone may take longer.
     std::optional<std::chrono::milliseconds> gpu_budget;
     JudgingOptions judging;
+    // So many failures are judged with all that is told of them, and drawn again. Of more, which a
+    // driver has that is wrong everywhere, the symptoms are known (diff::Wanted::brief).
+    size_t most_told = SIZE_MAX;
     bool requires_support = false;  // a case that is not supported counts as failed
     bool keeps_workers = false;     // take_workers() is asked for
-    // Called with each final record before it is written, to add the command lines.
-    std::function<void(const cases::Case& c, report::CaseRecord& record)> add_commands = {};
+    // Called with each verdict, as soon as it is there: a second drawing may make it a flake.
+    std::function<void(const cases::Case& c, const report::CaseRecord& record)> judged = {};
+    // Called with each final record before it is written: adds what else is to be told of it.
+    std::function<void(const cases::Case& c, report::CaseRecord& record)> complete = {};
 };
 
 class RunLoop {
@@ -103,7 +109,7 @@ class RunLoop {
     void on_death(Slot& slot, const Death& death);
     void on_start_failure(Slot& slot, const std::string& why);
     void judge(size_t k, CaseResult& result);
-    void on_judged(size_t k, report::CaseRecord record);
+    void on_judged(size_t k, bool is_told, report::CaseRecord record);
     void settle(size_t k, report::CaseRecord record);
     void charge(report::CaseRecord& record, const Schedule::Released& death) const;
     void finish(size_t k, report::CaseRecord record);
@@ -113,6 +119,7 @@ class RunLoop {
                                       const capture::Rendered& rendered) const;
     report::CaseRecord flake_record(size_t k);
     bool is_unexpected(size_t k, const report::CaseRecord& record) const;
+    bool is_told(size_t k) const { return cases_[k].is_told || failed_ < config_.most_told; }
     void keep_gpu_budget(const Slot& slot);
     void check(const cases::Expected<void>& written);
     void fail(const std::string& why);
@@ -133,6 +140,7 @@ class RunLoop {
     capture::DeviceInfo device_;
     std::set<size_t> unconfirmed_;  // of judged_: unexpected failures
     size_t settled_ = 0;
+    size_t failed_ = 0;              // known ones among them; each is counted when it is judged
     std::vector<bool> is_finished_;  // [k] has its final record
     bool is_stopped_ = false;        // by on_record_ or on_progress_
     StartPauses start_pauses_;

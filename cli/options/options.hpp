@@ -49,6 +49,8 @@ struct JudgedDevice {
     std::string depth_beside_stencil = "d32-float";  // or d24-unorm; where a case names none
 };
 
+inline constexpr size_t kTold = 256;
+
 struct RunOptions {
     SuiteOptions suite;
     DeviceOptions device;
@@ -74,6 +76,8 @@ struct RunOptions {
     std::string output;
     std::string json, junit, html;
     run::KeepPictures capture = run::KeepPictures::failed;
+    // Of so many failures all is told; nothing: kTold, or of all with --verbose or --capture all.
+    std::optional<size_t> tell;
     bool quiet = false, verbose = false;
     When color = When::automatic;
     ProgressStyle progress = ProgressStyle::automatic;

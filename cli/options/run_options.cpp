@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/options/run_options.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "cases/base/regex.hpp"
@@ -92,6 +94,21 @@ void declare_run(CLI::App& app, RunOptions& o) {
         ->group("Isolation");
     add_value(run, "--resume", o.resume, "go on with an interrupted run", "DIR", "Isolation");
     add_outputs(run, o, "where the reports go [out/<time>-<device>]", true);
+    run->add_option(
+           "--tell",
+           [&o](const CLI::results_t& words) {
+               size_t most = SIZE_MAX;
+               const bool is_read =
+                   words.back() == "all" || CLI::detail::lexical_cast(words.back(), most);
+               o.tell = most;
+               return is_read;
+           },
+           fmt::format("of how many failures all is told and kept, pictures and {} findings; of "
+                       "more the level, the rules and one finding [{}; all with --verbose or "
+                       "--capture all]",
+                       diff::kMaxFindings, kTold))
+        ->type_name("N|all")
+        ->group("Output");
 }
 
 void check_run(const CLI::App& run, const RunOptions& o, const Words& words) {

@@ -216,6 +216,9 @@ void add_command_lines(const Program& program, const RunOptions& options,
         rerun.repeats = record.death.suspects.empty() ? record.drawn.attempts : kRepeatsOfDeath;
     }
     record.rerun = rerun_line(program, options, record.id, rerun);
+    if (record.drawn.is_brief) {
+        return;
+    }
     record.commands.explain = explain_line(program, options, device, c, record);
     if (!died && !is_wrong) {
         return;

@@ -320,7 +320,7 @@ Progress::Progress(ProgressStyle style, size_t total, std::string_view what)
 
 bool Progress::is_due() {
     const double now = steady_seconds();
-    const double interval = kind_ == Kind::line ? 0.2 : 10.0;
+    const double interval = kind_ == Kind::line ? 0.2 : std::clamp((now - begin_) / 4, 2.0, 10.0);
     if (kind_ == Kind::none || now - last_ < interval) {
         return false;
     }

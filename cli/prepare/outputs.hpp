@@ -92,8 +92,8 @@ void say_wrapped(const std::string& text);
 std::string progress_line(size_t done, size_t total, std::optional<size_t> unexpected,
                           double seconds, size_t width);
 
-// One line on a terminal at most five times a second, or one line every ten seconds elsewhere;
-// nothing in continuous integration.
+// One line on a terminal at most five times a second; elsewhere one every two seconds, and of a
+// long run every ten; nothing in continuous integration.
 class Progress {
   public:
     // `what` is counted: "cases".

@@ -9,6 +9,7 @@
 #include <bit>
 #include <cmath>
 
+#include "capture/capture.hpp"
 #include "cases/format/color_format.hpp"
 #include "cases/format/depth_format.hpp"
 #include "cases/model/derive.hpp"

@@ -3,6 +3,7 @@
 #include "report/files/json.hpp"
 
 #include <nlohmann/json.hpp>
+#include <set>
 #include <utility>
 
 #include "cases/base/printable.hpp"
@@ -117,6 +118,7 @@ Json case_json(const CaseRecord& r, cases::Profile profile) {
         {"messages", texts(r.drawn.messages)},
         {"seconds", encode_number(r.drawn.seconds)},
         {"attempts", r.drawn.attempts},
+        {"brief", r.drawn.is_brief},
         {"level", level ? Json(cases::to_string(*level)) : Json(nullptr)},
         {"new_level", news ? Json(cases::to_string(*news)) : Json(nullptr)},
         {"counts", counts_json(r)},
@@ -210,16 +212,26 @@ Json diagnoses_json(const Run& run) {
     return list;
 }
 
+Json families_of(const Cause& cause) {
+    std::set<std::string> families;
+    for (const CaseRecord* record : cause.cases) {
+        families.insert(cases::printable(family_of(*record)));
+    }
+    return families;
+}
+
 Json causes_json(const Run& run) {
     Json list = Json::array();
     for (const Cause& cause : causes(run)) {
         Json json{{"status", to_string(cause.status)},
-                  {"family", cases::printable(cause.family)},
+                  {"family", families_text(cause.cases)},
+                  {"families", families_of(cause)},
                   {"rule", cases::printable(cause.rule)},
                   {"kind", cases::printable(cause.kind)},
                   {"door", cases::printable(cause.door)},
                   {"level", cause.level ? Json(cases::to_string(*cause.level)) : Json(nullptr)},
                   {"known", cause.is_known},
+                  {"diagnosis", cause.diagnosis ? Json(*cause.diagnosis) : Json(nullptr)},
                   {"cases", Json::array()}};
         for (const CaseRecord* record : cause.cases) {
             json["cases"].push_back(cases::printable(record->id));
@@ -229,27 +241,19 @@ Json causes_json(const Run& run) {
     return list;
 }
 
-// The text whose last value is the empty list of cases, with the cases. One after the other: what
-// they are as values of the library takes ten times the memory of the text.
+// The text whose last value is the empty list of cases, with the cases, a line each: indented they
+// are half as long again. One after the other: what they are as values of the library takes ten
+// times the memory of the text.
 void put_with_cases(std::string_view text, const Run& run, const cases::Put& put) {
-    constexpr std::string_view kEmpty = "[]\n}", kIndent = "\n  ";
+    constexpr std::string_view kEmpty = "[]\n}";
     if (run.cases.empty()) {
         put(text);
         return;
     }
     put(text.substr(0, text.size() - kEmpty.size()));
-    std::string piece = "[";
     for (const CaseRecord& record : run.cases) {
-        piece += &record == &run.cases.front() ? kIndent : ",\n  ";
-        for (const char c : case_json(record, run.profile).dump(1)) {
-            if (c == '\n') {  // between values: within texts it is escaped
-                piece += kIndent;
-            } else {
-                piece += c;
-            }
-        }
-        put(piece);
-        piece.clear();
+        put((&record == &run.cases.front() ? "[\n  " : ",\n  ") +
+            case_json(record, run.profile).dump());
     }
     put("\n ]\n}");
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "cases/base/printable.hpp"
+#include "report/text/commands.hpp"
 #include "report/text/console.hpp"
 #include "report/text/levels_text.hpp"
 #include "report/text/sentences.hpp"
@@ -69,6 +70,9 @@ Element element_of(const Run& run, const CaseRecord& record) {
 }
 
 std::string body_of(const CaseRecord& record) {
+    if (record.drawn.is_brief) {
+        return "rerun: " + cases::printable(record.rerun.substr(settings_of(record.rerun).size()));
+    }
     std::string text = console_case(record, {});
     for (size_t k = 1; k < record.outcome.findings.size() && k < kMaxPixels; ++k) {
         const diff::Finding& f = record.outcome.findings[k];

@@ -18,6 +18,15 @@ function onDemand() {
   return onDemandData;
 }
 const string = (k) => data.strings[k] === undefined ? "" : data.strings[k];  // texts that many cases share
+if (data.strings.length) {
+  for (const record of data.cases) {
+    if (record.file !== undefined) { record.file = string(record.file); }
+    if (record.rules !== undefined) { record.rules = string(record.rules).split(" "); }
+    for (const command of ["rerun", "debug"]) {
+      if (record[command]) { record[command] = string(record.settings) + record[command]; }
+    }
+  }
+}
 
 // An element: `properties` are set as they are, but class, data-... and aria-... as attributes.
 function el(tag, properties, ...children) {

@@ -142,10 +142,11 @@ std::string table(const Run& run) {
         "<th scope=\"col\">case</th><th scope=\"col\">what</th></tr></thead><tbody>\n";
     for (const CaseRecord& r : run.cases) {
         const std::string what = what_happened(r);
-        text +=
-            fmt::format("<tr><td>{}</td><td>{}</td><td>{}{}</td></tr>\n", to_string(r.status),
-                        cases::markup(r.id), cases::markup(what),
-                        is_expected(r.status) ? "" : "<br>" + cases::markup(why_it_happened(r)));
+        text += fmt::format("<tr><td>{}</td><td>{}</td><td>{}{}</td></tr>\n", to_string(r.status),
+                            cases::markup(r.id), cases::markup(what),
+                            is_expected(r.status) || r.drawn.is_brief
+                                ? ""
+                                : "<br>" + cases::markup(why_it_happened(r)));
     }
     return text + "</tbody></table>";
 }

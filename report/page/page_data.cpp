@@ -81,7 +81,6 @@ Json finding_json(const CaseRecord& r, const diff::Finding& f, Strings& strings)
 // Causes in the order of the terminal.
 Json causes_json(const Run& run, const std::vector<Cause>& list) {
     Json json = Json::array();
-    const Repeated repeated(run);
     for (const Cause& cause : list) {
         json.push_back(cause_json(cause, [&](const CaseRecord& record) {
             return static_cast<size_t>(&record - run.cases.data());
@@ -89,8 +88,8 @@ Json causes_json(const Run& run, const std::vector<Cause>& list) {
         if (!cause.level && cause.is_known) {
             json.back()["known"] = true;
         }
-        if (const auto number = repeated.by(cause)) {
-            json.back()["diagnosis"] = *number;
+        if (cause.diagnosis) {
+            json.back()["diagnosis"] = *cause.diagnosis;
         }
     }
     return json;
@@ -123,10 +122,14 @@ Json case_json(const CaseRecord& r, size_t most_findings, Strings& strings) {
     Json json{{"id", cases::printable(r.id)}, {"status", to_string(r.status)}, {"line", r.line}};
     const std::string what = what_happened(r);
     json["what"] = what.empty() && r.status != Status::pass ? why_it_happened(r) : what;
-    put(json, "file", r.file);
+    if (!r.file.empty()) {
+        json["file"] = strings.number_of(r.file);
+    }
     json["description"] = strings.number_of(r.description);
     json["catches"] = strings.number_of(r.catches);
-    put(json, "rules", r.rules);
+    if (!r.rules.empty()) {
+        json["rules"] = strings.number_of(fmt::format("{}", fmt::join(r.rules, " ")));
+    }
     put(json, "links", r.links);
     if (r.known.expected) {
         json["expected"] = to_string(*r.known.expected);
@@ -178,12 +181,14 @@ Json case_json(const CaseRecord& r, size_t most_findings, Strings& strings) {
             }
         }
     }
-    put(json, "rerun", r.rerun);
+    const std::string settings(settings_of(r.rerun));
+    put(json, "rerun", r.rerun.substr(settings.size()));
     put(json, "explain", r.commands.explain);
-    put(json, "debug", debug_line(r));
+    const std::string debug = debug_line(r);
+    put(json, "debug", debug.substr(std::min(settings.size(), debug.size())));
     put(json, "reproducer", r.commands.reproducer);
     put(json, "no_reproducer", r.commands.no_reproducer);
-    json["settings"] = strings.number_of(std::string(settings_of(r.rerun)));
+    json["settings"] = strings.number_of(settings);
     return json;
 }
 
@@ -311,7 +316,7 @@ Json cause_json(const Cause& cause, const std::function<size_t(const CaseRecord&
         }
     }
     Json json{{"status", to_string(cause.status)},
-              {"family", cases::printable(cause.family)},
+              {"family", cases::printable(families_text(cause.cases))},
               {"rule", cases::printable(cause.rule)},
               {"kind", cases::printable(cause.kind)},
               {"level", cause.level ? cases::to_string(*cause.level) : ""},

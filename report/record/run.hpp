@@ -64,6 +64,9 @@ struct Pictures {
     std::vector<uint8_t> device_hits;    // Verdict::device_hits
     bool is_uncounted = false;           // they say only where the colour is not the clear one
     std::vector<uint8_t> marks;          // Verdict::marks
+    // The same of the plain picture alone, if a picture through a door differs from it elsewhere,
+    // too; of whole targets.
+    std::vector<uint8_t> plain_marks;
     // Verdict::error_ratios as error_code(); empty if no value was compared.
     std::vector<uint8_t> errors;
     // What a screen would show of the colour target, red plane, green plane, blue plane; empty if
@@ -90,6 +93,7 @@ struct Pictures {
         visit("device_hits", p.device_hits...);
         visit({"uncounted", cases::kLeftOutIfEmpty}, p.is_uncounted...);
         visit("marks", p.marks...);
+        visit({"plain_marks", cases::kLeftOutIfEmpty}, p.plain_marks...);
         visit({"errors", cases::kOlderLackIt}, p.errors...);
         visit({"device_colors", cases::kOlderLackIt}, p.device_colors...);
         visit({"expected_colors", cases::kOlderLackIt}, p.expected_colors...);
@@ -166,6 +170,9 @@ struct Drawn {
     std::string bits, hit_bits;
     // Planes of a renderer elsewhere were judged, and which of the case's are not there.
     bool is_delivered = false;
+    // Of a failure beyond those that are told (run --tell) the symptoms alone are known, and it was
+    // not drawn again.
+    bool is_brief = false;
     std::vector<std::string> not_judged;
     double seconds = 0;
     uint32_t attempts = 0;
@@ -238,6 +245,7 @@ struct CaseRecord : PlannedCase {
         visit("reason", r.reason...);
         visit({"delivered", cases::kLeftOutIfEmpty}, r.drawn.is_delivered...);
         visit({"not_judged", cases::kLeftOutIfEmpty}, r.drawn.not_judged...);
+        visit({"brief", cases::kLeftOutIfEmpty}, r.drawn.is_brief...);
         visit("step", r.death.step...);
         visit("signal", r.death.signal...);
         visit({"suspects", cases::kLeftOutIfEmpty}, r.death.suspects...);

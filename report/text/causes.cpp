@@ -19,6 +19,7 @@
 #include "cases/base/counted.hpp"
 #include "cases/model/rule.hpp"
 #include "report/record/levels.hpp"
+#include "report/text/diagnosis_text.hpp"
 #include "report/text/sentences.hpp"
 
 namespace report {
@@ -65,20 +66,15 @@ int rank(const Cause& cause) {
     return static_cast<int>(4 * place) + (is_failure ? level : 0);
 }
 
-// How far a rule reaches: the families and cases in which it leads, with the same rank.
-struct Reach {
-    size_t families = 0, cases = 0;
-};
-
 // Where a rule stands in the list of rules: what is decided earlier in the pipeline comes first.
 std::ptrdiff_t number_of(std::string_view rule) {
     const auto all = cases::all_rules();
     return std::ranges::find(all, rule, &cases::Rule::id) - all.begin();
 }
 
-// The causes of those results of a run that `is_meant` picks by their status, by all their findings
-// or by those that are new.
-std::vector<Cause> causes_of(const Run& run, bool (*is_meant)(Status), Of which) {
+// Every result that `is_meant` picks by its status, in the causes that it stands in, by all its
+// findings or by those that are new. A cause holds the cases of one family.
+std::vector<Cause> fine_causes(const Run& run, bool (*is_meant)(Status), Of which) {
     std::vector<Cause> list;
     std::map<std::tuple<Status, std::string, Signature, bool>, size_t> index;
     for (const CaseRecord& record : run.cases) {
@@ -91,43 +87,114 @@ std::vector<Cause> causes_of(const Run& run, bool (*is_meant)(Status), Of which)
             const auto [at, fresh] =
                 index.emplace(std::tuple(record.status, family, s, is_known), list.size());
             if (fresh) {
-                list.push_back(
-                    {record.status, family, s.rule, s.kind, s.door, s.level, is_known, {}});
+                list.push_back({record.status, s.rule, s.kind, s.door, s.level, is_known, {}, {}});
             }
             list[at->second].cases.push_back(&record);
         };
-        add(signature_of(record, which));
-        for (const diff::FindingGroup& group : other_relations(record, which)) {
-            add(signature_of(group));
+        const Signature leading = signature_of(record, which);
+        add(leading);
+        std::set<Signature> others;
+        for (diff::FindingGroup& group : other_relations(record, which)) {
+            if (!is_relation(leading.rule)) {
+                group.door.clear();  // the door may be right, and differ from a wrong picture
+            }
+            others.insert(signature_of(group));
+        }
+        std::ranges::for_each(others, add);
+    }
+    return list;
+}
+
+// The gravest first; among equals those of the rule that reaches farthest.
+void sort_causes(std::vector<Cause>& list) {
+    struct Reach {
+        std::set<std::string> families;
+        size_t cases = 0;
+    };
+    std::map<std::tuple<int, std::string, std::optional<size_t>>, Reach> reaches;
+    for (const Cause& cause : list) {
+        Reach& reach = reaches[{rank(cause), cause.rule, cause.diagnosis}];
+        reach.cases += cause.cases.size();
+        for (const CaseRecord* record : cause.cases) {
+            reach.families.insert(family_of(*record));
         }
     }
-    std::map<std::pair<int, std::string>, Reach> reaches;
-    std::set<std::tuple<int, std::string, std::string>> families;
-    for (const Cause& cause : list) {
-        Reach& reach = reaches[{rank(cause), cause.rule}];
-        reach.cases += cause.cases.size();
-        reach.families += families.emplace(rank(cause), cause.rule, cause.family).second ? 1U : 0U;
-    }
     const auto order = [&](const Cause& a) {
-        const Reach& reach = reaches.at({rank(a), a.rule});
-        return std::tuple(-rank(a), reach.families, reach.cases, -number_of(a.rule),
+        const Reach& reach = reaches.at({rank(a), a.rule, a.diagnosis});
+        return std::tuple(-rank(a), reach.families.size(), reach.cases, -number_of(a.rule),
                           a.cases.size());
     };
     std::ranges::stable_sort(list,
                              [&](const Cause& a, const Cause& b) { return order(b) < order(a); });
+}
+
+std::vector<Cause> joined_causes(const Run& run, bool (*is_meant)(Status), Of which) {
+    const std::vector<Cause> fine = fine_causes(run, is_meant, which);
+    const std::vector<std::optional<size_t>> diagnoses =
+        run.diagnoses.empty() ? std::vector<std::optional<size_t>>(fine.size())
+                              : Repeated(run).of(fine);
+    std::vector<Cause> list;
+    std::map<std::tuple<Status, Signature, bool, std::optional<size_t>>, size_t> index;
+    for (size_t k = 0; k < fine.size(); ++k) {
+        const Cause& cause = fine[k];
+        const auto [at, is_fresh] = index.emplace(
+            std::tuple(cause.status, Signature{cause.rule, cause.kind, cause.door, cause.level},
+                       cause.is_known, diagnoses[k]),
+            list.size());
+        if (is_fresh) {
+            list.push_back(cause);
+            list.back().diagnosis = diagnoses[k];
+            continue;
+        }
+        std::vector<const CaseRecord*>& cases = list[at->second].cases;
+        cases.insert(cases.end(), cause.cases.begin(), cause.cases.end());
+    }
+    for (Cause& cause : list) {
+        std::ranges::sort(cause.cases);  // in the order of the run
+    }
+    sort_causes(list);
     return list;
+}
+
+bool is_unexpected(Status status) {
+    return !is_expected(status);
+}
+bool is_known_failure(Status status) {
+    return status == Status::xfail;
 }
 
 }  // namespace
 
 std::vector<Cause> causes(const Run& run) {
-    return causes_of(
-        run, [](Status status) { return !is_expected(status); }, Of::news);
+    return joined_causes(run, is_unexpected, Of::news);
 }
 
 std::vector<Cause> known_causes(const Run& run) {
-    return causes_of(
-        run, [](Status status) { return status == Status::xfail; }, Of::all);
+    return joined_causes(run, is_known_failure, Of::all);
+}
+
+std::vector<Cause> causes_by_family(const Run& run) {
+    std::vector<Cause> list = fine_causes(run, is_unexpected, Of::news);
+    for (Cause& cause : fine_causes(run, is_known_failure, Of::all)) {
+        list.push_back(std::move(cause));
+    }
+    return list;
+}
+
+std::string families_text(const std::vector<const CaseRecord*>& of) {
+    constexpr size_t kNamed = 3;
+    std::map<std::string, size_t> count;
+    for (const CaseRecord* record : of) {
+        ++count[one_line(family_of(*record))];
+    }
+    std::vector<std::pair<std::string, size_t>> list(count.begin(), count.end());
+    std::ranges::stable_sort(list,
+                             [](const auto& a, const auto& b) { return a.second > b.second; });
+    std::string text;
+    for (size_t k = 0; k < std::min(list.size(), kNamed); ++k) {
+        text += (k > 0 ? ", " : "") + list[k].first;
+    }
+    return list.size() > kNamed ? text + fmt::format(" and {} more", list.size() - kNamed) : text;
 }
 
 // Files of one's own mostly lie in one folder, and each is no family: their causes would be as many
@@ -171,7 +238,8 @@ std::string cause_title(const Cause& cause) {
         text += ": " + rule_and_door(cause.rule, cause.door) +
                 (cause.rule.empty() || cause.kind.empty() ? "" : " ") + cause.kind;
     }
-    text += fmt::format(" in {}, {}", cause.family, cases::counted(cause.cases.size(), "case"));
+    text += fmt::format(" in {}, {}", families_text(cause.cases),
+                        cases::counted(cause.cases.size(), "case"));
     return one_line(text);
 }
 

@@ -177,10 +177,11 @@ std::vector<Cause> told_causes(const Run& run, const ConsoleStyle& style) {
 // rerun lines have in front, a driver's path often, are told once: they would hide the causes.
 std::string causes_text(const Run& run, const ConsoleStyle& style) {
     std::vector<Cause> list = told_causes(run, style);
+    const size_t all = list.size();
     if (!style.verbose) {
-        const Repeated repeated(run);
-        std::erase_if(list, [&](const Cause& cause) { return repeated.by(cause).has_value(); });
+        std::erase_if(list, [](const Cause& cause) { return cause.diagnosis.has_value(); });
     }
+    const size_t folded = all - list.size();
     const size_t told = style.verbose ? list.size() : std::min(list.size(), kMaxCauses);
     const std::string_view settings = shared_settings(list, told);
     std::string text = list.empty() ? "" : "causes, the worst first:\n";
@@ -202,28 +203,23 @@ std::string causes_text(const Run& run, const ConsoleStyle& style) {
     if (told < list.size()) {
         text += fmt::format("  and {} more: see the report, or use -v\n", list.size() - told);
     }
+    if (folded > 0) {
+        text += fmt::format("{} of {} {} the same as the diagnosis; -v lists {}\n", folded,
+                            cases::counted(all, "cause"), folded == 1 ? "says" : "say",
+                            folded == 1 ? "it" : "them");
+    }
     return text;
 }
 
-// What the device does wrong, two lines each, and one about the causes that say the same; but for
-// those that explain a part of it only.
+// What the device does wrong, a line each; but for those that explain a part of it only.
 std::string diagnoses_text(const Run& run, const ConsoleStyle& style) {
-    const std::vector<Cause> list = told_causes(run, style);
     const Repeated repeated(run);
     std::string text;
     for (size_t k = 0; k < run.diagnoses.size(); ++k) {
         const Diagnosis& d = run.diagnoses[k];
-        if (repeated.is_partial(k)) {
-            continue;
-        }
-        text += fmt::format("diagnosis: {}\n{}{}\n", painted(what_it_does(d), "1", style), kIndent,
-                            evidence_for(d));
-        const auto folded = std::ranges::count_if(
-            list, [&](const Cause& cause) { return repeated.by(cause) == k; });
-        if (folded > 0) {
-            text += fmt::format("{}{} of {} {} the same{}\n", kIndent, folded,
-                                cases::counted(list.size(), "cause"), folded == 1 ? "says" : "say",
-                                style.verbose ? "" : "; -v lists them");
+        if (!repeated.is_partial(k)) {
+            text += fmt::format("diagnosis: {}; it {}\n", painted(what_it_does(d), "1", style),
+                                evidence_for(d));
         }
     }
     return text;
@@ -241,6 +237,19 @@ std::string partial_diagnoses_text(const Run& run) {
         }
     }
     return text;
+}
+
+// The case with the fewest samples of those that show the gravest cause, and how to repeat it.
+std::string smallest_text(const Run& run) {
+    const std::vector<Cause> list = causes(run);
+    const auto first = std::ranges::find_if(
+        list, [](const Cause& cause) { return cause.status != Status::not_run; });
+    if (first == list.end()) {
+        return {};
+    }
+    const CaseRecord& record = smallest_case(*first);
+    return fmt::format("smallest case: {}   rerun: {}\n", cases::printable(record.id),
+                       cases::printable(record.rerun));
 }
 
 // "free: 64 of 256 samples at profile vulkan, ...": those with which nothing is tested.
@@ -340,10 +349,24 @@ std::string console_totals(const Run& run, const ConsoleStyle& style) {
     return style.wrap ? wrapped(text, style.width) : text;
 }
 
+std::string first_look_text(const Run& run, const ConsoleStyle& style) {
+    const size_t failed = totals(run).at(static_cast<size_t>(Status::fail));
+    if (2 * failed <= judged_cases(run)) {
+        return {};
+    }
+    ConsoleStyle with_picture = style;
+    with_picture.verbose = true;
+    const std::string text = fmt::format(
+        "first look, after {}: {} of {} fail that are the plainest of their families\n{}"
+        "smallest case:\n{}the run goes on; Ctrl-C ends it with reports of what was judged\n",
+        seconds_text(run.seconds), failed, cases::counted(judged_cases(run), "case"),
+        diagnoses_text(run, style), console_case(smallest_case(causes(run).front()), with_picture));
+    return style.wrap ? wrapped(text, style.width) : text;
+}
+
 std::string console_summary(const Run& run, const std::string& report_path,
                             const ConsoleStyle& style, const std::string& exit_words) {
-    std::string text =
-        diagnoses_text(run, style) + causes_text(run, style) + partial_diagnoses_text(run);
+    std::string text = causes_text(run, style) + partial_diagnoses_text(run);
     if (!style.totals_are_told) {
         ConsoleStyle unwrapped = style;
         unwrapped.wrap = false;
@@ -369,7 +392,7 @@ std::string console_summary(const Run& run, const std::string& report_path,
     if (style.verbose) {
         text += free_text(run);
     }
-    text += levels_line(run) + '\n';
+    text += levels_line(run) + '\n' + diagnoses_text(run, style) + smallest_text(run);
     const std::string exit = exit_words.empty() ? exit_text(run) : exit_words;
     text += report_path.empty()
                 ? exit + '\n'

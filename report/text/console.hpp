@@ -28,6 +28,9 @@ std::string console_header(const Run& run, const ConsoleStyle& style);
 // that runs it under a debugger.
 std::string console_case(const CaseRecord& record, const ConsoleStyle& style);
 // "1493 cases  1040 pass  453 fail   12.3 s   seed 0".
+// What over half of the cases fail by that a run has looked at first: the diagnosis, and the
+// smallest case with its picture. Empty if fewer do.
+std::string first_look_text(const Run& run, const ConsoleStyle& style);
 std::string console_totals(const Run& run, const ConsoleStyle& style);
 // Last lines: the causes of unexpected results, if they are more than a handful (kHandful) or
 // style.verbose, one line each with the smallest case and how to repeat it; totals (unless they are

@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
+#include <tuple>
 #include <utility>
 
 #include "cases/base/counted.hpp"
@@ -61,11 +64,11 @@ Repeated::Repeated(const Run& run) {
     tried_ = std::move(tried);
     const bool explain_most = 2 * explained.size() >= tried_.size();
     std::set<size_t> with_a_cause;
-    for (const auto& list : {causes(run), known_causes(run)}) {
-        for (const Cause& cause : list) {
-            if (const auto number = whole(cause)) {
-                with_a_cause.insert(*number);
-            }
+    for (const Cause& cause : causes_by_family(run)) {
+        Tried of_cause;
+        add(of_cause, cause);
+        if (const auto number = of_most(of_cause, 4); number && !is_relation(cause.rule)) {
+            with_a_cause.insert(*number);
         }
     }
     for (size_t k = 0; k < explained_.size(); ++k) {
@@ -87,28 +90,70 @@ std::optional<size_t> Repeated::by(const std::string& id) const {
     return std::nullopt;
 }
 
-std::optional<size_t> Repeated::by(const Cause& cause) const {
-    const std::optional<size_t> number = whole(cause);
-    return number && !is_partial(*number) ? number : std::nullopt;
+void Repeated::add(Tried& tried, const Cause& cause) const {
+    tried.repeated.resize(explained_.size());
+    for (const CaseRecord* record : cause.cases) {
+        if (!tried_.contains(record->id)) {
+            continue;
+        }
+        ++tried.cases;
+        for (size_t k = 0; k < explained_.size(); ++k) {
+            tried.repeated[k] += explained_[k].contains(record->id) ? 1U : 0U;
+        }
+    }
 }
 
-std::optional<size_t> Repeated::whole(const Cause& cause) const {
-    // What is drawn is one picture of a case, so it says nothing of relations between several.
-    if (is_relation(cause.rule)) {
-        return std::nullopt;
-    }
-    for (size_t k = 0; k < explained_.size(); ++k) {
-        bool was_tried = false, explains_all = true;
-        for (const CaseRecord* record : cause.cases) {
-            was_tried = was_tried || tried_.contains(record->id);
-            explains_all = explains_all &&
-                           (!tried_.contains(record->id) || explained_[k].contains(record->id));
-        }
-        if (was_tried && explains_all) {
+std::optional<size_t> Repeated::of_most(const Tried& tried, size_t quarters) const {
+    for (size_t k = 0; tried.cases > 0 && k < explained_.size(); ++k) {
+        if (4 * tried.repeated[k] >= quarters * tried.cases) {
             return k;
         }
     }
     return std::nullopt;
+}
+
+std::vector<std::optional<size_t>> Repeated::of(const std::vector<Cause>& list) const {
+    const auto kind_of = [](const Cause& cause) {
+        return std::tuple(cause.status, cause.rule, cause.kind, cause.level);
+    };
+    std::map<decltype(kind_of(list.front())), Tried> of_kind;
+    for (const Cause& cause : list) {
+        add(of_kind[kind_of(cause)], cause);
+    }
+    std::vector<std::optional<size_t>> numbers(list.size());
+    std::map<const CaseRecord*, size_t> by_picture;  // what says the same of a plain picture
+    for (size_t k = 0; k < list.size(); ++k) {
+        // What is drawn is one picture of a case, so it says nothing of relations between several.
+        if (is_relation(list[k].rule)) {
+            continue;
+        }
+        Tried tried;
+        add(tried, list[k]);
+        numbers[k] = tried.cases > 0 ? of_most(tried, 4) : of_most(of_kind[kind_of(list[k])], 3);
+        if (numbers[k] && is_partial(*numbers[k])) {
+            numbers[k].reset();
+        }
+        for (const CaseRecord* record : list[k].cases) {
+            if (numbers[k]) {
+                by_picture.emplace(record, *numbers[k]);
+            }
+        }
+    }
+    for (size_t k = 0; k < list.size(); ++k) {
+        const Cause& cause = list[k];
+        if (!is_relation(cause.rule) || !cause.door.empty()) {
+            continue;
+        }
+        const auto first = by_picture.find(cause.cases.front());
+        if (first != by_picture.end() &&
+            std::ranges::all_of(cause.cases, [&](const CaseRecord* record) {
+                const auto found = by_picture.find(record);
+                return found != by_picture.end() && found->second == first->second;
+            })) {
+            numbers[k] = first->second;
+        }
+    }
+    return numbers;
 }
 
 }  // namespace report

@@ -32,15 +32,25 @@ class Repeated {
     explicit Repeated(const Run& run);
     // The number of the diagnosis that repeats this case, where it was tried.
     std::optional<size_t> by(const std::string& id) const;
-    // The number of the first one that alone repeats every case of the cause that was tried, if at
-    // least one was. A partial one has no causes, and relations between drawings are of none.
-    std::optional<size_t> by(const Cause& cause) const;
+    // The number of the one that says the same as each of these causes, which are of one family
+    // each. It repeats all cases of the cause that were tried; where none was, three quarters of
+    // those that were tried of the causes with that rule, kind and level. Of a rule of doors, where
+    // the plain pictures are wrong, too, it is the one that says the same of these pictures. A
+    // partial one has no causes.
+    std::vector<std::optional<size_t>> of(const std::vector<Cause>& list) const;
     // Whether a diagnosis says too little to stand at the head: it explains less than half of the
     // failed cases tried, and either all diagnoses together do so, or it alone explains no cause.
     bool is_partial(size_t number) const;
 
   private:
-    std::optional<size_t> whole(const Cause& cause) const;
+    // How many cases of a cause were tried, and how many each diagnosis repeats.
+    struct Tried {
+        size_t cases = 0;
+        std::vector<size_t> repeated;
+    };
+    void add(Tried& tried, const Cause& cause) const;
+    // The first one that repeats so many quarters of them, if any was tried.
+    std::optional<size_t> of_most(const Tried& tried, size_t quarters) const;
     std::vector<std::set<std::string>> explained_;  // by diagnosis
     std::set<std::string> tried_;                   // failed cases
     std::vector<bool> is_partial_;                  // by diagnosis

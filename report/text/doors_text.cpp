@@ -50,26 +50,31 @@ std::vector<DoorCount> door_counts(const Run& run) {
 
 std::string doors_text(const Run& run, bool verbose) {
     const std::vector<DoorCount> counts = door_counts(run);
-    if (counts.empty()) {
-        return {};
+    if (counts.empty() || run.device.api_version.empty()) {
+        return {};  // what is no driver has none
     }
-    size_t pictures = 0, left_out = 0, open = 0;
+    size_t pictures = 0, left_out = 0, open = 0, known = 0, unsupported = 0;
     for (const DoorCount& count : counts) {
         pictures += count.pictures;
         left_out += count.left_out;
         open += count.pictures > 0 ? 1 : 0;
+        known += count.bug.empty() ? 0U : 1U;
+        unsupported += count.bug.empty() && count.pictures == 0 && count.closed > 0 ? 1U : 0U;
     }
     std::string text =
         fmt::format("doors: {} through {} of {}", cases::counted(pictures, "picture"), open,
                     cases::counted(counts.size(), "door"));
-    if (left_out > 0) {
-        text += fmt::format("; {} left out, since the case cannot take the door", left_out);
+    const auto add = [&text](size_t count, std::string_view what) {
+        text += count > 0 ? fmt::format("; {} {}", count, what) : "";
+    };
+    add(left_out, "left out, since the case cannot take the door");
+    if (!verbose) {
+        add(known, known == 1 ? "is known to be broken" : "are known to be broken");
+        add(unsupported, "the device lacks");
+        return text + '\n';
     }
     text += '\n';
     for (const DoorCount& count : counts) {
-        if (!verbose && count.pictures > 0 && count.closed == 0 && count.bug.empty()) {
-            continue;
-        }
         text += fmt::format("  {}: {}", count.door,
                             count.pictures == 0 ? "no picture was drawn"
                                                 : cases::counted(count.pictures, "picture"));

@@ -24,8 +24,8 @@ struct DoorCount {
 // Of every door that the run or a file asks for, in the order of the table of doors.
 std::vector<DoorCount> door_counts(const Run& run);
 
-// "doors: ..." with the sum, and a line for each door that drew nothing; all of them with
-// `verbose`. Empty if no door was asked for.
+// "doors: ..." with the sum; a line for each of them with `verbose`. Empty if no door was asked
+// for.
 std::string doors_text(const Run& run, bool verbose);
 
 // "ways: 2197 pictures by 14 ways"; empty if no case was drawn by any.

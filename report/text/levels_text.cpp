@@ -4,12 +4,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <map>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "cases/base/counted.hpp"
 #include "report/text/causes.hpp"
@@ -19,28 +16,10 @@ namespace report {
 
 namespace {
 
-constexpr size_t kNamed = 3;  // families
-
 // What cases do that break a level, of one and of several: breaking a stricter one is less.
 constexpr std::array<std::pair<std::string_view, std::string_view>, std::size(cases::kProfiles)>
     kLevelDeeds = {
         {{"is wrong", "are wrong"}, {"is suspicious", "are suspicious"}, {"differs", "differ"}}};
-
-// "ties", "ties, clip, depth and 4 more": the families of the cases, those of most cases first.
-std::string families(const std::vector<const CaseRecord*>& of) {
-    std::map<std::string, size_t> count;
-    for (const CaseRecord* record : of) {
-        ++count[one_line(family_of(*record))];
-    }
-    std::vector<std::pair<std::string, size_t>> list(count.begin(), count.end());
-    std::ranges::stable_sort(list,
-                             [](const auto& a, const auto& b) { return a.second > b.second; });
-    std::string text;
-    for (size_t k = 0; k < std::min(list.size(), kNamed); ++k) {
-        text += (k > 0 ? ", " : "") + list[k].first;
-    }
-    return list.size() > kNamed ? text + fmt::format(" and {} more", list.size() - kNamed) : text;
-}
 
 }  // namespace
 
@@ -62,7 +41,7 @@ std::string level_text(const Levels& levels, const LevelCount& row) {
     }
     return fmt::format("{} {} ({}){}",
                        is_first ? fmt::format("{} of {}", news, all) : cases::counted(news, "case"),
-                       news == 1 ? one : several, families(row.unexpected),
+                       news == 1 ? one : several, families_text(row.unexpected),
                        known == 0 ? "" : fmt::format(", {} more as expected", known));
 }
 

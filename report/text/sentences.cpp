@@ -211,6 +211,9 @@ std::string counts_text(const CaseRecord& record) {
             text += (text.empty() ? "" : ", ") + counted_findings(kind, count, has_more);
         }
     }
+    if (record.drawn.is_brief && record.outcome.finding_total() >= diff::kBriefEnough) {
+        return "at least " + text;
+    }
     if (has_more) {
         return fmt::format("{} of {} wrong ({})", *record.outcome.wrong_samples,
                            cases::counted(record.outcome.compared_samples, "sample"), text);
@@ -315,6 +318,14 @@ std::string why_it_happened(const CaseRecord& record) {
 }
 
 std::string shortened_text(const Run& run) {
+    const auto brief = std::ranges::count_if(
+        run.cases, [](const CaseRecord& record) { return record.drawn.is_brief; });
+    if (brief > 0) {
+        return fmt::format(
+            "of {} beyond the first the level, the rules and one finding are kept; run --tell all "
+            "keeps all",
+            cases::counted(static_cast<uint64_t>(brief), "failure"));
+    }
     return run.shortened_cases == 0
                ? std::string()
                : fmt::format(

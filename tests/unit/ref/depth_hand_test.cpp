@@ -99,9 +99,10 @@ TEST(DepthHand, EveryCompareOperation) {
     }
 }
 
-// c = (-1, 0, 0, 0) is the direction to the left, so the triangle is a strip of depth 1/2, behind the
-// plane of depth 1/4. Devices set depths up from 1/w of the vertices, and that of c has no value: no
-// profile asks for a depth (value/fragment/promise.cpp), so none may ask for a test of it either.
+// c = (-1, 0, 0, 0) is the direction to the left, so the triangle is a strip of depth 1/2, behind
+// the plane of depth 1/4. Devices set depths up from 1/w of the vertices, and that of c has no
+// value: no profile asks for a depth (value/fragment/promise.cpp), so none may ask for a test of it
+// either.
 TEST(DepthHand, NothingIsAskedOfATestOfADepthWithoutANumber) {
     cases::Case c = case_of({half_plane(0.25), half_plane(0.5)});
     c.draws[1].positions = {{0, -1, 0.5, 1}, {0, 0.5, 0.5, 1}, {-1, 0, 0, 0}};

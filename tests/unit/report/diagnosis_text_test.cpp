@@ -42,9 +42,11 @@ Diagnosis tried(std::vector<std::string> explained, std::vector<std::string> une
 std::vector<std::pair<std::string, int>> repeated_causes(const Run& run) {
     const Repeated repeated(run);
     std::vector<std::pair<std::string, int>> out;
-    for (const Cause& cause : causes(run)) {
-        const auto number = repeated.by(cause);
-        out.emplace_back(cause.family, number ? static_cast<int>(*number) : -1);
+    const std::vector<Cause> list = causes_by_family(run);
+    const std::vector<std::optional<size_t>> numbers = repeated.of(list);
+    for (size_t k = 0; k < list.size(); ++k) {
+        out.emplace_back(families_text(list[k].cases),
+                         numbers[k] ? static_cast<int>(*numbers[k]) : -1);
     }
     std::sort(out.begin(), out.end());
     return out;
@@ -100,6 +102,46 @@ TEST(Repeated, ACauseOfWhichEveryTriedCaseIs) {
     run.diagnoses.clear();
     EXPECT_EQ(repeated_causes(run), (std::vector<std::pair<std::string, int>>{
                                         {"a", -1}, {"b", -1}, {"c", -1}, {"d", -1}}));
+}
+
+// A cause that was not tried goes with those that break its rule alike, where three quarters of
+// what was tried of them are repeated; and the doors of a wrong picture with that picture.
+TEST(Repeated, WhatWasNotTriedGoesWithItsRule) {
+    report::Run run = run_of({"a/1", "b/1", "b/2", "b/3", "c/1", "d/1"});
+    for (size_t k = 0; k < 5; ++k) {
+        diff::Finding finding;
+        finding.rule = "cover.inside";
+        run.cases[k].outcome.findings = {finding};
+        run.cases[k].outcome.groups = {{finding.kind, finding.rule, finding.level, 1, 0, ""}};
+    }
+    run.cases[4].outcome.groups.push_back(
+        {diff::FindingKind::value, "door.index", cases::Profile::direct3d, 1, 0, "index-8"});
+    run.diagnoses = {tried({"a/1", "b/1", "b/2"}, {"b/3"})};
+    std::vector<std::string> told;
+    const auto tell = [&] {
+        told.clear();
+        for (const Cause& cause : causes(run)) {
+            told.push_back(cause_title(cause) + (cause.diagnosis ? " = diagnosis" : ""));
+        }
+        std::ranges::sort(told);
+        return told;
+    };
+    EXPECT_EQ(tell(),
+              (std::vector<std::string>{"fail in d, 1 case",
+                                        "fail: cover.inside missing in a, c, 2 cases = diagnosis",
+                                        "fail: cover.inside missing in b, 3 cases",
+                                        "fail: door.index value in c, 1 case = diagnosis"}));
+    run.diagnoses = {tried({"a/1", "b/1"}, {"b/2", "b/3"})};
+    EXPECT_EQ(
+        tell(),
+        (std::vector<std::string>{
+            "fail in d, 1 case", "fail: cover.inside missing in a, 1 case = diagnosis",
+            "fail: cover.inside missing in b, c, 4 cases", "fail: door.index value in c, 1 case"}));
+    // The door that alone shows a failure has a cause of its own.
+    run.cases[4].outcome.findings[0].rule = "door.index";
+    run.cases[4].outcome.findings[0].door = "index-8";
+    run.cases[4].outcome.groups.erase(run.cases[4].outcome.groups.begin());
+    EXPECT_EQ(tell().back(), "fail: door.index=index-8 value in c, 1 case");
 }
 
 TEST(Repeated, WhatExplainsAFewCasesTakesNoCauseAway) {
