@@ -23,9 +23,9 @@ std::string selector_of(const RunOptions& options, const std::string& id);
 
 // How a rerun differs from its run.
 struct Rerun {
-    std::vector<std::string> doors = {};  // of the case
-    uint32_t repeats = 0;                 // drawings, if the run has fewer
-    std::vector<std::string> with = {};   // ids of cases that are drawn with it
+    std::string doors = {};              // --doors; empty: the case goes through none
+    uint32_t repeats = 0;                // drawings, if the run has fewer
+    std::vector<std::string> with = {};  // ids of cases that are drawn with it
 };
 std::string rerun_line(const Program& program, const RunOptions& options, const std::string& id,
                        const Rerun& rerun = {});
@@ -35,7 +35,10 @@ std::string explain_line(const Program& program, const RunOptions& options,
                          const JudgedDevice& device, const cases::Case& c,
                          const report::CaseRecord& record);
 
-// Gives a final record its lines: to draw it again, to explain it, to reproduce it.
+// Gives a final record its lines: to draw it again, to explain it, to reproduce it. A wrong picture
+// is drawn again as its leading finding takes: through the one door that shows it, or through none
+// if the plain picture does. What else is wrong through doors names them, for --doors behind the
+// line (report::rerun_of). Deaths, flakes and what ended better than expected keep all doors.
 void add_command_lines(const Program& program, const RunOptions& options,
                        const JudgedDevice& device, const cases::Case& c,
                        report::CaseRecord& record);

@@ -310,7 +310,8 @@ Prepared prepare(const Program& program, const RunOptions& options) {
     for (cases::Case& c : p.selection.cases) {
         run::Task task;
         task.planned = run::planned_case(c);
-        task.planned.rerun = rerun_line(program, options, c.id, {task.planned.doors});
+        task.planned.rerun =
+            rerun_line(program, options, c.id, {doors_words(options.doors, task.planned.doors)});
         task.planned.left_out_doors = std::move(p.selection.left_out_doors[c.id]);
         task.data = std::move(c);
         header.cases.emplace_back(task.planned);

@@ -43,6 +43,18 @@ std::string_view settings_of(std::string_view command) {
     return command.substr(0, end);
 }
 
+std::string rerun_of(const Cause& cause) {
+    std::string line = smallest_case(cause).rerun;
+    if (cause.door.empty() || line.empty()) {
+        return line;
+    }
+    constexpr std::string_view kOption = " --doors ";
+    if (const size_t at = line.find(kOption); at != std::string::npos) {
+        line.erase(at, word_end(line, at + kOption.size()) - at);
+    }
+    return line + std::string(kOption) + cause.door;
+}
+
 std::string debug_line(const CaseRecord& record) {
     const bool died = record.status == Status::crash || record.status == Status::timeout;
     return died && !record.rerun.empty() ? record.rerun + " --debugger gdb" : std::string();

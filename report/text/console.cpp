@@ -194,7 +194,7 @@ std::string causes_text(const Run& run, const ConsoleStyle& style) {
         const Cause& cause = list[k];
         std::string level = cause_level(cause);
         level = level.empty() ? "" : fmt::format(" [{}]", level);
-        const std::string& rerun = smallest_case(cause).rerun;
+        const std::string rerun = rerun_of(cause);
         text += fmt::format("  {}{}   rerun: {}\n",
                             painted(cause_title(cause), color_of(cause.status), style), level,
                             cases::printable(rerun.substr(settings.size())));

@@ -71,7 +71,7 @@ class Terminal(TerminalTest):
             if "rerun: " not in line and "explain: " not in line and " " in line.strip():
                 self.assertLessEqual(len(line), 40, line)
         # A command is never broken, so that it can be copied.
-        self.assertRegex(text, r"\n      rerun: (?:\w+=\S+ )*\S+ run fam/c1 --renderer reference\n")
+        self.assertRegex(text, r"\n      rerun: (?:\w+=\S+ )*\S+ run fam/c1 --suite \S+ --renderer reference\n")
 
     def test_a_picture_with_v(self):
         text = self.run_suite("-v", fault="flip-pixel@fam/c1", check=1).stdout
