@@ -14,26 +14,19 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// What a shell starts by a name; empty if PATH has no such program.
-fs::path find_on_path(const std::string& name) {
-    std::error_code ignored;
-    const char* path = std::getenv("PATH");
-    std::istringstream folders(path != nullptr ? path : "/usr/bin:/bin");
-    for (std::string folder; std::getline(folders, folder, ':');) {
-        const fs::path candidate = fs::path(folder.empty() ? "." : folder) / name;
-        if (::access(candidate.c_str(), X_OK) == 0 && fs::is_regular_file(candidate, ignored)) {
-            return candidate;
-        }
-    }
-    return {};
-}
-
 std::string find_program(const std::string& name) {
     std::error_code ignored;
-    const fs::path found = name.find('/') == std::string::npos ? find_on_path(name) : fs::path();
-    return fs::absolute(found.empty() ? fs::path(name) : found, ignored)
-        .lexically_normal()
-        .string();
+    if (name.find('/') == std::string::npos) {
+        const char* path = std::getenv("PATH");
+        std::istringstream folders(path != nullptr ? path : "/usr/bin:/bin");
+        for (std::string folder; std::getline(folders, folder, ':');) {
+            const fs::path candidate = fs::path(folder.empty() ? "." : folder) / name;
+            if (::access(candidate.c_str(), X_OK) == 0 && fs::is_regular_file(candidate, ignored)) {
+                return fs::absolute(candidate, ignored).lexically_normal().string();
+            }
+        }
+    }
+    return fs::absolute(name, ignored).lexically_normal().string();
 }
 
 std::vector<std::string> words_of(const std::string& text) {
@@ -59,9 +52,10 @@ Program make_program(int argc, const char* const* argv) {
     }
     program.path = find_program(program.arguments.front());
     std::error_code none;
-    program.called = fs::equivalent(find_on_path("edgecase"), program.path, none)
-                         ? "edgecase"
-                         : program.arguments.front();
+    const std::string found = find_program("edgecase");  // in the working directory if nowhere
+    const bool is_found =
+        found != fs::absolute("edgecase", none) && fs::equivalent(found, program.path, none);
+    program.called = is_found ? "edgecase" : program.arguments.front();
     return program;
 }
 

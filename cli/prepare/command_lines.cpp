@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdlib>
 #include <filesystem>
+#include <span>
 #include <string_view>
 
 #include "cases/model/rule_ids.hpp"
@@ -86,50 +87,28 @@ class Words {
     std::vector<std::string> words_;
 };
 
-// Variables that a run records, by how "NAME=VALUE" begins.
-struct Recorded {
-    std::string_view start;
-    bool changes_pictures;  // so that it belongs before a command that draws again
-};
-constexpr std::array<Recorded, 20> kRecorded = {{
-    {"VK_", true},  // which drivers and layers the loader takes
-    // Layers that are on without being named, and what keeps them off.
-    {"ENABLE_", true},
-    {"DISABLE_", true},
-    {"NODEVICE_", true},
-    // Other libraries in a driver's place, or in front of it.
-    {"LD_LIBRARY_", true},
-    {"LD_PRELOAD", true},
-    // What drivers read: threads, width of vectors, a driver of Mesa, versions.
-    {"LP_", true},
-    {"LVP_", true},
-    {"MESA_", true},
-    {"GALLIUM_", true},
-    {"LIBGL_", true},
-    {"SWIFTSHADER_", true},
-    {"EDGECASE_SELF_PREFIX=", true},
+// How "NAME=VALUE" begins of the variables that a run records. The first ones change pictures, so
+// they belong before a command that draws again.
+constexpr std::array<std::string_view, 20> kRecorded = {
+    // Drivers and layers for the loader, layers that are on without being named, other libraries.
+    "VK_", "ENABLE_", "DISABLE_", "NODEVICE_", "LD_LIBRARY_", "LD_PRELOAD",
+    // What drivers read: threads, width of vectors, versions.
+    "LP_", "LVP_", "MESA_", "GALLIUM_", "LIBGL_", "SWIFTSHADER_", "EDGECASE_SELF_PREFIX=",
     // Faults on purpose, of the program and of the layers in tests/.
-    {"EDGECASE_FAULT=", true},
-    {"EDGECASE_BREAK=", true},
-    {"EDGECASE_DEVICE_CLASS=", true},
-    {"EDGECASE_PRETENDED", true},
-    {"EDGECASE_HOSTILE", true},
-    // Others of the program stand for options, which are in the line if they matter, or do nothing
-    // to what is drawn.
-    {"EDGECASE_", false},
-    // Where manifests may lie, too: a desktop sets it in every session.
-    {"XDG_DATA_DIRS", false},
-}};
+    "EDGECASE_FAULT=", "EDGECASE_BREAK=", "EDGECASE_DEVICE_CLASS=", "EDGECASE_PRETENDED",
+    "EDGECASE_HOSTILE",
+    // Options, which the line has; and what every session of a desktop sets.
+    "EDGECASE_", "XDG_DATA_DIRS"};
+constexpr size_t kOfPictures = 18;
 
-std::vector<std::pair<std::string, std::string>> variables(bool only_of_pictures) {
+// Those that are set, of the first `count`.
+std::vector<std::pair<std::string, std::string>> variables(size_t count) {
     std::vector<std::pair<std::string, std::string>> recorded;
     for (char** variable = environ; *variable != nullptr; ++variable) {
         const std::string_view text = *variable;
         const size_t equals = text.find('=');
-        if (equals != std::string_view::npos &&
-            std::ranges::any_of(kRecorded, [&](const Recorded& row) {
-                return text.starts_with(row.start) && (row.changes_pictures || !only_of_pictures);
-            })) {
+        const auto begins = [&](std::string_view start) { return text.starts_with(start); };
+        if (equals != text.npos && std::ranges::any_of(std::span(kRecorded).first(count), begins)) {
             recorded.emplace_back(text.substr(0, equals), text.substr(equals + 1));
         }
     }
@@ -137,10 +116,10 @@ std::vector<std::pair<std::string, std::string>> variables(bool only_of_pictures
     return recorded;
 }
 
-// What was set of what changes pictures, to be put before a command: "VK_DRIVER_FILES=a.json ".
+// What is to be put before a command that draws again: "VK_DRIVER_FILES=a.json ".
 std::string settings_before() {
     std::string text;
-    for (const auto& [name, value] : variables(true)) {
+    for (const auto& [name, value] : variables(kOfPictures)) {
         text += name + "=" + shell_quote(value) + " ";
     }
     return text;
@@ -154,12 +133,6 @@ std::string door_of(const diff::Finding& finding) {
     return finding.rule == cases::rule::write_outside && at != std::string::npos
                ? finding.quantity.substr(at + kBefore.size())
                : finding.door;
-}
-
-// The door that shows what a record is known by; empty if the plain picture does.
-std::string leading_door(const CaseRecord& record) {
-    const std::optional<diff::FindingGroup> news = report::leading_news(record);
-    return news ? news->door : door_of(report::leading_finding(record));
 }
 
 }  // namespace
@@ -270,9 +243,11 @@ void add_command_lines(const Program& program, const RunOptions& options,
     Rerun rerun;
     if (died || is_flake || !is_wrong || record.status == Status::improved) {
         rerun.doors = doors_words(options.doors, record.doors);
-    } else if (const std::string door = leading_door(record);
-               std::ranges::find(record.doors, door) != record.doors.end()) {
-        rerun.doors = door;  // the file asks for its own ones
+    } else {
+        const auto news = report::leading_news(record);
+        const std::string door = news ? news->door : door_of(report::leading_finding(record));
+        const bool is_of_file = std::ranges::find(record.doors, door) == record.doors.end();
+        rerun.doors = is_of_file ? "" : door;
     }
     if (is_flake) {
         rerun.with = record.death.suspects;
@@ -287,12 +262,8 @@ void add_command_lines(const Program& program, const RunOptions& options,
     // The program draws the plain picture: what only doors show it would not.
     std::string& missing = record.commands.no_reproducer;
     const bool is_of_doors =
-        !died &&
-        std::ranges::all_of(record.outcome.findings,
-                            [](const diff::Finding& f) { return !door_of(f).empty(); }) &&
-        std::ranges::all_of(record.outcome.groups, [](const diff::FindingGroup& group) {
-            return !group.door.empty() || group.rule == cases::rule::write_outside;
-        });
+        !died && std::ranges::all_of(record.outcome.findings,
+                                     [](const auto& f) { return !door_of(f).empty(); });
     missing = is_of_doors ? report::kDoorsAlone : undrawable_part(c);
     if (missing.empty()) {
         missing = may_be_too_large(c) ? "many values" : "";
@@ -306,7 +277,7 @@ void add_command_lines(const Program& program, const RunOptions& options,
 }
 
 std::vector<std::pair<std::string, std::string>> recorded_environment() {
-    auto recorded = variables(false);
+    auto recorded = variables(kRecorded.size());
     std::error_code ignored;
     recorded.emplace_back("PWD", fs::current_path(ignored).string());
     return recorded;

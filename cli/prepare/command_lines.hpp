@@ -36,9 +36,8 @@ std::string explain_line(const Program& program, const RunOptions& options,
                          const report::CaseRecord& record);
 
 // Gives a final record its lines: to draw it again, to explain it, to reproduce it. A wrong picture
-// is drawn again as its leading finding takes: through the one door that shows it, or through none
-// if the plain picture does. What else is wrong through doors names them, for --doors behind the
-// line (report::rerun_of). Deaths, flakes and what ended better than expected keep all doors.
+// is drawn through the one door that its leading finding takes, or through none; deaths, flakes and
+// what ended better than expected keep all doors.
 void add_command_lines(const Program& program, const RunOptions& options,
                        const JudgedDevice& device, const cases::Case& c,
                        report::CaseRecord& record);

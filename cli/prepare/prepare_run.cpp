@@ -98,6 +98,7 @@ void warn_of_claims(const Selection& selection, const SuiteOptions& suite, cases
             own.push_back(k);
         }
     }
+    warn_of_left_over(selected, own);
     std::map<std::string, ClaimedFile> files = claimed_files(selected, own, selection.part_files);
     warn_of_profile(files, profile);
     size_t seen = 0, unseen = 0;

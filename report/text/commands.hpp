@@ -17,8 +17,8 @@ namespace report {
 // Empty without any; a view of `command`.
 std::string_view settings_of(std::string_view command);
 
-// The command line that draws the smallest case of a cause again, through the cause's door if it
-// has one: what a record itself names for its leading finding may be another one, or none.
+// The command line of a cause's smallest case, through the cause's door if it has one: that of the
+// record is of its leading finding.
 std::string rerun_of(const Cause& cause);
 
 // The command line that runs a case that crashed or hung under a debugger; empty of any other.

@@ -243,8 +243,9 @@ std::string partial_diagnoses_text(const Run& run) {
     return text;
 }
 
-// "free: 64 of 256 samples at profile vulkan, ...": those with which nothing is tested.
-std::string free_text(const Run& run) {
+// "free: 64 of 256 samples at profile vulkan, ...": those with which nothing is tested. Who draws
+// files of one's own is told without asking.
+std::string free_text(const Run& run, bool is_asked) {
     uint64_t free = 0, samples = 0, count = 0;
     const CaseRecord* most = nullptr;
     for (const CaseRecord& r : run.cases) {
@@ -255,7 +256,7 @@ std::string free_text(const Run& run) {
             most = &r;
         }
     }
-    if (samples == 0) {
+    if (samples == 0 || (!is_asked && (free == 0 || run.own_hash.empty()))) {
         return {};
     }
     std::string text = fmt::format("free: {} of {} samples at profile {}", free, samples,
@@ -366,9 +367,7 @@ std::string console_summary(const Run& run, const std::string& report_path,
         text += shortened + '\n';
     }
     text += doors_text(run, style.verbose) + ways_text(run);
-    if (style.verbose) {
-        text += free_text(run);
-    }
+    text += free_text(run, style.verbose);
     text += levels_line(run) + '\n';
     const std::string exit = exit_words.empty() ? exit_text(run) : exit_words;
     text += report_path.empty()

@@ -212,6 +212,16 @@ class Table(ProgramTest):
         self.assertEqual(done.stderr, "")
         return done.stdout.split()
 
+    def test_doors_and_ways_are_proposed(self):
+        for option, words in (("--doors", {"all", "default", "none", "index-16", "mesh-shader"}),
+                              ("--ways", {"all", "default", "none", "bare-depth", "prepass"})):
+            self.assertLessEqual(words, set(self.complete("run", option, "")))
+            for shell in ("zsh", "fish"):
+                line = next(x for x in self.edgecase("completion", shell, check=0).stdout.splitlines()
+                            if ("run " + option in x if shell == "zsh" else f"-l {option[2:]} " in x))
+                self.assertLessEqual(words, set(re.findall(r"[a-z0-9-]+", line)))
+        self.assertEqual(self.complete("run", "--doors", "index-8"), ["index-8", "index-8-largest"])
+
     def shell_environment(self):
         env = self.environment()
         env["PATH"] = f"{os.path.dirname(PROGRAM)}:{env['PATH']}"
