@@ -1,6 +1,10 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "cases/model/door.hpp"
 #include "cases/model/rule.hpp"
+#include "cases/model/way.hpp"
 #include "cli/commands.hpp"
 #include "cli/options/command_table.hpp"
 #include "cli/options/shared_options.hpp"
@@ -15,12 +19,8 @@ struct CompletionOptions {
     std::string shell;
 };
 
-std::string join(const std::vector<std::string>& words, const std::string& between) {
-    std::string text;
-    for (const std::string& word : words) {
-        text += (text.empty() ? "" : between) + word;
-    }
-    return text;
+std::string join(const std::vector<std::string>& words, std::string_view between) {
+    return fmt::format("{}", fmt::join(words, between));
 }
 
 std::vector<std::string> option_names(const CommandEntry& command) {
@@ -37,15 +37,6 @@ bool is_file(const OptionEntry& option) {
     return option.type == "FILE" || option.type == "DIR";
 }
 
-// Text in single quotes of a shell.
-std::string quoted(const std::string& text) {
-    std::string result = "'";
-    for (const char c : text) {
-        result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    }
-    return result + "'";
-}
-
 // "run --profile|run -p": the patterns of a case on "$command $previous".
 std::string patterns(const CommandEntry& command, const OptionEntry& option) {
     std::vector<std::string> words;
@@ -55,12 +46,18 @@ std::string patterns(const CommandEntry& command, const OptionEntry& option) {
     return join(words, "|");
 }
 
-// The words that may follow an option: its choices, or the ids of all rules.
+// The words that may follow an option: its choices, doors, ways or the ids of all rules.
 std::vector<std::string> values_of(const OptionEntry& option) {
-    if (option.names.back() != "--rule") {
+    const std::string& name = option.names.back();
+    std::vector<std::string> ids;
+    if (name == "--doors" || name == "--ways") {
+        ids = name == "--doors" ? cases::door_words() : cases::way_words();
+        ids.insert(ids.begin(), {"all", "default", "none"});
+        return ids;
+    }
+    if (name != "--rule") {
         return option.choices;
     }
-    std::vector<std::string> ids;
     for (const cases::Rule& rule : cases::all_rules()) {
         ids.emplace_back(rule.id);
     }
@@ -229,7 +226,7 @@ std::string zsh_completion(const CommandTable& table) {
         for (size_t at = 0; (at = text.find(':', at)) != std::string::npos; at += 2) {
             text.insert(at, "\\");
         }
-        return quoted(name + ":" + text);
+        return shell_quote(name + ":" + text);
     };
     std::string text =
         "#compdef edgecase\n"
@@ -314,7 +311,7 @@ std::string fish_completion(const CommandTable& table) {
     const std::string start = "complete -c edgecase ";
     for (const CommandEntry& command : table.commands) {
         text += start + "-n __fish_use_subcommand -f -a " + command.name + " -d " +
-                quoted(command.text) + "\n";
+                shell_quote(command.text) + "\n";
     }
     for (const CommandEntry& command : table.commands) {
         const std::string when = start + "-n '__fish_seen_subcommand_from " + command.name + "' ";
@@ -328,19 +325,19 @@ std::string fish_completion(const CommandTable& table) {
                                                : "-s " + name.substr(1) + " ";
             }
             if (const std::vector<std::string> values = values_of(option); !values.empty()) {
-                text += "-x -a " + quoted(join(values, " ")) + " ";
+                text += "-x -a " + shell_quote(join(values, " ")) + " ";
             } else if (is_file(option)) {
                 text += "-r -F ";
             } else if (!option.type.empty()) {
                 text += "-x ";
             }
-            text += "-d " + quoted(option.text) + "\n";
+            text += "-d " + shell_quote(option.text) + "\n";
         }
         const std::vector<std::string> words = positional_words(command);
         if (command.takes_cases()) {
             text += when + "-a '(__edgecase_cases)'\n";
         } else if (!words.empty()) {
-            text += when + "-f -a " + quoted(join(words, " ")) + "\n";
+            text += when + "-f -a " + shell_quote(join(words, " ")) + "\n";
         }
     }
     return text;

@@ -27,12 +27,12 @@
 #include "cli/prepare/suite.hpp"
 #include "cli/strength.hpp"
 #include "diff/color.hpp"
+#include "diff/verdict.hpp"
 #include "ref/exercise/exercise.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "report/record/run.hpp"
 #include "run/expected/expectation_file.hpp"
 #include "run/expected/seen_pictures.hpp"
-#include "run/judge.hpp"
 
 namespace cli {
 
@@ -101,9 +101,8 @@ bool fails_every_depth_test(cases::Case c, cases::Profile profile) {
 // What is wrong with one case beyond its file's form: its picture, its rules, its control samples.
 cases::Errors check_case(const cases::Case& c, const ref::Exercise& exercise) {
     cases::Errors errors;
-    if (const std::string wrong = run::check_before_running(c); !wrong.empty()) {
-        errors.push_back({c.claim.expected_hits ? c.claim.expected_hits->where : c.claim.where,
-                          c.id + ": " + wrong});
+    if (const auto wrong = diff::check_expected_hits(c)) {
+        errors.push_back({wrong->where, c.id + ": " + wrong->message});
     }
     for (const std::string& rule : c.claim.rules) {
         if (cases::find_rule(rule) == nullptr) {
@@ -372,6 +371,9 @@ int carry_out(const Program& program, const LintOptions& options) {
     }
     for (const cases::Error& error : errors) {
         complain(cases::to_string(error));
+    }
+    if (!options.quiet && !options.suite.selectors.empty()) {
+        warn_of_left_over(suite.cases, suite.selected);
     }
     if (!options.quiet) {
         const std::string beside =

@@ -229,8 +229,8 @@ Verdict compare_by_sample(const cases::Case& c, const ref::Expectation& expectat
                           const capture::CaptureView& capture);
 
 // Checks the hand-drawn picture of a case against the reference (profile direct3d, 8 subpixel
-// bits). Empty if it agrees or the case has none; else one sentence with the first pixel that
-// differs.
-std::string check_expected_hits(const cases::Case& c);
+// bits). Nothing if it agrees or the case has none; else one sentence with the first pixel that
+// differs, and where that stands in the case's file, which is read for it.
+std::optional<cases::Error> check_expected_hits(const cases::Case& c);
 
 }  // namespace diff

@@ -226,7 +226,8 @@ void require_support(CaseRecord& record) {
 
 std::string check_before_running(const cases::Case& c) {
     try {
-        return diff::check_expected_hits(c);
+        const auto wrong = diff::check_expected_hits(c);
+        return wrong ? cases::to_string(*wrong) : "";
     } catch (const std::exception& e) {
         return std::string("the reference failed: ") + cases::reason_of(e);
     }

@@ -590,9 +590,10 @@ class DrawLoader {
         }
         for (const size_t piece : pieces) {
             if (draw_.topology == Topology::triangle_list && piece > 3 && piece % 3 != 0) {
-                notes.push_back(fmt::format("{}: the last {} of {} {} make no triangle", name,
-                                            piece % 3, piece,
-                                            draw_.indices ? "indices" : "vertices"));
+                notes.push_back(
+                    fmt::format("{}: the last {} of {} {} {}; write {} more or take {} away", name,
+                                piece % 3, piece, draw_.indices ? "indices" : "vertices", kLeftOver,
+                                3 - piece % 3, piece % 3 == 1 ? "it" : "them"));
             }
         }
     }

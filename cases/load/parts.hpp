@@ -24,6 +24,9 @@ void read_fragment_size(LeafContext& context, const TomlValue& table, Draw& draw
 void check_fragment_size(LeafContext& context, const TomlValue& table, const Draw& draw,
                          const Target& target);
 
+// In the note of a list whose last vertices are too few for a triangle.
+inline constexpr char kLeftOver[] = "make no triangle";
+
 // One [[draw]] table. `index` of the draw, from 0, stands in notes. Mistakes go to the context; the
 // result is then meaningless.
 Draw load_draw(LeafContext& context, const TomlValue& table, const Target& target, size_t index,

@@ -436,6 +436,14 @@ std::span<const WayRow> all_ways() {
     return kWays;
 }
 
+std::vector<std::string> way_words() {
+    std::vector<std::string> words;
+    for (const WayRow& way : kWays) {
+        words.emplace_back(way.word);
+    }
+    return words;
+}
+
 std::optional<Case> by_way(const WayRow& way, const Case& c) {
     const auto is_clear = [](const Draw& draw) { return draw.clear.has_value(); };
     if (c.draws.empty() || c.target.has_operations() || std::ranges::any_of(c.draws, is_clear) ||

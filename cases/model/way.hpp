@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "cases/model/case.hpp"
 
@@ -24,6 +25,7 @@ struct WayRow {
 
 // In the order of the table.
 std::span<const WayRow> all_ways();
+std::vector<std::string> way_words();  // of all ways, in their order
 
 // The case as it is drawn by a way; nothing if the way does not take it.
 std::optional<Case> by_way(const WayRow& way, const Case& c);

@@ -77,6 +77,15 @@ std::string with_hint(std::string message, const std::string& nearest) {
     return nearest.empty() ? message : message + "; did you mean " + nearest + "?";
 }
 
+// The family that is near to the first part of a word, or begins with it; else empty.
+std::string family_like(const std::string& part, const std::vector<std::string>& folders) {
+    const auto like = std::ranges::find_if(
+        folders, [&](const std::string& f) { return part.size() > 2 && f.starts_with(part); });
+    const std::string nearest = nearest_name(part, folders);
+    const std::string family = nearest.empty() && like != folders.end() ? *like : nearest;
+    return family == part ? "" : family;
+}
+
 std::string part_before_leaf(const std::string& id) {
     return id.substr(0, id.find(':'));
 }
@@ -192,7 +201,10 @@ struct Matcher {
         const std::string id = is_folder            ? ""
                                : whole != ids.end() ? *whole
                                                     : nearest_name(word, ids);
-        const std::string folder = is_folder ? bare : id.empty() ? nearest_name(bare, folders) : "";
+        std::string folder = is_folder ? bare : id.empty() ? nearest_name(bare, folders) : "";
+        if (id.empty() && folder.empty()) {
+            folder = family_like(bare.substr(0, bare.find('/')), folders);
+        }
         if (id.empty() && folder.empty() && word.find(':') != std::string::npos) {
             if (const std::string leaves = leaves_of(part_before_leaf(word)); !leaves.empty()) {
                 return "no case matches " + word + "; " + leaves;

@@ -51,6 +51,11 @@ Program make_program(int argc, const char* const* argv) {
         program.arguments.emplace_back("edgecase");
     }
     program.path = find_program(program.arguments.front());
+    std::error_code none;
+    const std::string found = find_program("edgecase");  // in the working directory if nowhere
+    const bool is_found =
+        found != fs::absolute("edgecase", none) && fs::equivalent(found, program.path, none);
+    program.called = is_found ? "edgecase" : program.arguments.front();
     return program;
 }
 

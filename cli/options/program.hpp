@@ -18,6 +18,7 @@ extern const char* const kVersion;
 struct Program {
     std::vector<std::string> arguments;  // argv
     std::string path;                    // absolute path of the program
+    std::string called;  // in lines to copy: "edgecase" if PATH finds it so, else as it was called
 };
 
 // argv[0] resolved by the working directory or PATH. /proc/self/exe would be wrong: under a

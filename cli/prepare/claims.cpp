@@ -9,9 +9,11 @@
 #include <string_view>
 
 #include "cases/base/input_file.hpp"
+#include "cases/load/parts.hpp"
 #include "cases/model/rule.hpp"
 #include "cases/model/rule_ids.hpp"
 #include "cases/toml/toml_reader.hpp"
+#include "cli/options/stop.hpp"
 #include "cli/prepare/on_threads.hpp"
 
 namespace cli {
@@ -87,6 +89,18 @@ std::map<std::string, ClaimedFile> claimed_files(const std::vector<cases::Case>&
         file.is_whole = file.cases.size() == counts[name] && !parts.contains(name);
     }
     return files;
+}
+
+void warn_of_left_over(const std::vector<cases::Case>& all, const std::vector<size_t>& chosen) {
+    std::set<std::string> told;
+    for (const size_t k : chosen) {
+        for (const std::string& note : all[k].claim.notes) {
+            const std::string text = "warning: " + all[k].claim.where.file + ": " + note;
+            if (note.find(cases::kLeftOver) != note.npos && told.insert(text).second) {
+                complain(text);
+            }
+        }
+    }
 }
 
 namespace {

@@ -49,6 +49,9 @@ std::map<std::string, ClaimedFile> claimed_files(const std::vector<cases::Case>&
                                                  const std::vector<size_t>& chosen,
                                                  const std::set<std::string>& parts);
 
+// Warns of vertices of the chosen cases (indices into `all`) that make no triangle, once a file.
+void warn_of_left_over(const std::vector<cases::Case>& all, const std::vector<size_t>& chosen);
+
 // One error for each open claim of a whole file that no sample exercises with the fewest subpixel
 // bits either; and one for each draw of which nothing can be seen in any case of a whole file.
 cases::Errors check_claims(const std::vector<cases::Case>& all,

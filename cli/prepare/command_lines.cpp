@@ -7,9 +7,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <filesystem>
+#include <span>
 #include <string_view>
 
+#include "cases/model/rule_ids.hpp"
 #include "cases/model/way.hpp"
 #include "cli/prepare/doors.hpp"
 #include "cli/reproducer/reproducer.hpp"
@@ -27,8 +30,7 @@ namespace {
 class Words {
   public:
     Words() = default;
-    Words(const Program& program, std::vector<std::string> words)
-        : words_{program.arguments.front()} {
+    Words(const Program& program, std::vector<std::string> words) : words_{program.called} {
         words_.insert(words_.end(), words.begin(), words.end());
     }
 
@@ -49,7 +51,9 @@ class Words {
         return text(option, fmt::format("{}", value), fmt::format("{}", usual));
     }
     Words& suite_and_profile(const RunOptions& options) {
-        return text("--suite", options.suite.suite)
+        const char* const set = std::getenv("EDGECASE_SUITE");
+        const std::string& own = options.suite.suite;
+        return text("--suite", own.empty() && set != nullptr ? set : own)
             .text("--profile", std::string(cases::to_string(options.profile)),
                   cases::to_string(cases::Profile::direct3d));
     }
@@ -83,20 +87,52 @@ class Words {
     std::vector<std::string> words_;
 };
 
-// The settings that choose or change a driver, to be put before a command: "VK_DRIVER_FILES=a.json
-// ".
-std::string driver_settings() {
-    constexpr std::array<std::string_view, 6> kPrefixes = {
-        "VK_", "EDGECASE_SELF_PREFIX", "LP_", "LVP_", "MESA_", "GALLIUM_"};
-    std::string text;
-    for (const auto& [name, value] : recorded_environment()) {
-        if (std::ranges::any_of(kPrefixes, [&, &n = name](std::string_view prefix) {
-                return n.starts_with(prefix);
-            })) {
-            text += name + "=" + shell_quote(value) + " ";
+// How "NAME=VALUE" begins of the variables that a run records. The first ones change pictures, so
+// they belong before a command that draws again.
+constexpr std::array<std::string_view, 20> kRecorded = {
+    // Drivers and layers for the loader, layers that are on without being named, other libraries.
+    "VK_", "ENABLE_", "DISABLE_", "NODEVICE_", "LD_LIBRARY_", "LD_PRELOAD",
+    // What drivers read: threads, width of vectors, versions.
+    "LP_", "LVP_", "MESA_", "GALLIUM_", "LIBGL_", "SWIFTSHADER_", "EDGECASE_SELF_PREFIX=",
+    // Faults on purpose, of the program and of the layers in tests/.
+    "EDGECASE_FAULT=", "EDGECASE_BREAK=", "EDGECASE_DEVICE_CLASS=", "EDGECASE_PRETENDED",
+    "EDGECASE_HOSTILE",
+    // Options, which the line has; and what every session of a desktop sets.
+    "EDGECASE_", "XDG_DATA_DIRS"};
+constexpr size_t kOfPictures = 18;
+
+// Those that are set, of the first `count`.
+std::vector<std::pair<std::string, std::string>> variables(size_t count) {
+    std::vector<std::pair<std::string, std::string>> recorded;
+    for (char** variable = environ; *variable != nullptr; ++variable) {
+        const std::string_view text = *variable;
+        const size_t equals = text.find('=');
+        const auto begins = [&](std::string_view start) { return text.starts_with(start); };
+        if (equals != text.npos && std::ranges::any_of(std::span(kRecorded).first(count), begins)) {
+            recorded.emplace_back(text.substr(0, equals), text.substr(equals + 1));
         }
     }
+    std::ranges::sort(recorded);
+    return recorded;
+}
+
+// What is to be put before a command that draws again: "VK_DRIVER_FILES=a.json ".
+std::string settings_before() {
+    std::string text;
+    for (const auto& [name, value] : variables(kOfPictures)) {
+        text += name + "=" + shell_quote(value) + " ";
+    }
     return text;
+}
+
+// The door through which a finding is seen and in no other picture; empty if there is none. What is
+// written beside an attachment is told with the picture that did it.
+std::string door_of(const diff::Finding& finding) {
+    constexpr std::string_view kBefore = ", door ";
+    const size_t at = finding.quantity.rfind(kBefore);
+    return finding.rule == cases::rule::write_outside && at != std::string::npos
+               ? finding.quantity.substr(at + kBefore.size())
+               : finding.door;
 }
 
 }  // namespace
@@ -157,7 +193,7 @@ std::string rerun_line(const Program& program, const RunOptions& options, const 
         .text("--icd", options.device.icd)
         .flag("--validation", options.device.validation)
         .text("--renderer", options.device.renderer)
-        .text("--doors", doors_words(options.doors, rerun.doors))
+        .text("--doors", rerun.doors)
         .number("--timeout", options.device.timeout, DeviceOptions().timeout)
         .fail_at(options)
         .flag("--require-support", options.require_support)
@@ -167,7 +203,7 @@ std::string rerun_line(const Program& program, const RunOptions& options, const 
     for (const std::string& other : rerun.with) {
         words.flag(selector_of(options, other).c_str(), true);
     }
-    return driver_settings() + words.line();
+    return settings_before() + words.line();
 }
 
 std::string diff_line(const Program& program, const DiffOptions& options, const std::string& id) {
@@ -200,15 +236,18 @@ std::string explain_line(const Program& program, const RunOptions& options,
 void add_command_lines(const Program& program, const RunOptions& options,
                        const JudgedDevice& device, const cases::Case& c, CaseRecord& record) {
     constexpr uint32_t kRepeatsOfDeath = 10;  // of a batch whose worker died once
-    const auto is_of_door = [](const diff::FindingGroup& group) { return !group.door.empty(); };
-    const std::vector<diff::FindingGroup>& groups = record.outcome.groups;
     const bool died = record.status == Status::crash || record.status == Status::timeout ||
                       record.status == Status::device_lost;
     const bool is_flake = report::actual_status(record) == Status::flake;
     const bool is_wrong = !record.outcome.findings.empty();
     Rerun rerun;
-    if (died || is_flake || !is_wrong || std::ranges::any_of(groups, is_of_door)) {
-        rerun.doors = record.doors;
+    if (died || is_flake || !is_wrong || record.status == Status::improved) {
+        rerun.doors = doors_words(options.doors, record.doors);
+    } else {
+        const auto news = report::leading_news(record);
+        const std::string door = news ? news->door : door_of(report::leading_finding(record));
+        const bool is_of_file = std::ranges::find(record.doors, door) == record.doors.end();
+        rerun.doors = is_of_file ? "" : door;
     }
     if (is_flake) {
         rerun.with = record.death.suspects;
@@ -225,7 +264,9 @@ void add_command_lines(const Program& program, const RunOptions& options,
     }
     // The program draws the plain picture: what only doors show it would not.
     std::string& missing = record.commands.no_reproducer;
-    const bool is_of_doors = !died && std::ranges::all_of(groups, is_of_door);
+    const bool is_of_doors =
+        !died && std::ranges::all_of(record.outcome.findings,
+                                     [](const auto& f) { return !door_of(f).empty(); });
     missing = is_of_doors ? report::kDoorsAlone : undrawable_part(c);
     if (missing.empty()) {
         missing = may_be_too_large(c) ? "many values" : "";
@@ -239,23 +280,9 @@ void add_command_lines(const Program& program, const RunOptions& options,
 }
 
 std::vector<std::pair<std::string, std::string>> recorded_environment() {
-    constexpr std::array<std::string_view, 14> kPrefixes = {
-        "VK_",         "EDGECASE_",  "LP_",          "LVP_",         "MESA_",
-        "GALLIUM_",    "LIBGL_",     "ENABLE_",      "DISABLE_",     "NODEVICE_",
-        "LD_LIBRARY_", "LD_PRELOAD", "SWIFTSHADER_", "XDG_DATA_DIRS"};
-    std::vector<std::pair<std::string, std::string>> recorded;
-    for (char** variable = environ; *variable != nullptr; ++variable) {
-        const std::string_view text = *variable;
-        const size_t equals = text.find('=');
-        const bool wanted = std::ranges::any_of(
-            kPrefixes, [&](std::string_view prefix) { return text.starts_with(prefix); });
-        if (wanted && equals != std::string_view::npos) {
-            recorded.emplace_back(text.substr(0, equals), text.substr(equals + 1));
-        }
-    }
+    auto recorded = variables(kRecorded.size());
     std::error_code ignored;
     recorded.emplace_back("PWD", fs::current_path(ignored).string());
-    std::ranges::sort(recorded);
     return recorded;
 }
 

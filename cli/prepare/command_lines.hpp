@@ -23,9 +23,9 @@ std::string selector_of(const RunOptions& options, const std::string& id);
 
 // How a rerun differs from its run.
 struct Rerun {
-    std::vector<std::string> doors = {};  // of the case
-    uint32_t repeats = 0;                 // drawings, if the run has fewer
-    std::vector<std::string> with = {};   // ids of cases that are drawn with it
+    std::string doors = {};              // --doors; empty: the case goes through none
+    uint32_t repeats = 0;                // drawings, if the run has fewer
+    std::vector<std::string> with = {};  // ids of cases that are drawn with it
 };
 std::string rerun_line(const Program& program, const RunOptions& options, const std::string& id,
                        const Rerun& rerun = {});
@@ -35,7 +35,9 @@ std::string explain_line(const Program& program, const RunOptions& options,
                          const JudgedDevice& device, const cases::Case& c,
                          const report::CaseRecord& record);
 
-// Gives a final record its lines: to draw it again, to explain it, to reproduce it.
+// Gives a final record its lines: to draw it again, to explain it, to reproduce it. A wrong picture
+// is drawn through the one door that its leading finding takes, or through none; deaths, flakes and
+// what ended better than expected keep all doors.
 void add_command_lines(const Program& program, const RunOptions& options,
                        const JudgedDevice& device, const cases::Case& c,
                        report::CaseRecord& record);

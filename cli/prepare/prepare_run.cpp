@@ -98,6 +98,7 @@ void warn_of_claims(const Selection& selection, const SuiteOptions& suite, cases
             own.push_back(k);
         }
     }
+    warn_of_left_over(selected, own);
     std::map<std::string, ClaimedFile> files = claimed_files(selected, own, selection.part_files);
     warn_of_profile(files, profile);
     size_t seen = 0, unseen = 0;
@@ -310,7 +311,8 @@ Prepared prepare(const Program& program, const RunOptions& options) {
     for (cases::Case& c : p.selection.cases) {
         run::Task task;
         task.planned = run::planned_case(c);
-        task.planned.rerun = rerun_line(program, options, c.id, {task.planned.doors});
+        task.planned.rerun =
+            rerun_line(program, options, c.id, {doors_words(options.doors, task.planned.doors)});
         task.planned.left_out_doors = std::move(p.selection.left_out_doors[c.id]);
         task.data = std::move(c);
         header.cases.emplace_back(task.planned);

@@ -309,13 +309,9 @@ void select_ways(const std::string& selector, LoadedSuite& suite) {
         }
     }
     if (made == 0) {
-        std::vector<std::string> words;
-        for (const cases::WayRow& way : cases::all_ways()) {
-            words.emplace_back(way.word);
-        }
         throw stop_with(report::kExitNothingSelected,
                         fmt::format("'{}' is drawn by no way '{}'{}", base, glob,
-                                    cases::did_you_mean(glob, words,
+                                    cases::did_you_mean(glob, cases::way_words(),
                                                         "; 'edgecase doors' lists them, and what "
                                                         "they take")));
     }
@@ -437,10 +433,14 @@ cases::Case load_one_case(const Program& program, const SuiteOptions& options) {
         for (size_t k = 0; k < suite.selected.size() && k < 3; ++k) {
             some += (k == 0 ? "'" : ", '") + suite.cases[suite.selected[k]].id + "'";
         }
-        throw stop_with(report::kExitUsage,
-                        "this command works on one case, and " +
-                            std::to_string(suite.selected.size()) + " are selected: " + some +
-                            (suite.selected.size() > 3 ? ", ..." : "") + "; give the id of one");
+        throw stop_with(
+            report::kExitUsage,
+            "this command works on one case, and " +
+                (options.selectors.empty()
+                     ? "none is named; give its id, as 'edgecase list' has it, or a file of your "
+                       "own"
+                     : std::to_string(suite.selected.size()) + " are selected: " + some +
+                           (suite.selected.size() > 3 ? ", ..." : "") + "; give the id of one"));
     }
     return std::move(suite.cases[suite.selected.front()]);
 }

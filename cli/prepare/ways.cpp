@@ -30,14 +30,13 @@ std::string file_part(const std::string& id) {
 
 std::vector<Way> ways_like(const std::string& glob) {
     std::vector<Way> found;
-    std::vector<std::string> words;
     for (const cases::WayRow& way : cases::all_ways()) {
-        words.emplace_back(way.word);
         if (cases::glob_matches(glob, way.word)) {
             found.push_back(&way);
         }
     }
     if (found.empty()) {
+        std::vector<std::string> words = cases::way_words();
         words.insert(words.end(), {"all", "default", "none"});
         throw stop_with(
             report::kExitUsage,

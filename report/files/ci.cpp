@@ -10,6 +10,7 @@
 
 #include "cases/base/printable.hpp"
 #include "report/text/causes.hpp"
+#include "report/text/commands.hpp"
 #include "report/text/diagnosis_text.hpp"
 #include "report/text/levels_text.hpp"
 #include "report/text/sentences.hpp"
@@ -65,10 +66,10 @@ std::string cell(std::string_view bytes) {
 }
 
 // A command in an indented block, where Markdown changes nothing.
-std::string command_block(const CaseRecord& record) {
-    std::string text = "    " + one_line(record.rerun) + "\n";
-    if (!record.commands.explain.empty()) {
-        text += "    " + one_line(record.commands.explain) + "\n";
+std::string command_block(const Cause& cause) {
+    std::string text = "    " + one_line(rerun_of(cause)) + "\n";
+    if (const std::string& explain = smallest_case(cause).commands.explain; !explain.empty()) {
+        text += "    " + one_line(explain) + "\n";
     }
     return text;
 }
@@ -109,7 +110,7 @@ std::string to_github_annotations(const Run& run, const fs::path& base) {
         const std::string others = other_relations_text(first);
         const std::string body = fmt::format(
             "{}   {}\n{}{}\nrerun: {}{}", first.id, what_happened(first), why_it_happened(list[k]),
-            others.empty() ? "" : "\nalso: " + others, first.rerun,
+            others.empty() ? "" : "\nalso: " + others, rerun_of(list[k]),
             first.commands.explain.empty() ? "" : "\nexplain: " + first.commands.explain);
         const std::string file = file_in(base, run, first.file);
         const std::string place = file.empty()
@@ -207,7 +208,7 @@ std::string to_github_summary(const Run& run) {
         const std::string block =
             fmt::format("\n**{}. {}**: {}\n\n{}", k + 1, cell(cause_title(list[k])),
                         cell(fmt::format("{}; {}", what_happened(first), why_it_happened(list[k]))),
-                        command_block(first));
+                        command_block(list[k]));
         if (text.size() + block.size() <= kMaxSummary) {
             text += block;
         }

@@ -40,7 +40,7 @@ function causeRow(cause, show) {
     el("td", {}, cause.level ? [levelTag(cause.level), el("div", {class: "quiet small"}, data.meanings[cause.level])] : cause.known ? "all expected" : ""),
     el("td", {class: "right"}, el("button", {type: "button", class: "link", title: "show only these", onclick: () => show(cause.key)}, plural(cause.records.length, "case")),
       findings ? el("div", {class: "quiet small"}, plural(findings, "finding")) : null),
-    el("td", {}, link, example.rerun ? [" ", copyButton("copy rerun", "the rerun command of " + example.id, example.rerun, link)] : null));
+    el("td", {}, link, cause.rerun || example.rerun ? [" ", copyButton("copy rerun", "the rerun command of " + example.id, cause.rerun || example.rerun, link)] : null));
 }
 
 function causesTable(rows) {

@@ -322,6 +322,9 @@ Json cause_json(const Cause& cause, const std::function<size_t(const CaseRecord&
               {"level", cause.level ? cases::to_string(*cause.level) : ""},
               {"cases", std::move(members)}};
     put(json, "door", cause.door);
+    if (const std::string rerun = rerun_of(cause); rerun != smallest.rerun) {
+        put(json, "rerun", rerun);
+    }
     return json;
 }
 

@@ -43,6 +43,23 @@ std::string_view settings_of(std::string_view command) {
     return command.substr(0, end);
 }
 
+std::string rerun_of(const Cause& cause) {
+    const CaseRecord& record = smallest_case(cause);
+    std::string line = record.rerun, door = cause.door;
+    // The doors of a rule share a cause where the plain picture is wrong, too: any of them shows it.
+    for (const diff::FindingGroup& group : record.outcome.groups) {
+        door = door.empty() && group.rule == cause.rule ? group.door : door;
+    }
+    if (door.empty() || line.empty()) {
+        return line;
+    }
+    constexpr std::string_view kOption = " --doors ";
+    if (const size_t at = line.find(kOption); at != std::string::npos) {
+        line.erase(at, word_end(line, at + kOption.size()) - at);
+    }
+    return line + std::string(kOption) + door;
+}
+
 std::string debug_line(const CaseRecord& record) {
     const bool died = record.status == Status::crash || record.status == Status::timeout;
     return died && !record.rerun.empty() ? record.rerun + " --debugger gdb" : std::string();

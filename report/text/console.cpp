@@ -195,7 +195,7 @@ std::string causes_text(const Run& run, const ConsoleStyle& style) {
         const Cause& cause = list[k];
         std::string level = cause_level(cause);
         level = level.empty() ? "" : fmt::format(" [{}]", level);
-        const std::string& rerun = smallest_case(cause).rerun;
+        const std::string rerun = rerun_of(cause);
         text += fmt::format("  {}{}   rerun: {}\n",
                             painted(cause_title(cause), color_of(cause.status), style), level,
                             cases::printable(rerun.substr(settings.size())));
@@ -244,16 +244,15 @@ std::string smallest_text(const Run& run) {
     const std::vector<Cause> list = causes(run);
     const auto first = std::ranges::find_if(
         list, [](const Cause& cause) { return cause.status != Status::not_run; });
-    if (first == list.end()) {
-        return {};
-    }
-    const CaseRecord& record = smallest_case(*first);
-    return fmt::format("smallest case: {}   rerun: {}\n", cases::printable(record.id),
-                       cases::printable(record.rerun));
+    return first == list.end() ? std::string()
+                               : fmt::format("smallest case: {}   rerun: {}\n",
+                                             cases::printable(smallest_case(*first).id),
+                                             cases::printable(rerun_of(*first)));
 }
 
-// "free: 64 of 256 samples at profile vulkan, ...": those with which nothing is tested.
-std::string free_text(const Run& run) {
+// "free: 64 of 256 samples at profile vulkan, ...": those with which nothing is tested. Who draws
+// files of one's own is told without asking.
+std::string free_text(const Run& run, bool is_asked) {
     uint64_t free = 0, samples = 0, count = 0;
     const CaseRecord* most = nullptr;
     for (const CaseRecord& r : run.cases) {
@@ -264,7 +263,7 @@ std::string free_text(const Run& run) {
             most = &r;
         }
     }
-    if (samples == 0) {
+    if (samples == 0 || (!is_asked && (free == 0 || run.own_hash.empty()))) {
         return {};
     }
     std::string text = fmt::format("free: {} of {} samples at profile {}", free, samples,
@@ -389,9 +388,7 @@ std::string console_summary(const Run& run, const std::string& report_path,
         text += shortened + '\n';
     }
     text += doors_text(run, style.verbose) + ways_text(run);
-    if (style.verbose) {
-        text += free_text(run);
-    }
+    text += free_text(run, style.verbose);
     text += levels_line(run) + '\n' + diagnoses_text(run, style) + smallest_text(run);
     const std::string exit = exit_words.empty() ? exit_text(run) : exit_words;
     text += report_path.empty()

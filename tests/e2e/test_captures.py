@@ -41,7 +41,7 @@ class Contract(Captures):
     def test_the_rerun_line_keeps_name_and_expectations(self):
         self.deliver("coverage.u8", bytes(SIDE * SIDE))
         done = self.judge("--name", "mine", "--no-expect", "--subpixel-bits", "4", check=1)
-        self.assertIn(f"diff {CASE} --captures {self.captures} --subpixel-bits 4 --name mine --no-expect\n", done.stdout)
+        self.assertIn(f"diff {CASE} --captures {self.captures} --suite {self.suite} --subpixel-bits 4 --name mine --no-expect\n", done.stdout)
 
     def test_a_folder_that_is_called_like_a_plane(self):
         file = self.deliver("coverage.u8", bytes(INSIDE))

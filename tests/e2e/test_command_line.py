@@ -235,6 +235,15 @@ class Usage(ProgramTest):
     def test_selector(self):
         self.refused(["run", "fam/cc3"], "fam/c", 4)
 
+    def test_a_command_on_one_case_without_any(self):
+        for command in (["reduce"], ["explain", "--pixel", "1,1"], ["render", "-o", "x.png"]):
+            self.refused(command, "this command works on one case, and none is named; give its id, as 'edgecase list' has it, or a file "
+                                  "of your own")
+
+    def test_a_family_by_its_beginning(self):
+        self.write_case("interpolated/at", CASE.format(n=1))
+        self.refused(["run", "interp/persp/**"], "no case matches interp/persp/**; did you mean interpolated/**?", 4)
+
     def test_rule_selector(self):
         self.refused(["run", "@rule:cover.insid"], "cover.inside", 4)
 
@@ -246,6 +255,14 @@ class Usage(ProgramTest):
         lines = (SOURCE / "README.md").read_text().splitlines()
         first = next(k for k, line in enumerate(lines) if line.startswith("    edgecase run "))
         self.assertIn("build/release/bin:$PATH", lines[first - 1])
+        # And says under which name its example is saved.
+        name = lines[first].split()[2]
+        self.assertEqual(name, "my-case.toml")
+        block = lines.index("```toml")
+        self.assertIn(f"save it as `{name}`", lines[block - 2])
+        (self.folder / name).write_text("\n".join(lines[block + 1:lines.index("```")]))
+        self.edgecase("lint", name, check=0)
+        self.edgecase("explain", name, "--pixel", "3,4", check=0)
 
     def test_help_needs_nothing(self):
         env = self.environment() | {"EDGECASE_SUITE": "nowhere", "VK_DRIVER_FILES": "nowhere", "VK_ICD_FILENAMES": "nowhere"}

@@ -12,7 +12,7 @@ import time
 import unittest
 import xml.etree.ElementTree
 
-from support import PROGRAM, ProgramTest, processes_with
+from support import CASE, PROGRAM, ProgramTest, processes_with
 
 
 class Charging(ProgramTest):
@@ -177,17 +177,55 @@ class Start(ProgramTest):
 
 
 class Output(ProgramTest):
-    def test_rerun_line_repeats_the_failure_with_its_driver_settings(self):
-        env = self.environment(fault="flip-pixel@fam/c3")
-        env["LP_NUM_THREADS"] = "1"
-        self.edgecase("run", "--renderer=reference", "-o", self.out, env=env, check=1)
-        rerun = [case["rerun"] for case in self.results()["cases"] if case["status"] == "fail"]
-        self.assertEqual(len(rerun), 1)
-        self.assertTrue(rerun[0].startswith("LP_NUM_THREADS=1 "), rerun[0])
-        again = subprocess.run(["sh", "-c", rerun[0]], env=self.environment(fault="flip-pixel@fam/c3"),
-                               cwd=self.folder, capture_output=True, text=True, timeout=60, check=False)
-        self.assertEqual(again.returncode, 1, again.stdout + again.stderr)
-        self.assertIn("fam/c3", again.stdout)
+    def rerun_of(self, *words, fault, status, env=None):
+        """The line of the only case that ended so."""
+        self.edgecase("run", "-o", self.out, *words, env=self.environment(fault) | (env or {}), check=1)
+        lines = [case["rerun"] for case in self.results()["cases"] if case["status"] == status]
+        self.assertEqual(len(lines), 1)
+        return lines[0]
+
+    def pasted(self, line, case_id, status, path=None):
+        """Pastes a line into a shell of which nothing of the run's settings is known."""
+        env = {k: v for k, v in os.environ.items() if not k.startswith(("EDGECASE_", "VK_", "LP_"))} | (path or {})
+        again = subprocess.run(["sh", "-c", line + " -o again"], env=env, cwd=self.folder, capture_output=True, text=True,
+                               timeout=60, check=False)
+        self.assertEqual(again.returncode, 1, line + again.stdout + again.stderr)
+        self.assertEqual(self.statuses(self.folder / "again")[case_id], status, line)
+
+    def test_rerun_lines_repeat_the_failure_by_themselves(self):
+        for fault, status in (("flip-pixel", "fail"), ("segv", "crash"), ("flake", "flake")):
+            with self.subTest(fault):
+                line = self.rerun_of("--renderer=reference", fault=f"{fault}@fam/c3", status=status, env={"LP_NUM_THREADS": "1"})
+                self.assertTrue(line.startswith(f"EDGECASE_FAULT={fault}@fam/c3 LP_NUM_THREADS=1 {PROGRAM} run fam/c3 "), line)
+                self.pasted(line, "fam/c3", status)
+
+    def test_a_file_of_ones_own_and_a_software_device_are_drawn_again(self):
+        own = self.folder / "my cases" / "b.toml"
+        own.parent.mkdir()
+        own.write_text(CASE.format(n=1).replace("[7,1]", "[7.5,1]").replace("[7,7]", "[7.5,7]"))
+        line = self.rerun_of(own.relative_to(self.folder), "--renderer=reference", fault="flip-pixel", status="fail")
+        self.assertIn(" run 'my cases/b.toml' ", line)
+        self.pasted(line, "b", "fail")
+        device = "software:ties=bottom-right"
+        line = self.rerun_of(own, "--renderer", device, fault="", status="fail")
+        self.assertIn(f" --renderer {device}", line)
+        self.pasted(line, "b", "fail")
+
+    def test_the_program_is_called_edgecase_where_the_path_finds_it(self):
+        folder = self.folder / "bin"
+        folder.mkdir()
+        other = self.folder / "other"
+        other.mkdir()
+        (other / "edgecase").write_text("#!/bin/sh\nexit 9\n")
+        (other / "edgecase").chmod(0o755)
+        (folder / "edgecase").symlink_to(PROGRAM)
+        usual = os.environ["PATH"]
+        for path, word in ((f"{folder}:{usual}", "edgecase"), (f"{other}:{folder}:{usual}", PROGRAM), (usual, PROGRAM),
+                           (f"{folder.parent}/none:{folder}", "edgecase")):
+            with self.subTest(path):
+                line = self.rerun_of("--renderer=reference", fault="flip-pixel@fam/c3", status="fail", env={"PATH": path})
+                self.assertTrue(line.startswith(f"EDGECASE_FAULT=flip-pixel@fam/c3 {word} run fam/c3 "), line)
+                self.pasted(line, "fam/c3", "fail", {"PATH": f"{path}:{usual}"})
 
     def test_bytes_that_break_reports(self):
         self.run_suite(fault="noise@fam/c3,segv@fam/c3", check=1)
@@ -343,7 +381,7 @@ class Debugger(ProgramTest):
     def test_a_crash_names_it(self):
         done = self.run_suite("fam/c3", fault="segv@fam/c3,noise@fam/c3", check=1)
         self.assertIn("      the driver printed:\n        | driver \\x1b[31mred", done.stdout)
-        self.assertRegex(done.stdout, r"      debug: \S+ run fam/c3 --renderer reference --debugger gdb\n")
+        self.assertRegex(done.stdout, r"      debug: EDGECASE_FAULT=\S+ \S+ run fam/c3 .*--renderer reference --debugger gdb\n")
         done = self.run_suite("fam/c3", "--debugger", "env A=1", fault="segv@fam/c3", check=1)
         self.assertEqual(self.statuses()["fam/c3"], "crash")
 
@@ -381,7 +419,7 @@ class Order(ProgramTest):
         end = done.stdout[done.stdout.index("causes, the worst first"):]
         self.assertRegex(end, r"^causes, the worst first; put the settings in front of each rerun:\n  settings: (\S+ )*LP_NUM_THREADS=1( \S+)*\n")
         self.assertEqual(end.count("LP_NUM_THREADS=1"), 1)
-        self.assertEqual(len(re.findall(r"rerun: \S*edgecase run fam/c\d --renderer reference\n", end)), 2)
+        self.assertEqual(len(re.findall(r"rerun: \S*edgecase run fam/c\d --suite \S+ --renderer reference\n", end)), 2)
         # In JSON a command is whole.
         for case in self.results()["cases"]:
             self.assertIn("LP_NUM_THREADS=1 ", case["rerun"])

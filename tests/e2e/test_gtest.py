@@ -59,7 +59,8 @@ class Gtest(ProgramTest):
                          "[ RUN      ] edgecase.fam/c2\n[  SKIPPED ] edgecase.fam/c2 (_ ms)\n")
         failed = self.gtest("fam/c1", fault="flip-pixel", check=1).stdout
         self.assertRegex(failed, r"\[  FAILED  \] edgecase.fam/c1 \(\d+ ms\)\n    1 \w+ of 64 samples .*\n    \(\d,\d\): .*\n"
-                                 r"    rerun: \S+ run fam/c1 --renderer reference --timeout 20 --no-expect\n    explain: \S+ explain fam/c1 --pixel ")
+                                 r"    rerun: EDGECASE_FAULT=flip-pixel \S+ run fam/c1 --suite \S+ --renderer reference --timeout 20 --no-expect\n"
+                                 r"    explain: \S+ explain fam/c1 --suite \S+ --pixel ")
 
     def test_filters(self):
         def listed(text):

@@ -257,7 +257,7 @@ class Listing(ProgramTest):
         explain = re.findall(r"explain: \S+ (explain .*)", done.stdout)
         self.assertEqual(len(explain), 2)
         for k, line in enumerate(explain):
-            self.assertIn(f"{own}:first={k} --pixel", line)
+            self.assertIn(f"{own}:first={k} --suite {self.suite} --pixel", line)
             self.assertIn("allowed: ", self.edgecase(*line.split(), check=0).stdout)
         told = self.edgecase("explain", f"{own}:first=3", "--pixel", "1,1", check=4).stderr
         self.assertEqual(told, f"edgecase: the file {own} has no leaf 'first=3'; 'edgecase list {own}' lists them\n")
@@ -310,6 +310,41 @@ class Listing(ProgramTest):
         done = self.edgecase("bench", *words)
         self.assertIn("none.json", said)
         self.assertEqual(done.stderr, said)
+
+    def test_vertices_that_make_no_triangle(self):
+        text = CASE.format(n=0)
+        (self.folder / "mine.toml").write_text(text.replace(", [7,7], [1,7]]", ", [7,7]]").replace("[target]", "[matrix]\nk = [1, 2]\n[target]")
+                                               .replace("[[1,1]", '[["k", 1]'))
+        warning = "edgecase: warning: mine.toml: draw 0: the last 2 of 5 vertices make no triangle; write 1 more or take them away\n"
+        self.assertEqual(self.edgecase("lint", "mine.toml").stderr.count(warning), 1)  # of both leaves
+        self.assertNotIn("warning", self.edgecase("lint", "mine.toml", "-q").stderr)
+        self.assertEqual(self.edgecase("run", "mine.toml", "--renderer=reference", "-o", "out").stderr.count(warning), 1)
+        # Of the suite's own cases a person is told who asks for them.
+        self.write_case("fam/c0", text.replace(", [7,7], [1,7]]", ", [7,7]]"))
+        self.assertIn("c0.toml: draw 0: the last 2 of 5", self.edgecase("lint", "fam/c0").stderr)
+        self.assertNotIn("the last 2 of 5", self.edgecase("lint").stderr)
+        self.assertNotIn("the last 2 of 5", self.edgecase("run", "--renderer=reference", "-o", "out").stderr)
+
+    def test_a_run_of_ones_own_tells_how_many_samples_are_free(self):
+        text = CASE.format(n=0).replace("[[1,1], [7,1], [1,7],", "[[1,1.5], [7.003,1.5], [1,7],").replace('"cover.inside", "cover.shared-edge"', '"cover.inside"')
+        (self.folder / "mine.toml").write_text(text)
+        free = r"\nfree: [1-9]\d* of 64 samples at profile vulkan, in 1 case; most in mine: "
+        words = ["--renderer=reference", "-o", "out"]
+        self.assertRegex(self.edgecase("run", "mine.toml", "--profile=vulkan", *words).stdout, free)
+        self.assertNotIn("free:", self.edgecase("run", "fam/c1", "--profile=vulkan", *words).stdout)
+        self.write_case("fam/c1", text)
+        self.assertNotIn("free:", self.edgecase("run", "fam/c1", "--profile=vulkan", *words).stdout)
+        (self.folder / "mine.toml").write_text(CASE.format(n=0).replace("1]", "1.25]"))
+        self.assertNotIn("free:", self.edgecase("run", "mine.toml", *words).stdout)  # none is
+
+    def test_a_wrong_picture_is_told_with_its_row(self):
+        rows = ["........", *[".111111."] * 6, "........"]
+        rows[3] = ".11.111."
+        (self.folder / "mine.toml").write_text(CASE.format(n=0) + '[expect]\nhits = """\n' + "\n".join(rows) + '\n"""\n')
+        wrong = "the picture has '.' at pixel (3, 3), the reference says 1 hit"
+        self.assertEqual(self.edgecase("lint", "mine.toml", check=3).stderr, f"edgecase: mine.toml:13:4: error: mine: {wrong}\n")
+        self.assertIn(f"      mine.toml:13:4: error: {wrong}\n",
+                      self.edgecase("run", "mine.toml", "--renderer=reference", "-o", "out", check=7).stdout)
 
     def test_lint_finds_a_wrong_picture(self):
         picture = "\\n".join(["........"] * 8)
@@ -371,6 +406,44 @@ class Listing(ProgramTest):
         picture = json.loads((self.folder / "x.json").read_text())
         self.assertEqual(len(picture["samples"]), 36)
         self.assertEqual({s["class"] for s in picture["samples"]}, {"must"})
+
+
+class Documents(ProgramTest):
+    """Cases that pages name are there."""
+
+    # In code: what has a family of the suite, or parameters. Dots stand for what a reader fills in.
+    WORD = re.compile(r"(?<![\w/.*@-])!?([a-z][a-z0-9-]*(?:/[a-z0-9*-]+)+(?::[a-z_*][^\s`'\"|;]*)?(?:@[a-z*-]+)?)(?![\w/.]*[/.]\w)")
+    CODE = re.compile(r"^```.*?^```|^    .*?$|`[^`]+`", re.M | re.S)
+
+    def setUp(self):
+        super().setUp()
+        self.all = self.edgecase("list", "--ids", "--suite", SOURCE / "cases/suite", check=0).stdout.split()
+
+    def test_ids_of_cases(self):
+        names = set(self.all) | {i.split(":")[0] for i in self.all}
+        names |= {name.rsplit("/", 1)[0] for name in names}
+        families = {i.split("/")[0] for i in self.all}
+        pages = [SOURCE / "README.md", SOURCE / "CONTRIBUTING.md", *SOURCE.glob("docs/**/*.md"), *SOURCE.glob("cases/**/*.md"),
+                 *SOURCE.glob("tests/*/README.md")]
+        seen, wrong = 0, []
+        for page in pages:
+            for code in self.CODE.findall(page.read_text(encoding="utf-8")):
+                for word in self.WORD.findall(code):
+                    word = word.rstrip(".,:").split("@")[0]
+                    if word.split("/")[0] not in families and ":" not in word or "..." in word:
+                        continue
+                    seen += 1
+                    glob = re.compile(re.escape(word).replace(r"\*\*", ".*").replace(r"\*", "[^/:]*"))
+                    if word not in names and not any(glob.fullmatch(name) for name in names):
+                        wrong.append(f"{page.relative_to(SOURCE)}: {word}")
+        self.assertGreater(seen, 3000)
+        self.assertEqual(wrong, [])
+
+    def test_the_example_of_an_expectation_file(self):
+        block = (SOURCE / "cases/expectations/README.md").read_text().split("```\n")[1]
+        file = self.folder / "example.txt"
+        file.write_text(block)
+        self.edgecase("expect", file, "--suite", SOURCE / "cases/suite", check=0)
 
 
 if __name__ == "__main__":

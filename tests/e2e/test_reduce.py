@@ -138,7 +138,7 @@ class Reduce(ProgramTest):
     def test_wrong_input(self):
         self.assertIn("fam/c3 does not fail here (pass), so there is nothing to reduce", self.reduce("fam/c3", check=6).stderr)
         self.assertIn("did not fail the same way again", self.reduce("fam/c3", fault="flip-pixel@fam/c3", check=1).stderr)
-        self.assertIn("give the id of one", self.reduce(check=2).stderr)
+        self.assertIn("none is named; give its id", self.reduce(check=2).stderr)
         self.assertIn("no case matches", self.reduce("fam/c33", check=4).stderr)
         self.assertIn("/nowhere.json", self.reduce("fam/c3", "--icd", "/nowhere.json", check=5).stderr)
         self.assertIn("cannot be written", self.reduce("fam/c3", "-o", "no/where.toml", fault="segv@*,segv@*/*", check=7).stderr)

@@ -58,6 +58,11 @@ class RunSuite(unittest.TestCase):
         done = subprocess.run([self.root / "scripts/run-suite"], capture_output=True, timeout=60, check=False)
         self.assertEqual((done.returncode, done.stdout), (7, b""))
 
+    def test_nothing_is_installed_if_the_build_folder_is_anothers(self):
+        (self.root / "scripts/build").write_text('#!/bin/sh\necho "error: moved" >&2\nexit 2\n')
+        done = subprocess.run([self.root / "scripts/run-suite"], capture_output=True, timeout=60, check=False)
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (2, b"", b"error: moved\n"))
+
 
 class CompareResults(unittest.TestCase):
     CASE = {"id": "a", "status": "fail", "reason": "no line", "seconds": 1.0, "worst_quantity": "depth at pixel (1, 2)",
@@ -127,14 +132,60 @@ fi
         self.assertIn(b"building preset release for the first time, which takes some minutes", text)
         os.close(ours)
 
+    def built(self, *words):
+        return subprocess.run([self.root / "scripts/build", *words], env=self.env, capture_output=True, text=True, timeout=60, check=False)
+
+    def test_a_checkout_that_was_moved_or_copied(self):
+        (self.root / "go").touch()
+        cache = self.root / "build/release/CMakeCache.txt"
+        for home, code in ((self.root, 0), (self.root / "scripts/..", 0), (self.root / "gone", 2), (self.root / "bin", 2)):
+            cache.write_text(f"CMAKE_BUILD_TYPE:STRING=Release\nCMAKE_HOME_DIRECTORY:INTERNAL={home}\n")
+            done = self.built("release")
+            self.assertEqual(done.returncode, code, home)
+            wrong = (f"error: build/release was made for {home}, and this checkout is {self.root}: take it away (rm -r "
+                     f"{self.root}/build/release) and build again\n")
+            self.assertEqual(done.stderr, wrong if code else "")
+
+    def test_what_the_tests_need_is_said(self):
+        """Real CMake, to which googletest is not there."""
+        done = subprocess.run(["cmake", "-S", SOURCE, "-B", self.root / "other", "-G", "Ninja", "-DEDGECASE_TESTS=ON",
+                               "-DCMAKE_DISABLE_FIND_PACKAGE_GTest=ON"], capture_output=True, text=True, timeout=280, check=False)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("scripts/install-packages scripts/packages.txt scripts/packages-tests.txt", " ".join(done.stderr.split()))
+
     def test_elsewhere_it_is_quiet_but_for_errors(self):
         (self.root / "go").touch()
         (self.root / "build/release/.ninja_log").touch()
-        done = subprocess.run([self.root / "scripts/build", "release"], env=self.env, capture_output=True, text=True, timeout=60, check=False)
+        done = self.built("release")
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "building preset release\n", ""))
         (self.root / "fail").touch()
-        done = subprocess.run([self.root / "scripts/build", "release"], env=self.env, capture_output=True, text=True, timeout=60, check=False)
+        done = self.built("release")
         self.assertEqual((done.returncode, done.stdout, done.stderr), (1, "building preset release\n", "the error\n"))
+
+
+class Help(unittest.TestCase):
+    def test_every_script_says_what_it_takes(self):
+        """In a folder of their own, where nothing else can be done."""
+        root = pathlib.Path(tempfile.mkdtemp(prefix="edgecase-e2e-"))
+        self.addCleanup(shutil.rmtree, root, ignore_errors=True)
+        shutil.copytree(SOURCE / "scripts", root / "scripts")
+        (root / "docs").mkdir()
+        for name in ("doors.json", "cts-parity.toml", "cts-parity.json"):
+            shutil.copy(SOURCE / "docs" / name, root / "docs" / name)
+        scripts = [path for path in sorted((root / "scripts").iterdir()) if os.access(path, os.X_OK)]
+        self.assertGreater(len(scripts), 15)
+        for path in scripts:
+            with self.subTest(path.name):
+                done = subprocess.run([path, "--help"], cwd=root, capture_output=True, text=True, timeout=60, check=False)
+                said = done.stdout + done.stderr
+                self.assertNotIn("Traceback", said)
+                self.assertGreater(len(said), 50)
+                if path.name != "generate-docs":  # takes nothing
+                    self.assertRegex(said, rf"usage: (scripts/)?{path.name}")
+                if path.read_text().startswith("#!/usr/bin/env bash"):
+                    self.assertEqual((done.returncode, done.stderr), (0, ""))
+                    self.assertNotIn("set -euo", said)
+        self.assertEqual(sorted(path.name for path in root.iterdir()), ["docs", "scripts"])
 
 
 class CompareSpeed(unittest.TestCase):

@@ -71,7 +71,7 @@ class Terminal(TerminalTest):
             if "rerun: " not in line and "explain: " not in line and " " in line.strip():
                 self.assertLessEqual(len(line), 40, line)
         # A command is never broken, so that it can be copied.
-        self.assertRegex(text, r"\n      rerun: (?:\w+=\S+ )*\S+ run fam/c1 --renderer reference\n")
+        self.assertRegex(text, r"\n      rerun: (?:\w+=\S+ )*\S+ run fam/c1 --suite \S+ --renderer reference\n")
 
     def test_a_picture_with_v(self):
         text = self.run_suite("-v", fault="flip-pixel@fam/c1", check=1).stdout
@@ -211,6 +211,16 @@ class Table(ProgramTest):
                               cwd=self.folder, capture_output=True, text=True, timeout=60, check=True)
         self.assertEqual(done.stderr, "")
         return done.stdout.split()
+
+    def test_doors_and_ways_are_proposed(self):
+        for option, words in (("--doors", {"all", "default", "none", "index-16", "mesh-shader"}),
+                              ("--ways", {"all", "default", "none", "bare-depth", "prepass"})):
+            self.assertLessEqual(words, set(self.complete("run", option, "")))
+            for shell in ("zsh", "fish"):
+                line = next(x for x in self.edgecase("completion", shell, check=0).stdout.splitlines()
+                            if ("run " + option in x if shell == "zsh" else f"-l {option[2:]} " in x))
+                self.assertLessEqual(words, set(re.findall(r"[a-z0-9-]+", line)))
+        self.assertEqual(self.complete("run", "--doors", "index-8"), ["index-8", "index-8-largest"])
 
     def shell_environment(self):
         env = self.environment()

@@ -8,12 +8,11 @@ import unittest
 
 from page_support import CASES, SQUARE, PageTest
 
-SETTINGS = "LP_NUM_THREADS=1 "
-
 
 class Commands(PageTest):
     cases = CASES | {"large/many": SQUARE.format(more="", target="", draw="[[draw.attribute]]\nvalues = [0, 1, 2, 3, 4, 5]").replace("[8, 8]", "[256, 256]")} | {f"ends/{name}": SQUARE.format(more="", target="", draw="") for name in ("segv", "lost")}
     fault = "flip-pixel@family/*,flip-pixel@large/*,flip-pixel@samples/*,flip-pixel@texels/*,segv@ends/segv,device-lost@ends/lost"
+    settings = f"EDGECASE_FAULT='{fault}' LP_NUM_THREADS=1 "
 
     @classmethod
     def make_run(cls):
@@ -36,7 +35,7 @@ class Commands(PageTest):
                 self.edgecase("export", "--reproducer", case_id, "-o", self.folder / "repro.c", check=2)
             else:
                 words = shlex.split(told)
-                self.assertEqual(words[1:], ["export", "--reproducer", case_id, "-o", "repro.c"])
+                self.assertEqual(words[1:], ["export", "--reproducer", case_id, "--suite", str(self.folder / "suite"), "-o", "repro.c"])
                 self.edgecase(*words[1:])
 
     def test_what_may_be_too_large_is_said_beside_the_command(self):
@@ -46,7 +45,7 @@ class Commands(PageTest):
 
     def test_a_crash_tells_how_to_debug_it(self):
         page = self.case("ends/segv")
-        self.assertEqual(self.commands(page)["debug"], self.results["ends/segv"]["rerun"].removeprefix(SETTINGS) + " --debugger gdb")
+        self.assertEqual(self.commands(page)["debug"], self.results["ends/segv"]["rerun"].removeprefix(self.settings) + " --debugger gdb")
         for case_id in ("ends/lost", "family/wrong"):
             self.assertNotIn("debug", self.commands(self.case(case_id)))
 
@@ -54,13 +53,13 @@ class Commands(PageTest):
         for width in (360, 1400):
             page = self.case("ends/segv", width=width)
             commands = self.commands(page)
-            self.assertEqual(commands["settings"].split("\n"), [SETTINGS.strip(), "in front of rerun and debug, copied with them"])
+            self.assertEqual(commands["settings"].split("\n"), [self.settings.strip(), "in front of rerun and debug, copied with them"])
             self.assertEqual(page.run("document.documentElement.scrollWidth - innerWidth"), 0)
             self.assertGreater(min(page.run("[...document.querySelectorAll('.command code')].map((c) => c.offsetWidth)")), 100)
             self.assertEqual(sum("LP_NUM_THREADS" in text for text in commands.values()), 1, commands)
             page.run("window.addEventListener('copy', (event) => { window.copied = event.clipboardData.getData('text/plain'); })")
             rerun = self.results["ends/segv"]["rerun"]
-            self.assertTrue(rerun.startswith(SETTINGS))
+            self.assertTrue(rerun.startswith(self.settings))
             for label, whole in (("rerun", rerun), ("debug", rerun + " --debugger gdb"), ("reproducer", commands["reproducer"])):
                 page.click_seen(f"button[aria-label='copy the {label} command']")
                 self.assertEqual(page.run("window.copied"), whole)

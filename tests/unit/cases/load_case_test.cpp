@@ -178,7 +178,9 @@ TEST(LoadCase, NotesVerticesWithoutTriangle) {
         kCaseHead + "[target]\nsize = [8,8]\n[[draw]]\nvertices = [[0,0],[8,0],[0,8],[1,1]]\n");
     ASSERT_EQ(all.size(), 1U);
     EXPECT_EQ(all[0].claim.notes,
-              std::vector<std::string>{"draw 0: the last 1 of 4 vertices make no triangle"});
+              std::vector<std::string>{
+                  "draw 0: the last 1 of 4 vertices make no triangle; write 2 more or "
+                  "take it away"});
 }
 
 TEST(LoadCase, MovesVertices) {

@@ -23,6 +23,26 @@ format = 1
     {whole(R"~(x = 99999999999999999999
 )~"),
      R"~(f:1:25: error: this is not TOML: Error while parsing decimal integer: '99999999999999999999' is not representable in 64 bits)~"},
+    // An expression, or a word, without quotes.
+    {whole("v = [[1,1], [16, 8.5+up/256], [1,7]]\n"),
+     "f:1:21: error: this is not TOML: Error while parsing floating-point: expected decimal digit "
+     "or '.', saw '+'; write it in quotes: \"8.5+up/256\""},
+    {whole("x = 1\nv = 2 * k # twice\n"),
+     R"~(f:2:7: error: this is not TOML: Error while parsing key-value pair: expected a comment or whitespace, saw '*'; write it in quotes: "2 * k")~"},
+    {whole("v = [\n  16-k/2,\n]\n"),
+     R"~(f:2:5: error: this is not TOML: Error while parsing date: expected 4-digit year, saw '-'; write it in quotes: "16-k/2")~"},
+    {whole("v = [k, 3]\n"),
+     R"~(f:1:6: error: this is not TOML: Error while parsing value: could not determine value type; write it in quotes: "k")~"},
+    {whole("v = [(k+1)/2, 3]\n"),
+     R"~(f:1:6: error: this is not TOML: Error while parsing value: could not determine value type; write it in quotes: "(k+1)/2")~"},
+    {whole("v = [-k, 3]\n"),
+     R"~(f:1:6: error: this is not TOML: Error while parsing value: could not determine value type; write it in quotes: "-k")~"},
+    {whole("topology = triangle-strip\n"),
+     R"~(f:1:14: error: this is not TOML: Error while parsing boolean: expected 'true', saw 'tri'; write it in quotes: "triangle-strip")~"},
+    {whole("v = [8 8]\n"),
+     R"~(f:1:8: error: this is not TOML: Error while parsing array: expected comma or closing ']', saw '8')~"},
+    {whole("v = [1.2.3]\n"),
+     R"~(f:1:9: error: this is not TOML: Error while parsing floating-point: expected decimal digit or exponent, saw '.')~"},
     // Files that break an assertion of the parser, or reach what it takes for unreachable.
     {whole("[=\n"), "f:1:1: error: this is not TOML: a key or a value is missing in this line"},
     {whole("format = 1\n\nv=[3,}\n[target]\n"),

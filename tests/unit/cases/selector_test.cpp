@@ -190,6 +190,13 @@ TEST(Selector, SaysWhatIsWrong) {
         {"ties", "error: no case matches ties; did you mean ties/**?"},
         {"ties/", "error: no case matches ties/; did you mean ties/**?"},
         {"tise/**", "error: no case matches tise/**; did you mean ties/**?"},
+        // The first part of a word may be the family's beginning, or near to it.
+        {"cover/**", "error: no case matches cover/**; did you mean coverage/**?"},
+        {"cove/edge/w-ratio",
+         "error: no case matches cove/edge/w-ratio; did you mean coverage/**?"},
+        {"coverge/edge/w-ratio",
+         "error: no case matches coverge/edge/w-ratio; did you mean coverage/**?"},
+        {"co/**", "error: no case matches co/**"},
         {"coverage/nothing-like-it/**", "error: no case matches coverage/nothing-like-it/**"},
         {"nowhere.toml", "error: there is no case file nowhere.toml"},
         {"!tie/apex-up", "error: no case matches tie/apex-up; did you mean ties/apex-up?"},

@@ -39,6 +39,24 @@ TEST(commands, a_debugger_is_for_what_died) {
     }
 }
 
+TEST(commands, a_cause_is_repeated_by_its_own_door) {
+    CaseRecord record;
+    const auto line = [&](const std::string& rerun, const std::string& door) {
+        record.rerun = rerun;
+        Cause cause;
+        cause.door = door;
+        cause.cases = {&record};
+        return rerun_of(cause);
+    };
+    EXPECT_EQ(line("A=1 edgecase run x", ""), "A=1 edgecase run x");
+    EXPECT_EQ(line("edgecase run x --doors one", ""), "edgecase run x --doors one");
+    EXPECT_EQ(line("edgecase run x --device y", "two"), "edgecase run x --device y --doors two");
+    EXPECT_EQ(line("edgecase run x --doors one,two --no-expect", "two"),
+              "edgecase run x --no-expect --doors two");
+    EXPECT_EQ(line("edgecase run x --doors one", "two"), "edgecase run x --doors two");
+    EXPECT_EQ(line("", "two"), "");
+}
+
 TEST(commands, the_terminal_tells_shared_settings_once) {
     report::Run run = test::sample_run();
     const std::string settings = "VK_DRIVER_FILES='/a long/path' LP_NUM_THREADS=1 ";
