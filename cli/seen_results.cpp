@@ -45,13 +45,18 @@ report::Run SeenResults::of(const report::RunHeader& header, const capture::Devi
 namespace {
 
 // Plain cases have the smaller one: what is drawn alone, of one draw and one sample a pixel, in a
-// picture that is large enough to show where something lies.
+// picture that is large enough to show where something lies, with values that tell by how much.
 auto plainness(const run::Task& task) {
     constexpr uint64_t kLarge = 64;
     const cases::Case& c = task.data;
     const uint64_t cost = diagnosis::cost_of(c);
+    const auto is_smooth = [](const cases::Attribute& a) {
+        return a.interpolation != cases::Interpolation::flat;
+    };
+    const bool has_values =
+        !c.draws.empty() && std::ranges::any_of(c.draws.front().attributes, is_smooth);
     return std::tuple(!c.doors.empty(), c.draws.size() != 1, c.target.samples > 1, cost < kLarge,
-                      cost, std::string_view(c.id));
+                      !has_values, cost, std::string_view(c.id));
 }
 
 bool may_be_looked_at(const run::Task& task) {

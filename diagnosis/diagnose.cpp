@@ -157,18 +157,19 @@ class Diagnoser {
         if (subjects_.empty()) {
             return out;
         }
+        const auto add = [&out](const Hypothesis& h) {
+            if (std::ranges::find(out, h.name, &Hypothesis::name) == out.end()) {
+                out.push_back(h);
+            }
+        };
         size_t fits = 0;
         for (size_t k = 0; k < subjects_.size() && fits < kMaxFits; ++k) {
             const std::vector<Hypothesis> fitted =
                 fitted_hypotheses(subjects_[k], limits_.subpixel_bits);
             fits += fitted.empty() ? 0U : 1U;
-            for (const Hypothesis& h : fitted) {
-                if (std::ranges::none_of(out,
-                                         [&](const Hypothesis& o) { return o.name == h.name; })) {
-                    out.push_back(h);
-                }
-            }
+            std::ranges::for_each(fitted, add);
         }
+        std::ranges::for_each(usual_shifts(limits_.subpixel_bits), add);
         fitted_ = out.size();
         const std::vector<Hypothesis> known = known_hypotheses(limits_.subpixel_bits);
         out.insert(out.end(), known.begin(), known.end());

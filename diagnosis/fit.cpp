@@ -136,7 +136,35 @@ std::string distance(double x, double y, std::string_view right, std::string_vie
     return text;
 }
 
+Hypothesis positions_moved(const std::array<double, 2>& d, int subpixel_bits) {
+    Hypothesis positions = moved_by(d[0], d[1], subpixel_bits);
+    positions.name = fmt::format("positions-moved-{:g},{:g}", d[0], d[1]);
+    positions.what = "Vertices lie " +
+                     distance(d[0], d[1], "too far right", "too far left", "too low", "too high");
+    return positions;
+}
+
 }  // namespace
+
+std::vector<Hypothesis> usual_shifts(int subpixel_bits) {
+    constexpr std::array<std::array<double, 2>, 12> kShifts = {{{0.5, 0},
+                                                                {-0.5, 0},
+                                                                {0, 0.5},
+                                                                {0, -0.5},
+                                                                {0.5, 0.5},
+                                                                {-0.5, -0.5},
+                                                                {0.5, -0.5},
+                                                                {-0.5, 0.5},
+                                                                {1, 0},
+                                                                {-1, 0},
+                                                                {0, 1},
+                                                                {0, -1}}};
+    std::vector<Hypothesis> out;
+    for (const std::array<double, 2>& d : kShifts) {
+        out.push_back(positions_moved(d, subpixel_bits));
+    }
+    return out;
+}
 
 std::vector<Hypothesis> fitted_hypotheses(const Subject& subject, int subpixel_bits) {
     const std::vector<Wanted> wanted = wanted_of(subject);
@@ -159,11 +187,7 @@ std::vector<Hypothesis> fitted_hypotheses(const Subject& subject, int subpixel_b
             continue;
         }
         seen.push_back(d);
-        Hypothesis positions = moved_by(d[0], d[1], subpixel_bits);
-        positions.name = fmt::format("positions-moved-{:g},{:g}", d[0], d[1]);
-        positions.what = "Vertices lie " + distance(d[0], d[1], "too far right", "too far left",
-                                                    "too low", "too high");
-        out.push_back(std::move(positions));
+        out.push_back(positions_moved(d, subpixel_bits));
         Hypothesis values;
         values.device.subpixel_bits = subpixel_bits;
         values.device.place_x = -static_cast<float>(d[0]);

@@ -12,6 +12,10 @@
 
 namespace diagnosis {
 
+// Positions that are half a pixel or a whole one off, to a side or, by half a pixel, to both: the
+// usual mistakes, where no value of a failed case tells by how much.
+std::vector<Hypothesis> usual_shifts(int subpixel_bits);
+
 // Finds how far all positions would have to be moved for a right device to have the values that
 // the record tells, by least squares (Gauss and Newton: a value's change with the place is measured
 // by drawing the case at another place), and offers that distance and those of few binary digits

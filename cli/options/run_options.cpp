@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 
 #include "cases/base/regex.hpp"
 #include "cli/options/parse.hpp"
@@ -97,11 +98,12 @@ void declare_run(CLI::App& app, RunOptions& o) {
     run->add_option(
            "--tell",
            [&o](const CLI::results_t& words) {
+               const std::string& word = words.back();
                size_t most = SIZE_MAX;
-               const bool is_read =
-                   words.back() == "all" || CLI::detail::lexical_cast(words.back(), most);
+               const auto read = std::from_chars(word.data(), word.data() + word.size(), most);
                o.tell = most;
-               return is_read;
+               return word == "all" ||
+                      (read.ec == std::errc{} && read.ptr == word.data() + word.size());
            },
            fmt::format("of how many failures all is told and kept, pictures and {} findings; of "
                        "more the level, the rules and one finding [{}; all with --verbose or "

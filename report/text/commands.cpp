@@ -46,7 +46,8 @@ std::string_view settings_of(std::string_view command) {
 std::string rerun_of(const Cause& cause) {
     const CaseRecord& record = smallest_case(cause);
     std::string line = record.rerun, door = cause.door;
-    // The doors of a rule share a cause where the plain picture is wrong, too: any of them shows it.
+    // The doors of a rule share a cause where the plain picture is wrong, too: any of them shows
+    // it.
     for (const diff::FindingGroup& group : record.outcome.groups) {
         door = door.empty() && group.rule == cause.rule ? group.door : door;
     }

@@ -17,8 +17,8 @@ namespace report {
 // Empty without any; a view of `command`.
 std::string_view settings_of(std::string_view command);
 
-// The command line of a cause's smallest case, through the cause's door or one of its rule, if it has
-// any: that of the record is of its leading finding.
+// The command line of a cause's smallest case, through the cause's door or one of its rule, if it
+// has any: that of the record is of its leading finding.
 std::string rerun_of(const Cause& cause);
 
 // The command line that runs a case that crashed or hung under a debugger; empty of any other.

@@ -203,7 +203,7 @@ std::string causes_text(const Run& run, const ConsoleStyle& style) {
     if (told < list.size()) {
         text += fmt::format("  and {} more: see the report, or use -v\n", list.size() - told);
     }
-    if (folded > 0) {
+    if (folded > 0 && !style.verbose) {
         text += fmt::format("{} of {} {} the same as the diagnosis; -v lists {}\n", folded,
                             cases::counted(all, "cause"), folded == 1 ? "says" : "say",
                             folded == 1 ? "it" : "them");

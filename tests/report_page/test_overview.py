@@ -30,14 +30,14 @@ class FirstSight(PageTest):
 
     def test_causes_stand_in_the_order_of_results_json(self):
         causes = json.loads((self.out / "results.json").read_text(encoding="utf-8"))["causes"]
-        self.assertEqual([(c["level"], len(c["cases"])) for c in causes], [("vulkan", 1), ("vulkan", 1), ("direct3d", 2)])
+        self.assertEqual([(c["level"], len(c["cases"])) for c in causes], [("vulkan", 2), ("direct3d", 2)])
         page = self.open()
         shown = page.run("[...document.querySelectorAll('#causes tr[data-cause]')].map((r) => r.dataset.cause)")
         self.assertEqual(shown, ["|".join((c["status"], c["family"], c["rule"], c["kind"], c["level"], *filter(None, [c["door"]]))) for c in causes])
         levels = page.run("[...document.querySelectorAll('#causes .level')].map((e) => e.innerText)")
         self.assertEqual(levels, [c["level"] for c in causes])
         examples = page.run("[...document.querySelectorAll('#causes td:last-child a')].map((a) => a.innerText)")
-        self.assertEqual(examples[2], "late/one")
+        self.assertEqual(examples[1], "late/one")
 
     def test_the_verdict_is_the_headline(self):
         page = self.open()
@@ -124,7 +124,7 @@ class Known(PageTest):
     def test_causes_of_known_failures_are_folded(self):
         page = self.open()
         self.assertEqual(page.count("#causes"), 0)
-        self.assertEqual(page.text("#known summary"), "Known failures by cause 3 causes, 3 cases")
+        self.assertEqual(page.text("#known summary"), "Known failures by cause 2 causes, 3 cases")
         self.assertFalse(page.run("byId('known').open"))
         page.click_seen("#known summary")
         self.assertTrue(page.run("byId('known').open"))
