@@ -416,7 +416,7 @@ class Order(ProgramTest):
     def test_settings_of_all_causes_are_told_once(self):
         env = self.environment(fault="flip-pixel,segv@fam/c2") | {"LP_NUM_THREADS": "1"}
         done = self.edgecase("run", "--renderer=reference", "-o", self.out, env=env, check=1)
-        end = done.stdout[done.stdout.index("causes, the worst first"):]
+        end = done.stdout[done.stdout.index("causes, the worst first"):done.stdout.index("smallest case: ")]
         self.assertRegex(end, r"^causes, the worst first; put the settings in front of each rerun:\n  settings: (\S+ )*LP_NUM_THREADS=1( \S+)*\n")
         self.assertEqual(end.count("LP_NUM_THREADS=1"), 1)
         self.assertEqual(len(re.findall(r"rerun: \S*edgecase run fam/c\d --suite \S+ --renderer reference\n", end)), 2)

@@ -27,7 +27,8 @@ class Levels(ProgramTest):
 
     def test_a_conformant_device_is_told_that_it_is(self):
         done = self.draw(check=1)
-        self.assertEqual(done.stdout.splitlines()[-3], CONFORMANT)
+        self.assertEqual(done.stdout.splitlines()[-4], CONFORMANT)
+        self.assertTrue(done.stdout.splitlines()[-3].startswith("diagnosis: "), done.stdout)
         self.assertTrue(done.stdout.splitlines()[-2].startswith(f"smallest case: {AT_DIRECT3D}   rerun: "), done.stdout)
         levels = self.results()["levels"]
         self.assertEqual((levels["judged"], levels["unjudged"]), (2, 0))

@@ -59,8 +59,8 @@ class WrongEverywhere(ProgramTest):
         every = self.records(self.folder / "all")
         brief = {k for k, case in few.items() if case["brief"]}
         self.assertEqual({case["brief"] for case in every.values()}, {False})
-        # Those of the first look are told, too, and what is judged while they are drawn.
-        self.assertTrue(310 - 64 - 20 <= len(brief) <= 310 - 64, len(brief))
+        # Those of the first look are told, too, and what is drawn before the twentieth is judged.
+        self.assertTrue(150 <= len(brief) <= 310 - 64, len(brief))
         self.assertNotIn(PLAIN, brief)
         for case_id, case in few.items():
             self.assertEqual((case["status"], case["level"], case["bits"]),
