@@ -347,22 +347,19 @@ void RunLoop::on_result(Slot& slot, CaseResult& result) {
 
 void RunLoop::judge(size_t k, CaseResult& result) {
     const bool is_told = this->is_told(k);
-    // How often a rule is broken is asked where an expectation knows it.
     judging_.submit(
         {plan_, &cases_[k].data}, std::move(result), fresh_record(k, Status::not_run),
         [this, k, is_told](CaseRecord record) { on_judged(k, is_told, std::move(record)); },
-        is_told              ? std::nullopt
-        : cases_[k].expected ? std::optional(KeepPictures::none)
-                             : std::optional(KeepPictures::brief));
+        is_told ? std::nullopt : std::optional(KeepPictures::brief));
 }
 
 void RunLoop::on_judged(size_t k, bool is_told, CaseRecord record) {
-    failed_ += record.status == Status::fail ? 1U : 0U;
     record.drawn.is_brief = !is_told && record.status == Status::fail;
     if (config_.judged) {
         config_.judged(cases_[k].data, record);
     }
     const bool unexpected = record.status != Status::pass && is_unexpected(k, record);
+    failed_ += unexpected && record.status == Status::fail ? 1U : 0U;
     const auto as = !is_told                        ? Schedule::Judged::good
                     : unexpected                    ? Schedule::Judged::unexpected_failure
                     : record.status == Status::fail ? Schedule::Judged::known_failure

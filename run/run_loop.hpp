@@ -46,8 +46,9 @@ struct LoopConfig {
     // large the next one is. A case alone may take longer.
     std::optional<std::chrono::milliseconds> gpu_budget;
     JudgingOptions judging;
-    // So many failures are judged with all that is told of them, and drawn again. Of more, which a
-    // driver has that is wrong everywhere, the symptoms are known (diff::Wanted::brief).
+    // So many unexpected failures are judged with all that is told of them, and drawn again. Of
+    // more, which a driver has that is wrong everywhere, the symptoms are known
+    // (diff::Wanted::brief).
     size_t most_told = SIZE_MAX;
     bool requires_support = false;  // a case that is not supported counts as failed
     bool keeps_workers = false;     // take_workers() is asked for
@@ -119,7 +120,10 @@ class RunLoop {
                                       const capture::Rendered& rendered) const;
     report::CaseRecord flake_record(size_t k);
     bool is_unexpected(size_t k, const report::CaseRecord& record) const;
-    bool is_told(size_t k) const { return cases_[k].is_told || failed_ < config_.most_told; }
+    // Of a case that an expectation knows all is told: it is compared with what it says.
+    bool is_told(size_t k) const {
+        return cases_[k].is_told || cases_[k].expected || failed_ < config_.most_told;
+    }
     void keep_gpu_budget(const Slot& slot);
     void check(const cases::Expected<void>& written);
     void fail(const std::string& why);
@@ -140,7 +144,7 @@ class RunLoop {
     capture::DeviceInfo device_;
     std::set<size_t> unconfirmed_;  // of judged_: unexpected failures
     size_t settled_ = 0;
-    size_t failed_ = 0;              // known ones among them; each is counted when it is judged
+    size_t failed_ = 0;              // unexpectedly; each is counted when it is judged
     std::vector<bool> is_finished_;  // [k] has its final record
     bool is_stopped_ = false;        // by on_record_ or on_progress_
     StartPauses start_pauses_;

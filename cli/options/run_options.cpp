@@ -105,7 +105,7 @@ void declare_run(CLI::App& app, RunOptions& o) {
                return word == "all" ||
                       (read.ec == std::errc{} && read.ptr == word.data() + word.size());
            },
-           fmt::format("of how many failures all is told and kept, pictures and {} findings; of "
+           fmt::format("of how many unexpected failures all is told and kept, pictures and {} findings; of "
                        "more the level, the rules and one finding [{}; all with --verbose or "
                        "--capture all]",
                        diff::kMaxFindings, kTold))
