@@ -131,9 +131,10 @@ class Comparison {
 
   private:
     bool is_enough() const {
+        const uint64_t enough =
+            verdict_.level == cases::Profile::vulkan ? kBriefEnough : kBriefMost;
         return (stops_at_first_ && !verdict_.findings.empty()) ||
-               (verdict_.is_brief && verdict_.finding_total() >= kBriefEnough &&
-                verdict_.level == cases::Profile::vulkan);
+               (verdict_.is_brief && verdict_.finding_total() >= enough);
     }
 
     // What is said of a sample that was not copied, and of the first one from `index` on.

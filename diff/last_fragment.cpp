@@ -170,8 +170,10 @@ Finding LastFragment::writer_finding(cases::SampleId id, const capture::Writer& 
     Finding finding = finding_at(FindingKind::order, case_.target, id);
     tell(finding, ref::ReasonKind::writer_not_last);
     const bool by_last = provokes_by_last(writer.draw);
-    const bool is_triangle = std::ranges::any_of(
-        expectation_.triangles, [&](const cases::Triangle& t) { return wrote(writer, t); });
+    const auto is_triangle = [&] {
+        return std::ranges::any_of(expectation_.triangles,
+                                   [&](const cases::Triangle& t) { return wrote(writer, t); });
+    };
     std::string allowed;
     for (uint32_t k = 0; k < std::min(expected.writers_count, 4U); ++k) {
         const cases::Triangle& t =
@@ -181,7 +183,7 @@ Finding LastFragment::writer_finding(cases::SampleId id, const capture::Writer& 
         const bool same_primitive =
             writer.draw == t.draw && capture_.has_primitive && writer.primitive == t.primitive;
         // That of another instance is another triangle.
-        if (same_primitive && !is_triangle && writer.provoking_vertex != t.provoking) {
+        if (same_primitive && writer.provoking_vertex != t.provoking && !is_triangle()) {
             tell(finding, by_last ? ref::ReasonKind::writer_other_last
                                   : ref::ReasonKind::writer_other_first);
         }

@@ -132,7 +132,7 @@ enum class SampleMark : uint8_t { ok, either, missing, extra, double_hit, value,
 // What is kept of a case's findings: so many of each group, and so many in all. All are counted.
 inline constexpr size_t kMaxOfGroup = 16;
 inline constexpr size_t kMaxFindings = 64;
-inline constexpr uint64_t kBriefEnough = 16;
+inline constexpr uint64_t kBriefEnough = 4, kBriefMost = 64;
 
 // What a comparison says of a case: all of it that the records of a run keep.
 struct Outcome {
@@ -213,8 +213,9 @@ enum class Wanted : uint8_t {
     // What is broken alone: kinds and rules, with the loosest levels of the first values of each
     // quantity (ValueReference::tell_loosest_levels).
     symptoms,
-    // The symptoms, as far as kBriefEnough findings show them if one is of the loosest level; the
-    // first of that level is kept alone, and few are explained (Attribution::kBrief).
+    // The symptoms, as far as kBriefEnough findings show them if one is of the loosest level, else
+    // kBriefMost; the first of the loosest level is kept alone, and few are explained
+    // (Attribution::kBrief).
     brief,
     // `error` and the first finding, but for its ratio; the rest says little.
     first_finding
