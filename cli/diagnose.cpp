@@ -34,6 +34,7 @@ struct DiagnoseOptions {
 
 constexpr double kSecondsAtEnd = 1, kShareAtEnd = 0.1;  // the larger of both, of the run's time
 constexpr double kSecondsOfCommand = 30;
+constexpr size_t kSubjectsBetween = 16;
 
 diagnosis::Bound bound_of(double seconds) {
     diagnosis::Bound bound;
@@ -82,10 +83,12 @@ LoadedSuite cases_of(const Program& program, const report::Run& run, const std::
 
 }  // namespace
 
-void diagnose(report::Run& run, const EachCase& each_case) {
+void diagnose(report::Run& run, const EachCase& each_case, bool goes_on) {
     // Times of years, as a clock that was set may give, shall not be counted in samples.
     const double share = std::clamp(kShareAtEnd * run.seconds, 0.0, 3600.0);
-    run.diagnoses = diagnoses_of(run, each_case, bound_of(std::max(kSecondsAtEnd, share)));
+    diagnosis::Bound bound = bound_of(std::max(kSecondsAtEnd, share));
+    bound.subjects = goes_on ? kSubjectsBetween : bound.subjects;
+    run.diagnoses = diagnoses_of(run, each_case, bound);
 }
 
 void diagnose_again(const Program& program, report::Run& run) {

@@ -16,8 +16,9 @@ namespace cli {
 // Calls a visitor with every case that is at hand.
 using EachCase = std::function<void(const std::function<void(const cases::Case&)>&)>;
 
-// Diagnoses a run whose records are all there.
-void diagnose(report::Run& run, const EachCase& each_case);
+// Diagnoses a run whose records are all there, or that goes on: then few cases are looked at, since
+// the answer is waited for.
+void diagnose(report::Run& run, const EachCase& each_case, bool goes_on = false);
 
 // The same of a run that was put together of several: its cases are read again. If they are not at
 // hand as they were, there is no diagnosis.

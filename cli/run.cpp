@@ -247,16 +247,17 @@ class Conduct {
         if (report::first_look_text(run, console.style()).empty()) {
             return;
         }
-        diagnose_seen(run);
+        diagnose_seen(run, true);
         console.print(report::first_look_text(run, console.style()));
     }
 
-    void diagnose_seen(Run& run) const {
-        diagnose(run, [this](const auto& visit) {
+    void diagnose_seen(Run& run, bool goes_on) const {
+        const auto each = [this](const auto& visit) {
             for (const run::Task& task : *plan_) {
                 visit(task.data);
             }
-        });
+        };
+        diagnose(run, each, goes_on);
     }
 
     // How the run goes on if it ends before all is judged.
@@ -315,7 +316,7 @@ class Conduct {
         } else {
             Run seen = seen_.of(run, run.device);
             seen.seconds = run.seconds;
-            diagnose_seen(seen);
+            diagnose_seen(seen, false);
             run.diagnoses = std::move(seen.diagnoses);
         }
         keep_diagnoses(run, journal);

@@ -62,7 +62,7 @@ class Diagnoser {
                        }) == end;
             });
         more_failed_.resize(std::min(failed_, kMaxSubjects + kMaxMore));
-        size_t tried = std::min(more_failed_.size(), kMaxSubjects);
+        size_t tried = std::min(more_failed_.size(), bound.subjects);
         std::set<std::string> families;
         for (size_t k = 0; k < tried; ++k) {
             const Choice& choice = more_failed_[k];

@@ -27,8 +27,10 @@ using CaseOf = std::function<const cases::Case*(const std::string& id)>;
 // (lavapipe's known failures, 9.4 million in 6.3 s).
 using Work = uint64_t;
 inline constexpr Work kWorkPerSecond = 4'000'000;
+inline constexpr size_t kMaxSubjects = 64;
 struct Bound {
     Work most = std::numeric_limits<Work>::max();
+    size_t subjects = kMaxSubjects;  // failed cases that are looked at, at most
     // Called now and then with how many of the failed cases that errors are tried on are done.
     std::function<void(size_t done, size_t total)> progress = {};
 };
@@ -40,7 +42,6 @@ struct Bound {
 std::vector<report::Diagnosis> diagnose(const report::Run& run, const CaseOf& case_of,
                                         const Bound& bound = {});
 
-inline constexpr size_t kMaxSubjects = 64;
 inline constexpr size_t kMaxOfRules = 24;   // of them: one for each rule that leads
 inline constexpr size_t kMaxNearby = 256;   // cases that passed, of the families that fail
 inline constexpr size_t kMaxMore = 192;     // failed cases beyond, that may contradict a condition
