@@ -105,10 +105,11 @@ void declare_run(CLI::App& app, RunOptions& o) {
                return word == "all" ||
                       (read.ec == std::errc{} && read.ptr == word.data() + word.size());
            },
-           fmt::format("of how many unexpected failures all is told and kept, pictures and {} findings; of "
-                       "more the level, the rules and one finding [{}; all with --verbose or "
-                       "--capture all]",
-                       diff::kMaxFindings, kTold))
+           fmt::format(
+               "of how many unexpected failures all is told and kept, pictures and {} findings; of "
+               "more the level, the rules and one finding [{}; all with --verbose or "
+               "--capture all]",
+               diff::kMaxFindings, kTold))
         ->type_name("N|all")
         ->group("Output");
 }
