@@ -212,13 +212,14 @@ std::string causes_text(const Run& run, const ConsoleStyle& style) {
 }
 
 // What the device does wrong, a line each; but for those that explain a part of it only.
-std::string diagnoses_text(const Run& run, const ConsoleStyle& style) {
+std::string diagnoses_text(const Run& run, const ConsoleStyle& style,
+                           std::string_view word = "diagnosis") {
     const Repeated repeated(run);
     std::string text;
     for (size_t k = 0; k < run.diagnoses.size(); ++k) {
         const Diagnosis& d = run.diagnoses[k];
         if (!repeated.is_partial(k)) {
-            text += fmt::format("diagnosis: {}; it {}\n", painted(what_it_does(d), "1", style),
+            text += fmt::format("{}: {}; it {}\n", word, painted(what_it_does(d), "1", style),
                                 evidence_for(d));
         }
     }
@@ -359,7 +360,8 @@ std::string first_look_text(const Run& run, const ConsoleStyle& style) {
         "first look, after {}: {} of {} fail that are the plainest of their families\n{}"
         "smallest case:\n{}the run goes on; Ctrl-C ends it with reports of what was judged\n",
         seconds_text(run.seconds), failed, cases::counted(judged_cases(run), "case"),
-        diagnoses_text(run, style), console_case(smallest_case(causes(run).front()), with_picture));
+        diagnoses_text(run, style, "diagnosis so far"),
+        console_case(smallest_case(causes(run).front()), with_picture));
     return style.wrap ? wrapped(text, style.width) : text;
 }
 

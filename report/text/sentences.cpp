@@ -322,9 +322,8 @@ std::string shortened_text(const Run& run) {
         run.cases, [](const CaseRecord& record) { return record.drawn.is_brief; });
     if (brief > 0) {
         return fmt::format(
-            "of {} beyond the first the level, the rules and one finding are kept; run --tell all "
-            "keeps all",
-            cases::counted(static_cast<uint64_t>(brief), "failure"));
+            "{} {} kept in brief: level, rules and one finding; run --tell all keeps all",
+            cases::counted(static_cast<uint64_t>(brief), "failure"), brief == 1 ? "is" : "are");
     }
     return run.shortened_cases == 0
                ? std::string()
