@@ -19,14 +19,16 @@ void SeenResults::add(const CaseRecord& record) {
     CaseRecord seen;
     seen.id = record.id;
     seen.status = record.status;
-    if (record.status == Status::fail || record.status == Status::xfail) {
+    const bool is_failure = record.status == Status::fail || record.status == Status::xfail;
+    if (is_failure && (failures_ < kMostFailures || records_.contains(record.id))) {
         seen = record;
         seen.evidence = {};
         if (record.evidence.pictures.marks.size() <= diagnosis::kMaxCost) {
             seen.evidence.pictures = record.evidence.pictures;
         }
     }
-    records_.insert_or_assign(record.id, std::move(seen));
+    const bool is_new = records_.insert_or_assign(record.id, std::move(seen)).second;
+    failures_ += is_new && is_failure ? 1U : 0U;
 }
 
 report::Run SeenResults::of(const report::RunHeader& header, const capture::DeviceInfo& device,

@@ -27,7 +27,11 @@ class SeenResults {
                    const std::set<std::string>* ids = nullptr) const;
 
   private:
+    // A diagnosis looks at 64 failures, and at 192 more now and then: of so many the records are
+    // kept as they are.
+    static constexpr size_t kMostFailures = 2048;
     std::map<std::string, report::CaseRecord> records_;  // by id
+    size_t failures_ = 0;
 };
 
 // Marks the plainest case that claims each rule, and of each way, as told: whatever else fails.
