@@ -29,6 +29,13 @@ class WrongEverywhere(unittest.TestCase):
                     self.assertEqual([d["what"] for d in run.results["diagnoses"][:1]], [[sentence]], run.out[-600:])
                     self.assertEqual(sum(line.startswith("diagnosis: " + sentence) for line in run.out.splitlines()[-4:]), 1, run.out[-600:])
 
+    def test_doors_that_differ_from_each_picture_take_nothing_away(self):
+        """A door with indices draws what the plain picture does not: nearly every sample has other bits."""
+        fault = "first-vertex-off-by-one"
+        run = broken.run(fault, ["coverage/**", "ties/**"], self.folder, ["--no-expect", "--retries", "0", "--doors", "all"])
+        self.assertEqual([d["what"] for d in run.results["diagnoses"]], [[FAULTS[fault]]], run.out[-600:])
+        self.assertGreater(sum(any(g.get("door") for g in case["groups"]) for case in run.results["cases"]), 50)
+
 
 if __name__ == "__main__":
     unittest.main()
