@@ -51,14 +51,14 @@ class DeviceLimits(ProgramTest):
             self.assertEqual(self.statuses()["fam/c1"], "pass")
             self.assertIn(f"{bits} subpixel bits (judged as 4)", done.stdout)
             self.assertIn(f"FAIL {ID}   1 wrong value   device.limits [vulkan", done.stdout)
-            self.assertIn(f"edgecase run {ID}\n", done.stdout)
+            self.assertIn(f"edgecase run {ID} --suite {self.suite}\n", done.stdout)
             self.assertIn("every case is judged as if the device had 4 bits", done.stdout)
             self.assertIn("subPixelPrecisionBits", (self.out / "junit.xml").read_text())
             self.assertIn("subPixelPrecisionBits", (self.out / "report.html").read_text())
 
     def test_explanations_are_of_the_bits_that_are_judged(self):
         done = self.run_claiming("subPixelPrecisionBits=0", "fam/c1", fault="flip-pixel@fam/c1", check=1)
-        self.assertIn("explain fam/c1 --subpixel-bits 4 --pixel", done.stdout)
+        self.assertIn(f"explain fam/c1 --suite {self.suite} --subpixel-bits 4 --pixel", done.stdout)
 
     def test_several_limits_are_findings_of_one_case(self):
         self.run_claiming("subPixelPrecisionBits=0,framebufferColorSampleCounts=1", "fam/c1", check=1)
