@@ -156,7 +156,13 @@ int carry_out(const Program& program, const DiagnoseOptions& options) {
                         cases::printable(fmt::format("{}", fmt::join(d.examples, ", "))),
                         d.cases > d.examples.size() ? ", ..." : ""));
     }
-    if (list.empty()) {
+    const auto has_picture = [](const report::CaseRecord& record) {
+        return record.status == report::Status::fail && record.evidence.pictures.width > 0;
+    };
+    if (std::ranges::none_of(run.cases, has_picture)) {
+        say("no diagnosis: the run kept no picture of a failure; draw it again without "
+            "--capture none\n");
+    } else if (list.empty()) {
         say("no diagnosis: no known error fails as the device did in the cases that were tried\n");
     }
     return report::kExitOk;

@@ -243,11 +243,11 @@ class Conduct {
             return;
         }
         Run run = seen_.of(header_, header_.device, &look_->ids());
-        run.seconds = std::chrono::duration<double>(run::Clock::now() - begin_).count();
         if (report::first_look_text(run, console.style()).empty()) {
             return;
         }
         diagnose_seen(run, true);
+        run.seconds = std::chrono::duration<double>(run::Clock::now() - begin_).count();
         console.print(report::first_look_text(run, console.style()));
     }
 
@@ -286,6 +286,7 @@ class Conduct {
                 look_at(told, console);
             }
         };
+        const run::Clock::time_point begin = run::Clock::now();
         run::RunLoop loop(
             config_, plan_, &journal, signals_,
             [&](const CaseRecord& record) { return on_record(console, record); },
@@ -301,7 +302,7 @@ class Conduct {
         }
         console.end();
         header_.ended = utc_now(false);
-        header_.seconds += std::chrono::duration<double>(run::Clock::now() - begin_).count();
+        header_.seconds += std::chrono::duration<double>(run::Clock::now() - begin).count();
         header_.interrupted = end.interrupted;
         if (auto written = journal.write_stop(header_); !written && end.failure.empty()) {
             end.failure = written.error().message;

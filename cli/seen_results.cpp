@@ -116,18 +116,20 @@ FirstLook::FirstLook(std::vector<run::Task>& plan) {
             }
         }
     }
-    std::vector<run::Task> first;
+    std::vector<run::Task> ordered;
+    std::vector<bool> is_first(plan.size());
     for (const size_t k : chosen) {
         ids_.insert(plan[k].data.id);
-        first.push_back(std::move(plan[k]));
-        first.back().is_told = true;
+        is_first[k] = true;
+        ordered.push_back(std::move(plan[k]));
+        ordered.back().is_told = true;
     }
-    std::ranges::sort(chosen);
-    for (auto k = chosen.rbegin(); k != chosen.rend(); ++k) {
-        plan.erase(plan.begin() + static_cast<std::ptrdiff_t>(*k));
+    for (size_t k = 0; k < plan.size(); ++k) {
+        if (!is_first[k]) {
+            ordered.push_back(std::move(plan[k]));
+        }
     }
-    plan.insert(plan.begin(), std::make_move_iterator(first.begin()),
-                std::make_move_iterator(first.end()));
+    plan = std::move(ordered);
     open_ = ids_;
 }
 

@@ -116,7 +116,7 @@ class Diagnoser {
             if (is_spent()) {
                 break;  // the best of what was drawn need not be the best
             }
-            if (best.empty() || !is_like_most(best.front())) {
+            if (best.empty()) {
                 continue;
             }
             for (size_t k = 0; k < subjects_.size(); ++k) {
@@ -322,20 +322,6 @@ class Diagnoser {
             best.clear();
         }
         return best;
-    }
-
-    // Whether three quarters of the failed cases beyond a small number of subjects may be like what
-    // is drawn, too: few subjects may be alike in more than their error.
-    bool is_like_most(const Tally& tally) {
-        if (bound_.subjects >= kMaxSubjects) {
-            return true;
-        }
-        const std::vector<Subject>& more = more_failed();
-        const auto alike = std::ranges::count_if(more, [&](const Subject& subject) {
-            const auto drawn = draw(known_[tally.hypothesis], *subject.data);
-            return drawn && may_match(subject, *drawn);
-        });
-        return 4 * static_cast<size_t>(alike) >= 3 * more.size();
     }
 
     // Failed cases that are not tried one by one.

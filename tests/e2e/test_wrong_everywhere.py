@@ -93,6 +93,12 @@ class WrongEverywhere(ProgramTest):
         self.assertEqual(sorted(family for cause in causes for family in cause["families"] if len(cause["families"]) > 1),
                          ["fam", "one", "three", "two"])
 
+    def test_a_run_without_pictures_is_told_from_an_unknown_error(self):
+        for words, told in ((["--capture", "none"], "no diagnosis: the run kept no picture of a failure; draw it again without --capture none\n"),
+                            ([], "no diagnosis: no known error fails as the device did in the cases that were tried\n")):
+            self.run_suite("--no-expect", "fam/c0", *words, fault="shift-value", check=1)
+            self.assertEqual(self.edgecase("diagnose", self.out, check=0).stdout, told)
+
     def test_wrong_numbers(self):
         for word in ("some", "-1", "1.5", ""):
             done = self.run_suite("--tell", word, check=2)
